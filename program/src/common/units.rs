@@ -88,6 +88,11 @@ pub fn number(value: f64) -> String {
     format!("{value:.digits$}")
 }
 
+/// The size of a number for people: one digit and an exponent.
+pub fn one_digit(value: f64) -> String {
+    if value == 0.0 { "0".to_string() } else { format!("{value:.0e}") }
+}
+
 /// A time for people, by the system's unit or by a finer one that makes it 1 at least: 30 µs where the unit is ms.
 pub fn time(units: &UnitSystem, value: f64) -> String {
     let own = unit(units, TIME).replace("us", "µs");

@@ -22,7 +22,7 @@ use crate::common::kept_file;
 use crate::common::run_directory::{RunDirectory, file_error, is_file};
 use crate::common::shell;
 use crate::common::text_table::write_csv;
-use crate::common::units::{SPEED, TIME, number, unit};
+use crate::common::units::{SPEED, TIME, number, one_digit, unit};
 use crate::common::vtk::Frames;
 use crate::explicit::judgement::{Finding, warnings};
 use toron::host::units::UnitSystem;
@@ -361,13 +361,13 @@ impl<E> CaseObserver<'_, E> {
 
 impl<E> Observer<E> for CaseObserver<'_, E> {
     fn progress(&mut self, fraction: f64, sample: &Sample<E>, imbalance: f64) {
-        let (name, speed) = (self.name, number(sample.speed));
+        let (name, speed, imbalance) = (self.name, number(sample.speed), one_digit(imbalance));
         self.tick(fraction);
-        self.bar.set_message(format!("{name}: speed {speed}, energy off by {imbalance:.0e}"));
+        self.bar.set_message(format!("{name}: speed {speed}, energy off by {imbalance}"));
         if self.bar.is_hidden() && self.lines.are_due(fraction) {
             let (percent, time) = (100.0 * fraction, number(sample.time));
             let [of_time, of_speed] = [TIME, SPEED].map(|dimension| unit(self.units, dimension));
-            let speed = format!("speed {speed} {of_speed}, energy off by {imbalance:.0e}");
+            let speed = format!("speed {speed} {of_speed}, energy off by {imbalance}");
             print_error(&format!("case {name}: {percent:.0} %, time {time} {of_time}, {speed}\n"));
         }
     }
