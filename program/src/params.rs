@@ -8,6 +8,7 @@ use crate::common::build;
 use crate::common::console::print;
 use crate::common::error::Error;
 use crate::common::short_number::short;
+use crate::common::text_table::plain_table;
 use crate::common::units::{unit, with_unit};
 use crate::material::laws::{LawName, Laws};
 use crate::material::model::Law;
@@ -134,11 +135,17 @@ fn quantity(units: &UnitSystem, value: f64, dimension: Dimension) -> String {
 
 /// Left-aligned columns, two blanks apart.
 fn align<const N: usize>(head: [&str; N], rows: impl Iterator<Item = [String; N]>) -> String {
-    let rows: Vec<[String; N]> = [head.map(str::to_string)].into_iter().chain(rows).collect();
+    let rows: Vec<Vec<String>> = rows.map(Vec::from).collect();
+    plain_table(&head, &rows, || aligned(&head, &rows))
+}
+
+fn aligned<const N: usize>(head: &[&str; N], rows: &[Vec<String>]) -> String {
+    let head = head.map(str::to_string).to_vec();
+    let rows: Vec<&Vec<String>> = std::iter::once(&head).chain(rows).collect();
     let widths: [usize; N] =
         std::array::from_fn(|column| rows.iter().map(|row| row[column].chars().count()).max().unwrap_or(0));
     let mut text = String::new();
-    for row in &rows {
+    for row in rows {
         let cells: Vec<String> = row.iter().zip(widths).map(|(cell, width)| format!("{cell:<width$}")).collect();
         text += &format!("  {}\n", cells.join("  ").trim_end());
     }

@@ -14,7 +14,7 @@ use super::run::{self, Outcome};
 use super::scene::{Arrangement, Load, Scene};
 use super::solver::{self, Job};
 use super::{arrangement, explicit_run, output, picture, report};
-use crate::common::console::{print, print_error};
+use crate::common::console::{print, print_note};
 use crate::common::error::Error;
 use crate::common::folder;
 use crate::common::interrupt::Interrupt;
@@ -122,7 +122,7 @@ impl Run<'_> {
                 if bar.is_hidden() && part >= f64::from(lines + 1) / LINES {
                     lines = (part * LINES) as u32;
                     let seconds = start.elapsed().as_secs();
-                    print_error(&format!("{}: {:.0} % of the load, {seconds} s\n", load.name(), 100.0 * part));
+                    print_note(&format!("{}: {:.0} % of the load, {seconds} s\n", load.name(), 100.0 * part));
                 }
                 if let Ok(mut done) = done.lock() {
                     done[number] = part;

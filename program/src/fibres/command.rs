@@ -14,7 +14,7 @@ use super::reader::PICTURES;
 use super::run::Folder;
 use super::scene::{Case, Scene};
 use super::{picture, plot, pressed, report, summary};
-use crate::common::console::{print, print_error};
+use crate::common::console::{print, print_error, print_note};
 use crate::common::error::Error;
 use crate::common::kept_file;
 use crate::common::progress::{self, Lines};
@@ -158,7 +158,7 @@ impl Observer<'_> {
     fn progress(&mut self, part: f64) {
         self.bar.set_position((TICKS * (self.number as f64 + part)) as u64);
         if self.bar.is_hidden() && self.lines.are_due(part) {
-            print_error(&format!("{}: {:.0} %\n", self.case.name, 100.0 * part));
+            print_note(&format!("{}: {:.0} %\n", self.case.name, 100.0 * part));
         }
     }
 }

@@ -1,9 +1,8 @@
 //! The summary of a run on the terminal.
 
-use std::fmt::Write;
-
 use super::path::LoadPath;
 use super::run::{End, History, Increment};
+use crate::common::text_table::value_line;
 use crate::common::units::{ENERGY, number, unit};
 use crate::material::fibre_wave::FibreWave;
 use crate::material::model::{Law, Material};
@@ -13,6 +12,9 @@ use toron::law::state::{ENERGIES, INVARIANTS};
 /// The names of the four deformation modes.
 pub const MODE_NAMES: [&str; 4] = ["elongation", "compaction", "distortion", "shear"];
 
+/// The width of the names of values.
+pub const NAMES: usize = 22;
+
 /// An energy below this fraction of the largest one is none.
 const ROUNDING: f64 = 1e-12;
 
@@ -21,8 +23,7 @@ pub fn summary(path: &LoadPath, history: &History) -> String {
     let mut text = String::new();
     let material = &history.point.material;
     let mut line = |name: &str, value: String| {
-        // Writing to a string does not fail.
-        let _ = writeln!(text, "  {name:<22} {value}");
+        text += &value_line(name, NAMES, &value);
     };
     line("law", law(material));
     let wave = FibreWave::of(material, &path.units);

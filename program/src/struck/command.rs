@@ -13,7 +13,7 @@ use super::history::{self, Column};
 use super::run::{self, End, Observer, Outcome, Struck};
 use super::sample::Sample;
 use super::summary::Cells;
-use crate::common::console::{print, print_error};
+use crate::common::console::{print, print_error, print_note};
 use crate::common::error::Error;
 use crate::common::folder;
 use crate::common::interrupt::Interrupt;
@@ -124,7 +124,7 @@ pub fn run<S: Scene>(scene: &S, path: &Path, output: &Path, restart: bool) -> Re
     let directory = RunDirectory::open(output)?;
     print_error(&clear(scene, &names, output, &directory, restart)?);
     let interrupt = Interrupt::listen()?;
-    print_error("Ctrl-C ends the run with a checkpoint, from which --restart goes on\n");
+    print_note("Ctrl-C ends the run with a checkpoint, from which --restart goes on\n");
     let bar = progress::bar(
         TICKS * names.len() as u64,
         "{msg} {wide_bar} {percent} %, {eta} left",
@@ -254,7 +254,7 @@ impl<'a, S: Scene> Cases<'a, S> {
             Some((head, _)) if head.ended.is_some() => "has ended, its files stay".to_string(),
             Some(_) => format!("goes on from its checkpoint; {grows}"),
         };
-        print_error(&format!("case {}: {how}\n", case.name()));
+        print_note(&format!("case {}: {how}\n", case.name()));
         print_error(&warnings([(case.name(), &self.scene.before(case)[..])]));
         let mut observer = CaseObserver {
             name: case.name(),
@@ -368,7 +368,7 @@ impl<E> Observer<E> for CaseObserver<'_, E> {
             let (percent, time) = (100.0 * fraction, number(sample.time));
             let [of_time, of_speed] = [TIME, SPEED].map(|dimension| unit(self.units, dimension));
             let speed = format!("speed {speed} {of_speed}, energy off by {imbalance}");
-            print_error(&format!("case {name}: {percent:.0} %, time {time} {of_time}, {speed}\n"));
+            print_note(&format!("case {name}: {percent:.0} %, time {time} {of_time}, {speed}\n"));
         }
     }
 

@@ -13,7 +13,7 @@ use super::series::Series;
 use super::shot::Ended;
 use super::simulation::{Experiment, Truth};
 use super::{limit, plot, report, shot};
-use crate::common::console::{print, print_error};
+use crate::common::console::{print, print_error, print_note};
 use crate::common::error::Error;
 use crate::common::interrupt::Interrupt;
 use crate::common::run_directory::{RunDirectory, is_file};
@@ -89,7 +89,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Error> {
     let directory = RunDirectory::open(&arguments.output)?;
     print_error(&warnings([(scene.target.name(), &findings[..])]));
     let records = open(&scene, &place)?;
-    print_error("Ctrl-C ends the run: shots under way are lost, and --restart goes on with the others\n");
+    print_note("Ctrl-C ends the run: shots under way are lost, and --restart goes on with the others\n");
     let threads = arguments.threads.unwrap_or_else(rayon::current_num_threads);
     if arguments.limit {
         return find_limit(&scene, threads, records, arguments);
@@ -170,7 +170,7 @@ fn open(scene: &Scene, place: &Path) -> Result<Records, Error> {
     let mut records = Records::new(scene, place);
     if is_file(place)? {
         let count = records.read(place)?;
-        print_error(&format!("{count} shots stand in {}\n", place.display()));
+        print_note(&format!("{count} shots stand in {}\n", place.display()));
     }
     records.open()?;
     Ok(records)

@@ -12,7 +12,7 @@ use super::designs::Fired;
 use super::records::Records;
 use super::scene::{Scene, Shot};
 use super::shot::{Ended, Ending, Watch, fire};
-use crate::common::console::print_error;
+use crate::common::console::print_note;
 use crate::common::error::Error;
 use crate::common::interrupt::Interrupt;
 use crate::common::progress;
@@ -142,7 +142,7 @@ impl<'a> FiringRange<'a> {
     /// Above the bar, if there is one.
     fn say(&self, line: &str) {
         if self.bar.is_hidden() {
-            print_error(&format!("{line}\n"));
+            print_note(&format!("{line}\n"));
         } else {
             self.bar.println(line);
         }
