@@ -10,6 +10,7 @@ use rayon::prelude::*;
 
 use super::checkpoint;
 use super::history::{self, Column};
+use super::pace::Estimate;
 use super::run::{self, End, Observer, Outcome, Struck};
 use super::sample::Sample;
 use super::summary::Cells;
@@ -17,8 +18,8 @@ use crate::common::console::{print, print_error, print_note};
 use crate::common::error::Error;
 use crate::common::folder;
 use crate::common::interrupt::Interrupt;
-use crate::common::progress::{self, Lines};
 use crate::common::kept_file;
+use crate::common::progress::{self, Lines};
 use crate::common::run_directory::{RunDirectory, file_error, is_file};
 use crate::common::shell;
 use crate::common::text_table::write_csv;
@@ -370,6 +371,11 @@ impl<E> Observer<E> for CaseObserver<'_, E> {
             let speed = format!("speed {speed} {of_speed}, energy off by {imbalance}");
             print_note(&format!("case {name}: {percent:.0} %, time {time} {of_time}, {speed}\n"));
         }
+    }
+
+    fn estimate(&mut self, estimate: &Estimate) {
+        let name = self.name;
+        self.bar.suspend(|| print_note(&format!("case {name}: {estimate}\n")));
     }
 
     fn sample(&mut self, sample: &Sample<E>) -> Result<(), Error> {
