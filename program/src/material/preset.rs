@@ -9,12 +9,13 @@ use toml::Spanned;
 
 use super::laws::{LawName, LawText, Laws};
 use crate::common::error::Error;
+use crate::common::nearest;
 use crate::common::short_number::short;
-use crate::common::toml_error::shortened;
 use crate::common::text_table::grouped;
+use crate::common::toml_error::shortened;
 use crate::common::toml_file::Source;
-use toron::host::units::UnitSystem;
 use crate::common::units::with_unit;
+use toron::host::units::UnitSystem;
 use toron::law::bounds;
 use toron::law::parameters::{self, DENSITY, Dimension, Property};
 
@@ -37,11 +38,10 @@ pub struct Preset {
     /// In the order of the law's table; none where the preset leaves a property to its default or to the material.
     pub values: Vec<Option<f64>>,
     pub density: Option<f64>,
-    file: Option<File>,
     pub guesses: Guesses,
+    file: Option<File>,
 }
 
-/// The file of a preset: its name, and the line of each property that it has.
 /// Which properties, or the density, nobody has measured on this yarn, and where their values come from.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Guesses(BTreeMap<String, String>);
@@ -74,6 +74,7 @@ impl Guesses {
     }
 }
 
+/// The file of a preset: its name, and the line of each property that it has.
 #[derive(Clone, Debug, PartialEq)]
 struct File {
     name: String,
@@ -90,9 +91,9 @@ struct PresetFile {
     density: Option<Spanned<f64>>,
     #[serde(default)]
     properties: BTreeMap<Spanned<String>, Spanned<f64>>,
-}
     #[serde(default)]
     guesses: BTreeMap<Spanned<String>, Spanned<String>>,
+}
 
 impl From<&parameters::Preset> for Preset {
     fn from(preset: &parameters::Preset) -> Preset {
@@ -103,8 +104,8 @@ impl From<&parameters::Preset> for Preset {
             units: UnitSystem::SI,
             values: preset.values.iter().copied().map(Some).collect(),
             density: Some(preset.density),
-            file: None,
             guesses: Guesses::default(),
+            file: None,
         }
     }
 }
@@ -129,7 +130,8 @@ impl Preset {
         if !name.ends_with(".toml") {
             let known: String = laws.presets().iter().map(|preset| format!("{}, ", preset.name)).collect();
             let or = if known.is_empty() { "" } else { "or " };
-            return Err(error(&format!("preset \"{name}\"; allowed: {known}{or}a file NAME.toml")));
+            let hint = nearest::hint(name, laws.presets().iter().map(|preset| preset.name));
+            return Err(error(&format!("preset \"{name}\"{hint}; allowed: {known}{or}a file NAME.toml")));
         }
         let path = folder.join(name);
         let file = path.display().to_string();
@@ -150,10 +152,10 @@ impl Preset {
         let density = file.density.as_ref();
         let density = density.map(|value| source.positive("density", *value.get_ref(), value.span())).transpose()?;
         let label = source.preset_name(&file)?;
+        let given = file.source.as_ref().map(|text| source.one_line("source", text)).transpose()?;
         Ok(Preset {
             source: given.unwrap_or(&label).to_string(),
             guesses: source.guesses(&file, law, &values)?,
-        let given = file.source.as_ref().map(|text| source.one_line("source", text)).transpose()?;
             name: label,
             law,
             units: source.units(&file.units)?,
@@ -175,11 +177,12 @@ impl Preset {
                 return Err(format!("density is {value}; allowed: a finite number > 0"));
             }
             self.density = Some(own(DENSITY));
+            self.source += &format!("; {name} = {}", with_unit(units, &short(value, LONGEST_VALUE), DENSITY));
         } else {
             let known = || {
-            self.source += &format!("; {name} = {}", with_unit(units, &short(value, LONGEST_VALUE), DENSITY));
                 let known: Vec<&str> = table.iter().map(|property| property.name).collect();
-                format!("no property {name}; allowed: {} density", known.join(" "))
+                let hint = nearest::hint(name, known.iter().copied());
+                format!("no property {name}{hint}; allowed: {} density", known.join(" "))
             };
             let index = table.iter().position(|property| property.name == name).ok_or_else(known)?;
             check(table, index, value).map_err(|error| error.to_string())?;
@@ -288,7 +291,8 @@ impl Source<'_> {
     pub fn property_index(&self, table: &[Property], name: &Spanned<String>) -> Result<usize, Error> {
         table.iter().position(|property| property.name == name.get_ref()).ok_or_else(|| {
             let known: Vec<&str> = table.iter().map(|property| property.name).collect();
-            let message = format!("property \"{}\"; allowed: {}", name.get_ref(), known.join(" "));
+            let hint = nearest::hint(name.get_ref(), known.iter().copied());
+            let message = format!("property \"{}\"{hint}; allowed: {}", name.get_ref(), known.join(" "));
             self.error(name.span(), &message)
         })
     }
@@ -339,11 +343,11 @@ impl Source<'_> {
             }
             guesses.insert(name.get_ref(), self.one_line(name.get_ref(), origin)?);
         }
+        Ok(guesses)
     }
 }
 
 /// The property that a law refuses, the first of a direction's three.
-        Ok(guesses)
 pub fn first_property(error: &toron::Error) -> Option<usize> {
     match *error {
         toron::Error::Property { index, .. } | toron::Error::Direction { index, .. } => Some(index),
