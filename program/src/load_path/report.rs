@@ -1,6 +1,6 @@
 //! The summary of a run on the terminal.
 
-use super::path::LoadPath;
+use super::path::{LoadPath, Step, Target};
 use super::run::{End, History, Increment};
 use crate::common::text_table::value_line;
 use crate::common::units::{ENERGY, number, unit};
@@ -11,6 +11,9 @@ use toron::law::state::{ENERGIES, INVARIANTS};
 
 /// The names of the four deformation modes.
 pub const MODE_NAMES: [&str; 4] = ["elongation", "compaction", "distortion", "shear"];
+
+/// A section of so many times its area has grown.
+const GROWN: f64 = 1.01;
 
 /// The width of the names of values.
 pub const NAMES: usize = 22;
@@ -41,6 +44,9 @@ pub fn summary(path: &LoadPath, history: &History) -> String {
     for (name, value) in failure(path, history) {
         line(name, value);
     }
+    if let Some(text) = grown_section(path, history) {
+        line("section", text);
+    }
     if let Some(last) = history.increments.last() {
         let unit = unit(&path.units, ENERGY);
         let mut work = format!("{} {unit}", number(last.work));
@@ -70,6 +76,23 @@ pub fn summary(path: &LoadPath, history: &History) -> String {
         }
     }
     text
+}
+
+/// What is to be said of a section that has grown where its sides are free: Newton's method has found one of many equilibria.
+fn grown_section(path: &LoadPath, history: &History) -> Option<String> {
+    let (material, last) = (&history.point.material, history.increments.last()?);
+    let free = |step: &Step| step.targets.iter().any(|target| matches!(target, Some(Target::Stress(_))));
+    let area = last.f.determinant() / (last.f * material.fibre()).norm();
+    let is_told = !matches!(material.law, Law::Hyperelastic { .. }) || !path.steps[..=last.step].iter().any(free);
+    if is_told || area < GROWN {
+        return None;
+    }
+    let [f22, f33] = [last.f[(1, 1)], last.f[(2, 2)]].map(number);
+    Some(format!(
+        "has {} times its area at the end, F22 = {f22}, F33 = {f33}: the law does not resist a section that grows, and any \
+         such sides are in equilibrium; hold them, as with F = {{ 22 = 1, 33 = 1 }}",
+        number(area)
+    ))
 }
 
 /// The law, and the preset where there is one.
