@@ -29,7 +29,7 @@ pub struct Arguments {
     /// Unit system, for instance mm-tonne-s; without it, si, or the units of the preset's file.
     #[arg(long)]
     units: Option<String>,
-    /// Print the values of this preset alone: a name, or a file of your own, as my-yarn.toml (see docs/guides/load-paths.md).
+    /// Print the values of this preset alone: a name, or a file of your own, as my-yarn.toml.
     #[arg(long)]
     preset: Option<String>,
 }

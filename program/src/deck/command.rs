@@ -34,8 +34,8 @@ pub struct Arguments {
     /// The solver.
     #[arg(long, value_enum)]
     host: Host,
-    /// The yarn: a preset by name (`toron params` lists them), or a file of your own, as my-yarn.toml (see
-    /// docs/guides/load-paths.md); without it, the first built-in one of the law.
+    /// The yarn: a preset by name (`toron params` lists them), or a file of your own, as my-yarn.toml (`toron fit` and `toron init
+    /// path` write one); without it, the first built-in one of the law.
     #[arg(long)]
     preset: Option<String>,
     /// The yarn's file, whatever its name ends in: what --preset takes, and `toron fit` writes; - is the standard input.

@@ -30,7 +30,7 @@ const TICKS: f64 = 1000.0;
 /// How the cases are run.
 #[derive(clap::Args)]
 pub struct Arguments {
-    /// The scene (see docs/guides/fibres.md and examples/fibre_scale/).
+    /// The scene, a TOML file (`toron init fibres` writes one); - is the standard input.
     scene: PathBuf,
     /// Where the files go.
     #[arg(short, long, default_value = "toron-out/fibres")]

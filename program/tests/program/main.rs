@@ -27,6 +27,7 @@ mod fibres;
 mod hexahedra;
 mod identify;
 mod impact;
+mod interface;
 mod licences;
 mod load_paths;
 mod long;
