@@ -78,7 +78,8 @@ fn record(value: &Value) -> String {
 }
 
 fn cell(text: &str) -> Value {
-    let number = text.parse().ok().and_then(serde_json::Number::from_f64);
+    let whole = text.parse::<i64>().ok().map(serde_json::Number::from);
+    let number = whole.or_else(|| text.parse().ok().and_then(serde_json::Number::from_f64));
     if text == NONE { Value::Null } else { number.map_or_else(|| text.into(), Value::Number) }
 }
 

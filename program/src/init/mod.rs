@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use crate::common::console::print;
 use crate::common::error::Error;
-use crate::common::text_table::{Column, table};
+use crate::common::text_table::plain_table;
 use crate::common::units::unit;
 use crate::common::{folder, kept_file, nearest, shell};
 use crate::material::preset::Preset;
@@ -38,16 +38,13 @@ const MODEL: &str = "kevlar-km2-600";
 /// The units of its file.
 const UNITS: &str = "mm-tonne-s";
 
-/// Columns of a terminal.
-const WIDTH: usize = 120;
-
 #[derive(clap::Args)]
 pub struct Arguments {
     /// Which one; without it, they are listed.
     name: Option<String>,
-    /// Where the files go.
-    #[arg(short, long, default_value = ".")]
-    output: PathBuf,
+    /// Where the files go; without it, the current folder.
+    #[arg(short, long)]
+    output: Option<PathBuf>,
 }
 
 /// Lists the scenes, or writes one, with its yarn.
@@ -64,11 +61,12 @@ pub fn run(Arguments { name, output }: &Arguments) -> Result<(), Error> {
         let hint = nearest::hint(name, names.iter().copied());
         Error::Input(format!("init {name}{hint}; allowed: {}", names.join(", ")))
     })?;
-    folder::create(output)?;
-    let scene = output.join(format!("{}.toml", start.name));
+    output.as_deref().map_or(Ok(()), folder::create)?;
+    let place = |name: &str| output.as_deref().unwrap_or(Path::new("")).join(format!("{name}.toml"));
+    let scene = place(start.name);
     kept_file::write(&scene, |file| file.write_all(start.text.as_bytes()))?;
     let mut written = vec![scene.clone()];
-    let yarn = output.join(format!("{YARN}.toml"));
+    let yarn = place(YARN);
     if start.text.contains(&format!("\"{YARN}.toml\"")) {
         // A yarn of the user's own stays.
         if !yarn.exists() {
@@ -91,14 +89,19 @@ fn yarn() -> Result<String, Error> {
     let mut comments = BTreeMap::new();
     let origin = format!("of {MODEL}");
     for (place, property) in HYPERELASTIC.iter().enumerate().take(FIBRE) {
-        yarn.values[place] = model.value(place, &units);
+        yarn.values[place] = model.value(place, &units).map(rounded);
         yarn.guesses.insert(property.name, &origin);
         comments.insert(property.name, format!("{}: {}", unit(&units, property.dimension), property.meaning));
     }
-    yarn.density = model.density_in(&units);
+    yarn.density = model.density_in(&units).map(rounded);
     yarn.guesses.insert("density", &origin);
     comments.insert("density", unit(&units, DENSITY));
     Ok(yarn.to_toml(&comments))
+}
+
+/// Without what a conversion of units has left in the last digits.
+fn rounded(value: f64) -> f64 {
+    format!("{value:.11e}").parse().unwrap_or(value)
 }
 
 fn command(start: &Start, scene: &Path) -> String {
@@ -107,18 +110,10 @@ fn command(start: &Start, scene: &Path) -> String {
 
 /// The scenes, with what each is about: the first line of its file.
 fn list() -> String {
-    let column = |heading: &str, entry: &dyn Fn(&Start) -> String| Column {
-        heading: [heading.to_string(), String::new()],
-        entries: STARTS.iter().map(entry).collect(),
-    };
     let about = |start: &Start| start.text.lines().next().unwrap_or_default().trim_start_matches("# ").to_string();
-    let columns = vec![
-        column("name", &|start| start.name.to_string()),
-        column("is for", &|start| format!("toron {}", start.command)),
-        column("what it is", &about),
-    ];
-    format!(
-        "{}\ntoron init NAME writes NAME.toml and, where it has one, its yarn, {YARN}.toml\n",
-        table(columns, WIDTH)
-    )
+    let row = |start: &Start| vec![start.name.to_string(), format!("toron {}", start.command), about(start)];
+    let rows: Vec<Vec<String>> = STARTS.iter().map(row).collect();
+    let line = |cells: &Vec<String>| format!("  {:<10}  {:<12}  {}\n", cells[0], cells[1], cells[2]);
+    let table = plain_table(&["name", "for", "what it is"], &rows, || rows.iter().map(line).collect());
+    format!("{table}\ntoron init NAME writes NAME.toml and, where it has one, its yarn, {YARN}.toml\n")
 }

@@ -107,7 +107,7 @@ fn a_scene_comes_with_its_yarn() {
     assert!(values.contains("k_el     82341.0 MPa") && values.contains("Guesses: k_el, "), "{values}");
     std::fs::write(folder.join("my-yarn.toml"), "units = \"si\"\n").expect("a yarn");
     let [out, error] = said(&folder, &["init", "weave"]);
-    assert!(out.starts_with("./weave.toml, ./my-yarn.toml\n") && error.is_empty(), "{out}{error}");
+    assert!(out.starts_with("weave.toml, my-yarn.toml\n") && error.is_empty(), "{out}{error}");
     assert_eq!(std::fs::read_to_string(folder.join("my-yarn.toml")).expect("it stays"), "units = \"si\"\n");
     let unknown = refused(&folder, &["init", "fabrik"]);
     assert!(unknown.contains("init fabrik, did you mean fabric?; allowed: data-sheet, path, "), "{unknown}");
