@@ -1,6 +1,7 @@
 //! The summary of a run on the terminal.
 
-use super::path::{LoadPath, Step, Target};
+use super::newton::{COMPONENT_NAMES, COMPONENTS};
+use super::path::{LoadPath, Target};
 use super::run::{End, History, Increment};
 use crate::common::text_table::value_line;
 use crate::common::units::{ENERGY, number, unit};
@@ -81,17 +82,23 @@ pub fn summary(path: &LoadPath, history: &History) -> String {
 /// What is to be said of a section that has grown where its sides are free: Newton's method has found one of many equilibria.
 fn grown_section(path: &LoadPath, history: &History) -> Option<String> {
     let (material, last) = (&history.point.material, history.increments.last()?);
-    let free = |step: &Step| step.targets.iter().any(|target| matches!(target, Some(Target::Stress(_))));
     let area = last.f.determinant() / (last.f * material.fibre()).norm();
-    let is_told = !matches!(material.law, Law::Hyperelastic { .. }) || !path.steps[..=last.step].iter().any(free);
-    if is_told || area < GROWN {
+    let is_free = |place: usize| {
+        let mut targets = path.steps[..=last.step].iter().map(|step| step.targets[place]);
+        targets.any(|target| matches!(target, Some(Target::Stress(_))))
+    };
+    let on_sides = (0..COMPONENTS.len()).filter(|&place| COMPONENTS[place].0 == COMPONENTS[place].1);
+    let free: Vec<usize> = on_sides.filter(|&place| is_free(place)).collect();
+    if !matches!(material.law, Law::Hyperelastic { .. }) || free.is_empty() || area < GROWN {
         return None;
     }
-    let [f22, f33] = [last.f[(1, 1)], last.f[(2, 2)]].map(number);
+    let side = |&place: &usize| format!("F{} = {}", COMPONENT_NAMES[place], number(last.f[COMPONENTS[place]]));
     Some(format!(
-        "has {} times its area at the end, F22 = {f22}, F33 = {f33}: the law does not resist a section that grows, and any \
-         such sides are in equilibrium; hold them, as with F = {{ 22 = 1, 33 = 1 }}",
-        number(area)
+        "has {} times its area at the end, {}: the law does not resist a section that grows, and any such sides are in \
+         equilibrium; hold one, as with F = {{ {} = 1 }}, where that is not meant",
+        number(area),
+        free.iter().map(side).collect::<Vec<_>>().join(", "),
+        COMPONENT_NAMES[free[free.len() - 1]]
     ))
 }
 

@@ -224,7 +224,11 @@ fn input_errors_name_file_line_and_what_was_expected() {
             "(k_el, longitudinal elongation stiffness) is -3.0; allowed: a number from 0 to 1e25",
         ),
         (format!("{HEAD}properties = {{ p = 1 }}\n{step}"), 4, "allowed: a number > 1, at most 40"),
-        (format!("{HEAD}properties = {{ k_e = 3 }}\n{step}"), 4, "property \"k_e\"; allowed: k_el k_tc p"),
+        (
+            format!("{HEAD}properties = {{ k_e = 3 }}\n{step}"),
+            4,
+            "property \"k_e\", did you mean k_el?; allowed: k_el k_tc p",
+        ),
         (
             format!("{HEAD}fibre = [0, 0, 0]\n{step}"),
             4,
