@@ -70,6 +70,12 @@ fn imperial(units: &UnitSystem, [inch, foot]: [&str; 2]) -> Option<String> {
     }
 }
 
+/// All digits of a number, with an exponent where it is very large or small.
+pub fn plain(value: f64) -> String {
+    let size = value.abs();
+    if size == 0.0 || (1e-3..1e6).contains(&size) { value.to_string() } else { format!("{value:e}") }
+}
+
 /// A number's text with its unit, if it has one.
 pub fn with_unit(units: &UnitSystem, number: &str, dimension: Dimension) -> String {
     if dimension == NUMBER { number.to_string() } else { format!("{number} {}", unit(units, dimension)) }

@@ -168,7 +168,7 @@ fn preset(laws: Laws, arguments: &Arguments, law: Option<LawName>) -> Result<Pre
         }
         (None, Some(path)) => {
             let (file, text) =
-                toml_file::read(path).map_err(|reason| Error::Input(format!("--properties: {reason}")))?;
+                toml_file::read(path).map_err(|reason| Error::Input(format!("--properties {reason}")))?;
             Preset::parse(laws, &file, &text)?
         }
         (None, None) => {

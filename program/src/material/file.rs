@@ -11,7 +11,7 @@ use super::model::{Law, Material, Origin};
 use super::preset::{Preset, first_property};
 use crate::common::error::Error;
 use crate::common::toml_file::{Numbers, Source};
-use crate::common::units::with_unit;
+use crate::common::units::{plain, with_unit};
 use toron::host::units::UnitSystem;
 use toron::law::parameters::{DENSITY, NUMBER, Property};
 use toron::{Criterion, Rotation};
@@ -66,14 +66,10 @@ impl MaterialFile {
 
     /// What is other than the preset has it, in words.
     fn own_text(&self, table: &[Property], units: &UnitSystem) -> String {
-        let text = |value: f64| match value.abs() {
-            size if size == 0.0 || (1e-3..1e6).contains(&size) => value.to_string(),
-            _ => format!("{value:e}"),
-        };
         let values = self.own().map(|(name, value)| {
             let property = table.iter().find(|property| property.name == name);
             let dimension = if name == "density" { DENSITY } else { property.map_or(NUMBER, |row| row.dimension) };
-            format!("{name} = {}", with_unit(units, &text(value), dimension))
+            format!("{name} = {}", with_unit(units, &plain(value), dimension))
         });
         values.collect::<Vec<_>>().join("; ")
     }

@@ -10,20 +10,16 @@ use toml::Spanned;
 use super::laws::{LawName, LawText, Laws};
 use crate::common::error::Error;
 use crate::common::nearest;
-use crate::common::short_number::short;
 use crate::common::text_table::grouped;
 use crate::common::toml_error::shortened;
 use crate::common::toml_file::Source;
-use crate::common::units::with_unit;
+use crate::common::units::{plain, with_unit};
 use toron::host::units::UnitSystem;
 use toron::law::bounds;
 use toron::law::parameters::{self, DENSITY, Dimension, Property};
 
 /// Decks name the material by the preset, and Abaqus takes names of up to 80 characters.
 pub const LONGEST_NAME: usize = 80;
-
-/// Columns of a changed value in a preset's source.
-const LONGEST_VALUE: usize = 12;
 
 /// A yarn's properties, with or without some of them, in units of their own.
 #[derive(Clone, Debug, PartialEq)]
@@ -177,7 +173,7 @@ impl Preset {
                 return Err(format!("density is {value}; allowed: a finite number > 0"));
             }
             self.density = Some(own(DENSITY));
-            self.source += &format!("; {name} = {}", with_unit(units, &short(value, LONGEST_VALUE), DENSITY));
+            self.source += &format!("; {name} = {}", with_unit(units, &plain(value), DENSITY));
         } else {
             let known = || {
                 let known: Vec<&str> = table.iter().map(|property| property.name).collect();
@@ -188,7 +184,7 @@ impl Preset {
             check(table, index, value).map_err(|error| error.to_string())?;
             let dimension = table[index].dimension;
             self.values[index] = Some(own(dimension));
-            self.source += &format!("; {name} = {}", with_unit(units, &short(value, LONGEST_VALUE), dimension));
+            self.source += &format!("; {name} = {}", with_unit(units, &plain(value), dimension));
         }
         self.guesses.remove(name);
         Ok(())

@@ -261,7 +261,7 @@ fn guesses_are_called_so_wherever_the_yarn_goes() {
     // What somebody has given is no guess any more, and has a unit.
     let card = said(&["deck", "--host", "abaqus", "--preset", "mine.toml", "--set", "k_tc=900", "--set", "k_ld=10"]);
     let left = guesses("p, k_td, eps_lim, alpha, beta, density");
-    assert!(card.contains("mine: lot 12; k_tc = 900.0 MPa; k_ld = 10.0 MPa") && card.contains(&left), "{card}");
+    assert!(card.contains("mine: lot 12; k_tc = 900 MPa; k_ld = 10 MPa") && card.contains(&left), "{card}");
 
     let own = "hyperelastic = { preset = \"mine.toml\", properties = { k_tc = 900, k_ld = 10 } }";
     write(&folder, "scene.toml", &scene(own));
