@@ -417,7 +417,7 @@ fn installations_are_locked() {
     for file in linked_documents().into_iter().chain(scripts) {
         let text = std::fs::read_to_string(&file).expect("text");
         for line in text.lines().filter(|line| line.contains("cargo install ")) {
-            assert!(line.contains("cargo install --locked "), "{}: {line}", file.display());
+            assert!(line.contains("cargo install --locked"), "{}: {line}", file.display());
             found += 1;
         }
     }

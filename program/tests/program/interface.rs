@@ -177,10 +177,13 @@ fn a_quiet_run_says_what_is_wrong_and_nothing_else() {
     let [out, notes] = said(&folder, &["impact", "yarn.toml", "--quiet", "-o", "quiet"]);
     assert!(notes.is_empty() && out.contains("how it ended"), "{notes}{out}");
     let scene = std::fs::read_to_string(folder.join("yarn.toml")).expect("the scene");
-    std::fs::write(folder.join("yarn.toml"), scene.replace("contact-stiffness = 1e6", "contact-stiffness = 1.0"))
-        .expect("a scene");
+    std::fs::write(
+        folder.join("yarn.toml"),
+        scene.replace("preset = \"my-yarn.toml\"", "preset = \"my-yarn.toml\", density = 1.35"),
+    )
+    .expect("a scene");
     let output =
-        toron(&folder, &["impact", "yarn.toml", "--quiet", "-o", "soft"]).output().expect("the program starts");
+        toron(&folder, &["impact", "yarn.toml", "--quiet", "-o", "heavy"]).output().expect("the program starts");
     assert!(text(&output.stderr).starts_with("warning: "), "{}", text(&output.stderr));
 }
 
@@ -230,7 +233,7 @@ fn what_is_misspelt_is_told_what_it_may_mean() {
     let (folder, _) = started("yarn", &[("half-length", "halflength")]);
     let said = refused(&folder, &["impact", "yarn.toml"]);
     assert!(
-        said.contains("yarn.toml:7: unknown field `halflength`, did you mean half-length? expected one of `"),
+        said.contains("yarn.toml:8: unknown field `halflength`, did you mean half-length? expected one of `"),
         "{said}"
     );
     let (folder, _) =
