@@ -2,17 +2,53 @@
 
 use std::process::ExitCode;
 
-use clap::{Command, FromArgMatches};
+use clap::{Arg, ArgAction, ArgMatches, Command, FromArgMatches};
 
-use crate::common::console::{keep, lost, print_error};
+use crate::common::console::{self, Format, keep, lost, print_error};
 use crate::common::error::Error;
+
+/// The commands whose output is tables, which they can print as JSON too.
+const TABLES: [&str; 12] =
+    ["init", "fit", "run", "weave", "fabric", "impact", "v50", "fibres", "cell", "params", "compare", "bench"];
+const JSON: &str = "json";
+const QUIET: &str = "quiet";
+
+/// The command with the options that all commands with tables have.
+pub fn with_options(command: Command) -> Command {
+    let flag = |name: &'static str, help: &'static str| Arg::new(name).long(name).action(ArgAction::SetTrue).help(help);
+    command.mut_subcommands(|command| {
+        if !TABLES.contains(&command.get_name()) {
+            return command;
+        }
+        let json = flag(JSON, "Print one JSON object in place of text: the tables, complete, and the other lines");
+        let quiet = flag(QUIET, "No progress and no notes on the standard error; warnings and errors stay");
+        command.arg(json).arg(quiet)
+    })
+}
+
+/// The name of the command that is given, and how its output is to look.
+fn format(matches: &ArgMatches) -> (&str, Format) {
+    let Some((name, matches)) = matches.subcommand() else { return ("", Format::default()) };
+    let [json, quiet] = [JSON, QUIET].map(|flag| TABLES.contains(&name) && matches.get_flag(flag));
+    (name, Format { json, quiet })
+}
 
 /// Runs a program: its arguments, read as `command` says, go to `run`. Errors, and what is lost of the standard output, end on the
 /// standard error behind the program's name.
 pub fn run<A: FromArgMatches>(command: Command, run: impl FnOnce(A) -> Result<(), Error>) -> ExitCode {
     let program = command.get_name().to_string();
-    let answer = match command.try_get_matches().and_then(|matches| A::from_arg_matches(&matches)) {
-        Ok(arguments) => run(arguments),
+    let version = command.get_version().unwrap_or_default().to_string();
+    let arguments = with_options(command).try_get_matches().and_then(|matches| {
+        let (name, format) = format(&matches);
+        console::set(format);
+        Ok((name.to_string(), A::from_arg_matches(&matches)?))
+    });
+    let answer = match arguments {
+        Ok((name, arguments)) => {
+            let answer = run(arguments);
+            console::finish(&name, &version);
+            answer
+        }
         Err(error) if error.use_stderr() => error.exit(),
         // `--help` and `--version` are errors for clap.
         Err(text) => {

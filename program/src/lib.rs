@@ -11,6 +11,7 @@
 //! - a scene as a solver's whole deck (`--deck` of `toron fabric`, `impact` and `weave`): [`scene_deck`];
 //! - histories of a scene from several hosts (`toron compare`): [`compare`];
 //! - what is wrong with anybody's UMAT (`toron check`): `check`, on Linux;
+//! - scenes to start from, which are built in (`toron init`): [`init`];
 //! - properties from measured data (`toron fit`): [`identify`];
 //! - energies of a yarn's fibres by finite elements, in CalculiX, from which they are found too (`toron cell`): [`cell`];
 //! - a woven panel struck by a sphere (`toron fabric`): [`fabric`], on the same solver;
@@ -39,6 +40,7 @@ pub mod fabric;
 pub mod fibres;
 pub mod identify;
 pub mod impact;
+pub mod init;
 pub mod load_path;
 pub mod material;
 mod own_program;

@@ -12,8 +12,8 @@ use toron_program::common::error::Error;
 use toron_program::eval::command::Entry;
 use toron_program::material::laws::Laws;
 use toron_program::{
-    bench, cell, command_line, compare, deck, eval, fabric, fibres, identify, impact, load_path, params, scene_deck,
-    v50, weave,
+    bench, cell, command_line, compare, deck, eval, fabric, fibres, identify, impact, init, load_path, params,
+    scene_deck, v50, weave,
 };
 
 /// A user-material library for yarns and dry fabrics: load paths on one element, struck yarns and panels, property tables, decks.
@@ -24,36 +24,37 @@ struct Arguments {
     command: Command,
 }
 
+/// In the order in which a user comes to them: from data to results, then what solvers need.
 #[derive(Subcommand)]
 enum Command {
+    /// Write a scene to start from, with its yarn; without a name, list those that there are.
+    Init(init::Arguments),
+    /// Find the properties of a yarn from measured data, and how sure they are; write a preset of them.
+    Fit {
+        /// The data and what is known besides, a TOML file (`toron init data-sheet` writes one); - is the standard input.
+        data: PathBuf,
+        /// Where the preset, the tables and the plot go.
+        #[arg(short, long, default_value = "toron-out")]
+        output: PathBuf,
+        /// Run this scene of `toron impact` with the parameters, and with each at the ends of its interval.
+        #[arg(long)]
+        scene: Option<PathBuf>,
+    },
     /// Take one element along a load path; write a table and a plot of it.
     Run(load_path::command::Arguments),
-    /// Print the tables of properties and state variables, the presets, or one preset's values.
-    Params(params::Arguments),
-    /// Print a material's card, ready to be pasted into a solver's deck.
-    Deck(deck::command::Arguments),
-    /// Evaluate one JSON object a line of the standard input: {"F": rows, "m": [3], "params": {kel, ktc, p, ktd, kld,
-    /// eps_lim, alpha, beta}}.
-    Eval {
-        /// The C entry to go through, as its host would call it.
-        #[arg(long, value_enum, default_value = "law")]
-        via: Entry,
-        /// Add "ddsdde", rows of the Jaumann modulus as Abaqus wants it; refused for the VUMATs, which have none.
-        #[arg(long)]
-        tangent: bool,
+    /// Mesh a woven panel with hexahedra; write it for ParaView, with figures and a picture.
+    Weave {
+        /// The weave, a TOML file (`toron init weave` writes one); - is the standard input.
+        scene: PathBuf,
+        /// Where the files go.
+        #[arg(short, long, default_value = "toron-out")]
+        output: PathBuf,
+        #[command(flatten)]
+        deck: scene_deck::command::Arguments,
     },
-    /// Check a UMAT of Abaqus, yours or anybody's: tangent, objectivity, energy, memory, threads.
-    #[cfg(target_os = "linux")]
-    Check(check::command::Arguments),
-    /// The process in which a law is asked.
-    #[cfg(target_os = "linux")]
-    #[command(hide = true)]
-    CheckChild { request: PathBuf },
-    /// Compare histories of a strike from several hosts; write a table and a figure of them.
-    Compare(compare::command::Arguments),
     /// Strike a woven panel by a sphere or a cylinder.
     Fabric {
-        /// The scene (see docs/guides/fabric.md and examples/fabric_impact/).
+        /// The scene, a TOML file (`toron init fabric` writes one); - is the standard input.
         scene: PathBuf,
         /// Where the histories and pictures go.
         #[arg(short, long, default_value = "toron-out/fabric")]
@@ -64,22 +65,9 @@ enum Command {
         #[command(flatten)]
         deck: scene_deck::command::Arguments,
     },
-    /// Strike a yarn whose fibres are rows of beads, in LAMMPS; write histories, plots, pictures and a table of them.
-    Fibres(fibres::command::Arguments),
-    /// Find the properties of a yarn from measured data, and how sure they are; write a preset of them.
-    Fit {
-        /// The data and what is known besides (see docs/guides/identification.md and examples/identification/).
-        data: PathBuf,
-        /// Where the preset, the tables and the plot go.
-        #[arg(short, long, default_value = "toron-out")]
-        output: PathBuf,
-        /// Run this scene of `toron impact` with the parameters, and with each at the ends of its interval.
-        #[arg(long)]
-        scene: Option<PathBuf>,
-    },
     /// Strike a yarn: run the cases of a scene; write histories, plots, pictures and a table of them.
     Impact {
-        /// The scene (see docs/guides/impact.md and examples/yarn_impact/).
+        /// The scene, a TOML file (`toron init yarn` writes one); - is the standard input.
         scene: PathBuf,
         /// Where the files go.
         #[arg(short, long, default_value = "toron-out/impact")]
@@ -90,9 +78,13 @@ enum Command {
         #[arg(long, conflicts_with = "host")]
         restart: bool,
     },
+    /// Fire a series of shots at a scene: V50, V5, V95 and slope with their intervals, and how sure the answer is.
+    V50(v50::command::Arguments),
+    /// Strike a yarn whose fibres are rows of beads, in LAMMPS; write histories, plots, pictures and a table of them.
+    Fibres(fibres::command::Arguments),
     /// Press a yarn's section, fibre by fibre, in CalculiX; write energies, pictures and the file that the fit reads.
     Cell {
-        /// The section (see examples/identification/).
+        /// The section, a TOML file (`toron init cell` writes one); - is the standard input.
         scene: PathBuf,
         /// Where the files go.
         #[arg(short, long, default_value = "toron-out")]
@@ -104,22 +96,28 @@ enum Command {
         #[arg(long)]
         restart: bool,
     },
-    /// Fire a series of shots at a scene: V50, V5, V95 and slope with their intervals, and how sure the answer is.
-    V50(v50::command::Arguments),
-    /// Mesh a woven panel with hexahedra; write it for ParaView, with figures and a picture.
-    Weave {
-        /// The weave (see docs/guides/fabric.md and examples/fabric_impact/).
-        scene: PathBuf,
-        /// Where the files go.
-        #[arg(short, long, default_value = "toron-out")]
-        output: PathBuf,
-        #[command(flatten)]
-        deck: scene_deck::command::Arguments,
-    },
-    /// Print the completions of this program's arguments for a shell.
-    Completions {
-        /// As in: toron completions bash > ~/.local/share/bash-completion/completions/toron
-        shell: Shell,
+    /// Print a material's card, ready to be pasted into a solver's deck.
+    Deck(deck::command::Arguments),
+    /// Print the tables of properties and state variables, the presets, or one preset's values.
+    Params(params::Arguments),
+    /// Check a UMAT or VUMAT of Abaqus, yours or anybody's: tangent, objectivity, energy, memory, threads.
+    #[cfg(target_os = "linux")]
+    Check(check::command::Arguments),
+    /// The process in which a law is asked.
+    #[cfg(target_os = "linux")]
+    #[command(hide = true)]
+    CheckChild { request: PathBuf },
+    /// Compare histories of a strike from several hosts; write a table and a figure of them.
+    Compare(compare::command::Arguments),
+    /// Evaluate one JSON object a line of the standard input: {"F": rows, "m": [3], "params": {kel, ktc, p, ktd, kld,
+    /// eps_lim, alpha, beta}}.
+    Eval {
+        /// The C entry to go through, as its host would call it.
+        #[arg(long, value_enum, default_value = "law")]
+        via: Entry,
+        /// Add "ddsdde", rows of the Jaumann modulus as Abaqus wants it; refused for the VUMATs, which have none.
+        #[arg(long)]
+        tangent: bool,
     },
     /// Measure what a point costs on this machine; takes about half a minute.
     Bench {
@@ -127,12 +125,17 @@ enum Command {
         #[arg(short, long)]
         output: Option<PathBuf>,
     },
+    /// Print the completions of this program's arguments for a shell.
+    Completions {
+        /// As in: toron completions bash > ~/.local/share/bash-completion/completions/toron
+        shell: Shell,
+    },
 }
 
 /// Made in memory first: the generator panics where it cannot write, and a reader that has gone is no error.
 fn completions(shell: Shell) {
     let mut script = Vec::new();
-    clap_complete::generate(shell, &mut Arguments::command(), "toron", &mut script);
+    clap_complete::generate(shell, &mut command_line::with_options(Arguments::command()), "toron", &mut script);
     print(&String::from_utf8_lossy(&script));
 }
 
@@ -142,37 +145,38 @@ fn main() -> ExitCode {
 
 fn run(command: Command) -> Result<(), Error> {
     match command {
-        Command::Run(arguments) => load_path::command::run(Laws::Toron, &arguments),
-        Command::Params(arguments) => params::print_tables(Laws::Toron, &arguments),
-        Command::Deck(arguments) => deck::command::run(Laws::Toron, &arguments),
-        Command::Eval { via, tangent } => eval::command::lines(via, tangent),
+        Command::Init(arguments) => init::run(&arguments),
         Command::Fit { data, output, scene } => identify::command::run(&data, &output, scene.as_deref()),
+        Command::Run(arguments) => load_path::command::run(Laws::Toron, &arguments),
+        Command::Weave { scene, output, deck } => match deck.host {
+            Some(host) => scene_deck::command::weave(&scene, &output, host, &deck),
+            None => weave::command::run(&scene, &output),
+        },
+        Command::Fabric { scene, output, restart, deck } => match deck.host {
+            Some(host) => scene_deck::command::fabric(&scene, &output, host, &deck),
+            None => fabric::command::run(&scene, &output, restart),
+        },
+        Command::Impact { scene, output, restart, deck } => match deck.host {
+            Some(host) => scene_deck::command::impact(&scene, &output, host, &deck),
+            None => impact::command::run(&scene, &output, restart),
+        },
+        Command::V50(arguments) => v50::command::run(&arguments),
+        Command::Fibres(arguments) => fibres::command::run(&arguments)
+            .and_then(|fit| fit.map_or(Ok(()), |fit| identify::command::run(&fit, &arguments.output, None))),
+        Command::Cell { scene, output, ccx, restart } => cell::command::run(&scene, &output, ccx.as_deref(), restart)
+            .and_then(|fit| identify::command::run(&fit, &output, None)),
+        Command::Deck(arguments) => deck::command::run(Laws::Toron, &arguments),
+        Command::Params(arguments) => params::print_tables(Laws::Toron, &arguments),
         #[cfg(target_os = "linux")]
         Command::Check(arguments) => check::command::run(&arguments),
         #[cfg(target_os = "linux")]
         Command::CheckChild { request } => check::child::answer(&request),
         Command::Compare(arguments) => compare::command::run(&arguments),
-        Command::Fabric { scene, output, restart, deck } => match deck.host {
-            Some(host) => scene_deck::command::fabric(&scene, &output, host, &deck),
-            None => fabric::command::run(&scene, &output, restart),
-        },
-        Command::Fibres(arguments) => fibres::command::run(&arguments)
-            .and_then(|fit| fit.map_or(Ok(()), |fit| identify::command::run(&fit, &arguments.output, None))),
-        Command::Impact { scene, output, restart, deck } => match deck.host {
-            Some(host) => scene_deck::command::impact(&scene, &output, host, &deck),
-            None => impact::command::run(&scene, &output, restart),
-        },
-        Command::Cell { scene, output, ccx, restart } => cell::command::run(&scene, &output, ccx.as_deref(), restart)
-            .and_then(|fit| identify::command::run(&fit, &output, None)),
-        Command::V50(arguments) => v50::command::run(&arguments),
-        Command::Weave { scene, output, deck } => match deck.host {
-            Some(host) => scene_deck::command::weave(&scene, &output, host, &deck),
-            None => weave::command::run(&scene, &output),
-        },
+        Command::Eval { via, tangent } => eval::command::lines(via, tangent),
+        Command::Bench { output } => bench::command::run(output.as_deref()),
         Command::Completions { shell } => {
             completions(shell);
             Ok(())
         }
-        Command::Bench { output } => bench::command::run(output.as_deref()),
     }
 }

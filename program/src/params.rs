@@ -4,22 +4,24 @@ use std::path::Path;
 
 use clap::Args;
 
+use crate::common::build;
 use crate::common::console::print;
 use crate::common::error::Error;
 use crate::common::short_number::short;
-use crate::common::units::unit;
+use crate::common::text_table::plain_table;
+use crate::common::units::{unit, with_unit};
 use crate::material::laws::{LawName, Laws};
 use crate::material::model::Law;
 use crate::material::preset::Preset;
 use toron::host::c::TORON_ABI_VERSION;
 use toron::host::units::UnitSystem;
-use toron::law::parameters::{DENSITY, Dimension, NUMBER, Property};
+use toron::law::parameters::{DENSITY, Dimension, Property};
 use toron::law::state::StateVariable;
 use toron::{Criterion, Rotation};
 
 /// The text of `toron --version`.
 pub fn version() -> String {
-    format!("{} (ABI {TORON_ABI_VERSION})", env!("CARGO_PKG_VERSION"))
+    format!("{} (ABI {TORON_ABI_VERSION}, build {:08x})", env!("CARGO_PKG_VERSION"), build::number())
 }
 
 #[derive(Args)]
@@ -27,7 +29,7 @@ pub struct Arguments {
     /// Unit system, for instance mm-tonne-s; without it, si, or the units of the preset's file.
     #[arg(long)]
     units: Option<String>,
-    /// Print the values of this preset alone: a name, or a file of your own, as my-yarn.toml (see docs/guides/load-paths.md).
+    /// Print the values of this preset alone: a name, or a file of your own, as my-yarn.toml.
     #[arg(long)]
     preset: Option<String>,
 }
@@ -94,7 +96,8 @@ fn values(laws: Laws, preset: &Preset, units: &UnitSystem) -> Result<String, Err
 fn preset_text(preset: &Preset, units: &UnitSystem) -> Result<String, Error> {
     let (values, density) = (preset.complete(units)?, preset.density_in(units));
     let table = preset_table(preset.law.table(), &values, density, units);
-    Ok(format!("Preset {} ({})\n{}\n{table}", preset.name, preset.law.text(), preset.source))
+    let guesses = preset.guesses.text(preset.law).map_or(String::new(), |guesses| format!("Guesses: {guesses}\n"));
+    Ok(format!("Preset {} ({})\n{}\n{guesses}{table}", preset.name, preset.law.text(), preset.source))
 }
 
 fn property_table(properties: &[Property], units: &UnitSystem) -> String {
@@ -127,17 +130,22 @@ fn preset_table(table: &[Property], values: &[f64], density: Option<f64>, units:
 }
 
 fn quantity(units: &UnitSystem, value: f64, dimension: Dimension) -> String {
-    let value = short(value, 12);
-    if dimension == NUMBER { value } else { format!("{value} {}", unit(units, dimension)) }
+    with_unit(units, &short(value, 12), dimension)
 }
 
 /// Left-aligned columns, two blanks apart.
 fn align<const N: usize>(head: [&str; N], rows: impl Iterator<Item = [String; N]>) -> String {
-    let rows: Vec<[String; N]> = [head.map(str::to_string)].into_iter().chain(rows).collect();
+    let rows: Vec<Vec<String>> = rows.map(Vec::from).collect();
+    plain_table(&head, &rows, || aligned(&head, &rows))
+}
+
+fn aligned<const N: usize>(head: &[&str; N], rows: &[Vec<String>]) -> String {
+    let head = head.map(str::to_string).to_vec();
+    let rows: Vec<&Vec<String>> = std::iter::once(&head).chain(rows).collect();
     let widths: [usize; N] =
         std::array::from_fn(|column| rows.iter().map(|row| row[column].chars().count()).max().unwrap_or(0));
     let mut text = String::new();
-    for row in &rows {
+    for row in rows {
         let cells: Vec<String> = row.iter().zip(widths).map(|(cell, width)| format!("{cell:<width$}")).collect();
         text += &format!("  {}\n", cells.join("  ").trim_end());
     }

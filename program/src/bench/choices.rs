@@ -2,7 +2,6 @@
 //! moments are not to be divided by one another where a processor's clock changes.
 
 use std::convert::Infallible;
-use std::fmt::Write;
 use std::time::Duration;
 
 use serde::Serialize;
@@ -11,6 +10,7 @@ use super::command::{calls_that_last, properties, timed};
 use super::hosts::{Host, HostArrays, call, whole};
 use super::scene::{Scene, impacts};
 use crate::common::error::Error;
+use crate::common::text_table::plain_table;
 use crate::entries::aligned::Aligned;
 use crate::entries::blocks::{SolverBlock, prepared};
 use crate::entries::hosts::{Given, Wanted};
@@ -248,15 +248,18 @@ fn of_block(calls: Calls, n: usize) -> Result<Run, Error> {
 }
 
 /// The ratios as a table.
-pub fn table(choices: &[Choice], text: &mut String) {
-    // Writing to a string does not fail.
-    let _ = writeln!(
-        text,
-        "choices: ratios of calls in turn; nanoseconds a point, or a call where the numbers of points differ\n\n{:<44}{:>10}{:>8}{:>12}{:>12}",
-        "", "points", "ratio", "ns above", "ns below"
-    );
-    for Choice { name, points: [above, below], ratio, nanoseconds: [first, second] } in choices {
+pub fn table(choices: &[Choice]) -> String {
+    let cells = |Choice { name, points: [above, below], ratio, nanoseconds: [first, second] }: &Choice| {
         let points = if above == below { above.to_string() } else { format!("{above}, {below}") };
-        let _ = writeln!(text, "{name:<44}{points:>10}{ratio:>8.2}{first:>12.2}{second:>12.2}");
-    }
+        vec![name.to_string(), points, format!("{ratio:.2}"), format!("{first:.2}"), format!("{second:.2}")]
+    };
+    let rows: Vec<Vec<String>> = choices.iter().map(cells).collect();
+    let head = ["", "points", "ratio", "ns above", "ns below"];
+    let line =
+        |cells: &[&str]| format!("{:<44}{:>10}{:>8}{:>12}{:>12}\n", cells[0], cells[1], cells[2], cells[3], cells[4]);
+    let of_row = |row: &Vec<String>| line(&row.iter().map(String::as_str).collect::<Vec<_>>());
+    let table = plain_table(&head, &rows, || line(&head) + &rows.iter().map(of_row).collect::<String>());
+    format!(
+        "choices: ratios of calls in turn; nanoseconds a point, or a call where the numbers of points differ\n\n{table}"
+    )
 }

@@ -1,7 +1,6 @@
 //! `toron bench`: what a point costs here, by every way in and every set of instructions, beside what copying its numbers
 //! costs.
 
-use std::fmt::Write;
 use std::hint::black_box;
 use std::path::Path;
 use std::time::{Duration, Instant};
@@ -16,6 +15,7 @@ use super::scene::Scene;
 use crate::common::console::print;
 use crate::common::error::Error;
 use crate::common::folder;
+use crate::common::text_table::plain_table;
 use crate::entries::precision::BlockPrecision;
 use toron::Hyperelastic;
 use toron::law::block::Precision;
@@ -177,22 +177,24 @@ pub fn processor() -> String {
 }
 
 fn table(report: &Report) -> String {
-    let mut text = format!(
-        "toron {} on {}, {PRESET}\n\nnanoseconds a point, in brackets multiples of the copy limit\n\n{:<30}",
-        report.version, report.processor, "points a call"
+    let Report { version, processor, .. } = report;
+    let title = format!(
+        "toron {version} on {processor}, {PRESET}\n\nnanoseconds a point, in brackets multiples of the copy limit\n\n"
     );
-    // Writing to a string does not fail.
-    for n in report.sizes {
-        let _ = write!(text, "{n:>15}");
-    }
-    for row in &report.rows {
-        let _ = write!(text, "\n{:<30}", row.name);
-        for (time, copies) in row.nanoseconds.iter().zip(&row.copies) {
-            let cell = time.zip(*copies).map_or("–".to_string(), |(time, copies)| format!("{time:.2} ({copies:.1})"));
-            let _ = write!(text, "{cell:>15}");
-        }
-    }
-    text.push_str("\n\n");
-    choices::table(&report.choices, &mut text);
-    text
+    let head: Vec<String> =
+        std::iter::once("points a call".to_string()).chain(report.sizes.map(|n| n.to_string())).collect();
+    let cells = |row: &Row| {
+        let cell = |(time, copies): (&Option<f64>, &Option<f64>)| {
+            time.zip(*copies).map_or("–".to_string(), |(time, copies)| format!("{time:.2} ({copies:.1})"))
+        };
+        std::iter::once(row.name.clone()).chain(row.nanoseconds.iter().zip(&row.copies).map(cell)).collect()
+    };
+    let rows: Vec<Vec<String>> = report.rows.iter().map(cells).collect();
+    let line = |cells: &Vec<String>| {
+        let behind: String = cells[1..].iter().map(|cell| format!("{cell:>15}")).collect();
+        format!("{:<30}{behind}\n", cells[0])
+    };
+    let text = || line(&head) + &rows.iter().map(line).collect::<String>();
+    let titles: Vec<&str> = head.iter().map(String::as_str).collect();
+    format!("{title}{}\n{}", plain_table(&titles, &rows, text), choices::table(&report.choices))
 }

@@ -77,7 +77,7 @@ fn warning(times: &[(Level, f64)]) -> Option<String> {
     (share > SHARE).then(|| {
         format!(
             "with AVX2 a point takes {share:.2} of its time without it, where about half is usual: probably something in the law is \
-             called and not inlined. Functions need #[inline(always)], numbers no closure, map, from_fn or iterator (docs/guides/own-law.md)"
+             called and not inlined. Functions need #[inline(always)], numbers no closure, map, from_fn or iterator"
         )
     })
 }

@@ -1,5 +1,6 @@
 //! `toron cell`: from the file of a section to its energies, pictures and the file for the identification.
 
+use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::time::Instant;
@@ -13,10 +14,11 @@ use super::run::{self, Outcome};
 use super::scene::{Arrangement, Load, Scene};
 use super::solver::{self, Job};
 use super::{arrangement, explicit_run, output, picture, report};
-use crate::common::console::{print, print_error};
+use crate::common::console::{print, print_note};
 use crate::common::error::Error;
 use crate::common::folder;
 use crate::common::interrupt::Interrupt;
+use crate::common::kept_file;
 use crate::common::progress;
 use crate::common::run_directory::{RunDirectory, file_error};
 use crate::common::shell;
@@ -58,10 +60,10 @@ pub fn run(path: &Path, output: &Path, ccx: Option<&Path>, restart: bool) -> Res
             "output is the folder of the scene, whose files could be overwritten; allowed: another one, -o DIR";
         return Err(Error::Input(message.to_string()));
     }
-    let directory = RunDirectory::open(output)?;
-    // One of an earlier run would stand beside other tables.
-    directory.remove(FIT)?;
+    let _directory = RunDirectory::open(output)?;
     let fit = output.join(FIT);
+    // One of an earlier run would stand beside other tables.
+    kept_file::set_aside_if_there(&fit)?;
     let interrupt = scene.explicit.then(Interrupt::listen).transpose()?;
     let run = Run { program: program.as_deref(), scene: &scene, model: &model, output, restart, interrupt };
     let runs = run.loads();
@@ -84,7 +86,8 @@ pub fn run(path: &Path, output: &Path, ccx: Option<&Path>, restart: bool) -> Res
         let text = failures.iter().map(Error::to_string).collect::<Vec<_>>().join("\n");
         return Err(if matches!(first, Error::Input(_)) { Error::Input(text) } else { Error::Evaluation(text) });
     }
-    output::write(&fit, &output::fit_file(&scene, &model, &outcomes))?;
+    let text = output::fit_file(&scene, &model, &outcomes);
+    kept_file::write(&fit, |file| file.write_all(text.as_bytes()))?;
     Ok(fit)
 }
 
@@ -119,7 +122,7 @@ impl Run<'_> {
                 if bar.is_hidden() && part >= f64::from(lines + 1) / LINES {
                     lines = (part * LINES) as u32;
                     let seconds = start.elapsed().as_secs();
-                    print_error(&format!("{}: {:.0} % of the load, {seconds} s\n", load.name(), 100.0 * part));
+                    print_note(&format!("{}: {:.0} % of the load, {seconds} s\n", load.name(), 100.0 * part));
                 }
                 if let Ok(mut done) = done.lock() {
                     done[number] = part;
@@ -168,7 +171,7 @@ impl Run<'_> {
         let section = explicit_run::Section::new(self.scene, self.model, load);
         let mut observer = LoadObserver { checkpoint: &place, interrupt: self.interrupt.as_ref(), progress };
         let mut outcome = struck::run::run(&section, found.as_deref().filter(|_| self.restart), &mut observer)?;
-        if outcome.end != End::Interrupted && checkpoint::build().is_ok() {
+        if outcome.end != End::Interrupted {
             place.write(&checkpoint::of_outcome(&section, &mut outcome)?)?;
         }
         section.outcome(outcome)

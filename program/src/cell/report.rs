@@ -3,12 +3,17 @@
 use std::fmt::Write;
 use std::path::Path;
 
+use super::energies::Increment;
 use super::model::Model;
 use super::output::volume_fraction;
 use super::run::{Outcome, Shares};
 use super::scene::{Arrangement, Load, Packing, Scene};
+use crate::common::text_table::{Column, or_dash, table};
 use crate::common::units::{number, unit};
 use toron::law::parameters::STRESS;
+
+/// Columns of a terminal.
+const WIDTH: usize = 100;
 
 /// The springs that hold free fibres may store this part of the fibres' energy, or they bear the load with them.
 pub const LARGEST_SPRINGS: f64 = 1e-3;
@@ -20,7 +25,7 @@ pub const LARGEST_KINETIC: f64 = 0.02;
 pub fn report(scene: &Scene, model: &Model, outcomes: &[Outcome], output: &Path) -> String {
     let mut text = format!("{}\n\n", scene.title);
     areas(&mut text, scene, model);
-    energies(&mut text, scene, outcomes);
+    let _ = writeln!(text, "\n{}", energies(scene, outcomes));
     for outcome in outcomes {
         if let Some(increments) = outcome.refined {
             let _ = writeln!(
@@ -120,26 +125,23 @@ fn areas(text: &mut String, scene: &Scene, model: &Model) {
 }
 
 /// The last increment of each load.
-fn energies(text: &mut String, scene: &Scene, outcomes: &[Outcome]) {
+fn energies(scene: &Scene, outcomes: &[Outcome]) -> String {
     let stress = unit(&scene.units, STRESS);
     let boxed = matches!(scene.arrangement, Arrangement::Box(_)) && !scene.arrangement.is_random();
-    let whole = if boxed { format!("  {:>12}", "whole box") } else { String::new() };
-    let _ = writeln!(text, "\n  {:<12}  {:>8}  {:>8}  {:>12}{whole}  {:>6}", "load", "I_tc", "I_td", "energy", "run");
-    let below = if boxed { format!("  {stress:>12}") } else { String::new() };
-    let _ = writeln!(text, "  {:<12}  {:>8}  {:>8}  {stress:>12}{below}  {:>6}", "", "", "", "s");
-    for outcome in outcomes {
-        let Some(last) = outcome.increments.last() else { continue };
-        let [i_tc, i_td] = last.invariants;
-        let whole = if boxed { format!("  {:>12}", number(last.whole)) } else { String::new() };
-        let _ = writeln!(
-            text,
-            "  {:<12}  {i_tc:>8.4}  {i_td:>8.4}  {:>12}{whole}  {:>6.1}",
-            outcome.load.name(),
-            number(last.energy),
-            outcome.elapsed.as_secs_f64()
-        );
-    }
-    text.push('\n');
+    let last: Vec<_> = outcomes.iter().filter_map(|outcome| Some((outcome, outcome.increments.last()?))).collect();
+    let column = |above: &str, below: &str, entry: &dyn Fn(&Outcome, &Increment) -> String| Column {
+        heading: [above.to_string(), below.to_string()],
+        entries: last.iter().map(|(outcome, increment)| entry(outcome, increment)).collect(),
+    };
+    let columns = vec![
+        column("load", "", &|outcome, _| outcome.load.name().to_string()),
+        column("I_tc", "-", &|_, last| format!("{:.4}", last.invariants[0])),
+        column("I_td", "-", &|_, last| format!("{:.4}", last.invariants[1])),
+        column("energy", &stress, &|_, last| number(last.energy)),
+        column("whole box", &stress, &|_, last| or_dash(boxed.then_some(last.whole), number)),
+        column("run", "s", &|outcome, _| format!("{:.1}", outcome.elapsed.as_secs_f64())),
+    ];
+    table(columns, WIDTH)
 }
 
 /// The largest part of the fibres' energy that the springs have, from the load's middle on: before, there is hardly any.

@@ -32,7 +32,7 @@ pub struct Arguments {
     /// The library of the same VUMAT for single precision, where FILE is a library.
     #[arg(long, requires = "file")]
     single: Option<PathBuf>,
-    /// Properties, states and traits (see docs/guides/check.md); without it, FILE's name with .toml if that is there.
+    /// Properties, states and traits, a TOML file; without it, FILE's name with .toml if that is there.
     #[arg(long)]
     scene: Option<PathBuf>,
     /// PROPS.

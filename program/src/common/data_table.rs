@@ -49,11 +49,10 @@ impl DataTable {
     pub fn read(path: &Path) -> Result<DataTable, Error> {
         let name = path.display().to_string();
         let bytes = std::fs::read(path).map_err(|error| Error::Input(format!("{name}: {error}")))?;
-        let text = String::from_utf8(bytes).map_err(|error| {
-            let before = &error.as_bytes()[..error.utf8_error().valid_up_to()];
-            let line = 1 + before.iter().filter(|&&byte| byte == b'\n').count();
-            Error::Input(format!("{name}:{line}: a character in another encoding; allowed: a file in UTF-8"))
-        })?;
+        let is_control = |c: char| c.is_control() && !c.is_whitespace();
+        let text = decoded(&bytes)
+            .filter(|text| !text.contains(is_control))
+            .ok_or_else(|| Error::Input(format!("{name}: no text; allowed: a CSV file in UTF-8, UTF-16 or Latin-1")))?;
         DataTable::parse(&name, &text)
     }
 
@@ -64,26 +63,30 @@ impl DataTable {
     pub fn parse(name: &str, text: &str) -> Result<DataTable, Error> {
         let text = text.trim_start_matches('\u{feff}').replace("\r\n", "\n").replace('\r', "\n");
         let numbered = text.lines().enumerate().map(|(i, line)| (i + 1, line));
-        let mut lines = numbered.filter(|(_, line)| !line.trim().is_empty() && !line.starts_with('#'));
-        let Some((header, first)) = lines.next() else {
+        let lines = numbered.filter(|(_, line)| !line.trim().is_empty() && !line.starts_with('#'));
+        let lines: Vec<(usize, &str)> = lines.collect();
+        // Excel's line, which says how cells are separated.
+        let separator = lines.first().and_then(|(_, line)| line.trim().strip_prefix("sep=")?.bytes().next());
+        let lines = &lines[usize::from(separator.is_some())..];
+        // Above the header machines write what was tested.
+        let header = (0..lines.len()).find_map(|i| Some((i, header(&lines[i..], separator)?)));
+        let Some(&(line, first)) = lines.get(header.as_ref().map_or(0, |(place, _)| *place)) else {
             return Err(Error::Input(format!("{name}:1:1: no header; allowed: columns as in \"{EXAMPLE}\"")));
         };
-        let semicolons = first.contains(';') && !first.contains(',');
-        let tabs = first.contains('\t') && !first.contains([',', ';']);
-        let delimiter = if tabs {
-            b'\t'
-        } else if semicolons {
-            b';'
-        } else {
-            b','
+        let delimiter = separator.unwrap_or_else(|| delimiter(first));
+        let (mut headings, data) = match header {
+            Some((place, Header { headings, lines: used })) => (headings, &lines[place + used..]),
+            None => (cells(first, delimiter), &lines[1..]),
         };
-        let mut table = DataTable { name: name.to_string(), columns: Vec::new(), header };
-        table.read_header(&cells(first, delimiter))?;
-        let rows: Vec<(usize, Vec<String>)> = lines.map(|(line, text)| (line, cells(text, delimiter))).collect();
+        let mut rows: Vec<(usize, Vec<String>)> =
+            data.iter().map(|(line, text)| (*line, cells(text, delimiter))).collect();
+        drop_empty_columns(&mut headings, &mut rows);
+        let mut table = DataTable { name: name.to_string(), columns: Vec::new(), header: line };
+        table.read_header(&headings)?;
         if rows.is_empty() {
-            return Err(table.error(header, 1, "no line of data follows the header; allowed: one at least"));
+            return Err(table.error(line, 1, "no line of data follows the header; allowed: one at least"));
         }
-        let comma = (semicolons || tabs) && rows.iter().any(|(_, row)| row.iter().any(|cell| cell.contains(',')));
+        let comma = delimiter != b',' && rows.iter().any(|(_, row)| row.iter().any(|cell| cell.contains(',')));
         for (line, row) in &rows {
             table.read_row(*line, row, if comma { ',' } else { '.' })?;
         }
@@ -168,6 +171,80 @@ impl DataTable {
     }
 }
 
+/// The text of a file in UTF-8, in UTF-16 with its mark, or else in Latin-1; none where it is in none of them.
+fn decoded(bytes: &[u8]) -> Option<String> {
+    let utf_16 = |unit: fn([u8; 2]) -> u16| {
+        let units: Vec<u16> = bytes[2..].chunks_exact(2).map(|pair| unit([pair[0], pair[1]])).collect();
+        String::from_utf16(&units).ok()
+    };
+    match (bytes, std::str::from_utf8(bytes)) {
+        ([0xff, 0xfe, ..], _) => utf_16(u16::from_le_bytes),
+        ([0xfe, 0xff, ..], _) => utf_16(u16::from_be_bytes),
+        (_, Ok(text)) => Some(text.to_string()),
+        (_, Err(_)) => Some(bytes.iter().copied().map(char::from).collect()),
+    }
+}
+
+/// How the cells of a line are separated.
+fn delimiter(line: &str) -> u8 {
+    match (line.contains(','), line.contains(';'), line.contains('\t')) {
+        (false, true, _) => b';',
+        (false, false, true) => b'\t',
+        _ => b',',
+    }
+}
+
+/// Headings with their units, and how many lines they take.
+struct Header {
+    headings: Vec<String>,
+    lines: usize,
+}
+
+/// The header that these lines begin with: names with units, or names above a line of units.
+fn header(lines: &[(usize, &str)], separator: Option<u8>) -> Option<Header> {
+    let first = lines.first()?.1;
+    let delimiter = separator.unwrap_or_else(|| delimiter(first));
+    let headings = cells(first, delimiter);
+    let names = filled(&headings);
+    let has_unit = |cell: &String| name_and_unit(cell).is_some_and(|(_, unit)| Unit::parse(unit).is_ok());
+    if !names.is_empty() && names.iter().all(has_unit) {
+        return Some(Header { headings, lines: 1 });
+    }
+    let below = cells(lines.get(1)?.1, delimiter);
+    let units = filled(&below);
+    let is_word = |cell: &String| !cell.is_empty() && cell.parse::<f64>().is_err();
+    let is_unit = |cell: &String| is_word(cell) && Unit::parse(bare(cell)).is_ok();
+    let is_header = names.len() == units.len() && names.iter().all(is_word) && units.iter().all(is_unit);
+    let with_unit = |(name, unit): (&String, &String)| format!("{name} ({})", bare(unit));
+    let headings = names.iter().zip(units).map(with_unit).chain(headings[names.len()..].iter().cloned());
+    (is_header && !names.is_empty()).then(|| Header { headings: headings.collect(), lines: 2 })
+}
+
+/// The cells without the empty ones at the end.
+fn filled(cells: &[String]) -> &[String] {
+    &cells[..cells.iter().rposition(|cell| !cell.is_empty()).map_or(0, |last| last + 1)]
+}
+
+/// A unit without the brackets around it.
+fn bare(unit: &str) -> &str {
+    let within = |open, close| unit.strip_prefix(open)?.strip_suffix(close);
+    within('[', ']').or_else(|| within('(', ')')).unwrap_or(unit)
+}
+
+/// Machines end lines with a separator: a last column without a heading and without cells is none.
+fn drop_empty_columns(headings: &mut Vec<String>, rows: &mut [(usize, Vec<String>)]) {
+    let is_empty = |row: &Vec<String>, column: usize| row.get(column).is_none_or(String::is_empty);
+    while headings.last().is_some_and(String::is_empty) && rows.iter().all(|(_, row)| is_empty(row, headings.len() - 1))
+    {
+        headings.pop();
+    }
+    for (_, row) in rows {
+        while row.len() > headings.len() && row.last().is_some_and(String::is_empty) {
+            row.pop();
+        }
+    }
+}
+
 const EXAMPLE: &str = "displacement (mm), force (N)";
 
 /// The cells of a line, without the blanks around them. A line has no line break in quotes: its number would be wrong.
@@ -179,12 +256,12 @@ fn cells(line: &str, delimiter: u8) -> Vec<String> {
     record.and_then(Result::ok).map_or_else(Vec::new, |record| record.iter().map(str::to_string).collect())
 }
 
-/// The name and the unit of a heading, `name (unit)` or `name [unit]`; the unit may have parentheses of its own.
+/// The name and the unit of a heading, `name (unit)`, `name [unit]` or `name / unit`; the unit may have parentheses of its own.
 fn name_and_unit(heading: &str) -> Option<(&str, &str)> {
     let (open, close) = match heading.chars().next_back()? {
         ')' => ('(', ')'),
         ']' => ('[', ']'),
-        _ => return None,
+        _ => return heading.split_once(" / ").filter(|(name, _)| !name.is_empty()),
     };
     let mut depth = 0;
     let start = heading.char_indices().rev().find_map(|(i, character)| {
@@ -255,6 +332,46 @@ mod tests {
         assert_eq!(values(&parse("strain (%);force (kN)\n1.5;2.0"), "strain"), [1.5]);
         // A comma in the header makes it the separator.
         assert!(rejected("strain (%),a;b (N)\n1,5;2\n").contains("the cell is \"5;2\""));
+    }
+
+    /// What machines write besides names, units and numbers.
+    #[test]
+    fn forms_that_machines_export_are_one_table() {
+        let rows = "0.2,7.5\n0.4,13.9\n";
+        let semicolons = rows.replace(',', ";").replace('.', ",");
+        for text in [
+            format!("strain (%),force (N)\n{rows}"),
+            format!("strain / %,force / N\n{rows}"),
+            format!("sep=,\nstrain (%),force (N)\n{rows}"),
+            format!("sep=;\nstrain (%);force (N)\n{semicolons}"),
+            format!("Zwick testXpert II\nSpecimen: 1\nDate: 2026-11-27\n\nstrain (%),force (N)\n{rows}"),
+            format!("strain (%),force (N),\n{}", rows.replace('\n', ",\n")),
+            format!("strain (%),force (N)\n{}", rows.replace('\n', ",,\n")),
+            format!("strain,force\n%,N\n{rows}"),
+            format!("Specimen 1\nstrain;force;\n[%];[N];\n{semicolons}"),
+        ] {
+            let table = parse(&text);
+            assert_eq!(
+                (values(&table, "strain"), values(&table, "force")),
+                (vec![0.2, 0.4], vec![7.5, 13.9]),
+                "{text}"
+            );
+            assert_eq!(table.column("force").expect("a column").unit.text, "N");
+        }
+        let text = "strain (%),Prüfkraft (N)\n0.2,7.5\n";
+        let utf_16 = |mark: [u8; 2], bytes: fn(u16) -> [u8; 2]| {
+            mark.into_iter().chain(text.encode_utf16().flat_map(bytes)).collect::<Vec<u8>>()
+        };
+        let latin = text.chars().map(|c| c as u8).collect();
+        let all = [
+            text.as_bytes().to_vec(),
+            latin,
+            utf_16([0xff, 0xfe], u16::to_le_bytes),
+            utf_16([0xfe, 0xff], u16::to_be_bytes),
+        ];
+        for bytes in all {
+            assert_eq!(decoded(&bytes).map(|text| parse(&text).columns[1].name.clone()).as_deref(), Some("Prüfkraft"));
+        }
     }
 
     #[test]
@@ -338,10 +455,13 @@ mod tests {
         std::fs::create_dir_all(&folder).expect("a folder");
         let path = folder.join("latin.csv");
         std::fs::write(&path, b"a (mm)\nb (\xb5m)\n").expect("a file");
-        let latin = DataTable::read(&path).expect_err("it is not UTF-8").to_string();
+        let latin = DataTable::read(&path).expect_err("no number").to_string();
+        std::fs::write(&path, b"PK\x03\x04").expect("a file");
+        let binary = DataTable::read(&path).expect_err("no text").to_string();
         let missing = DataTable::read(&folder.join("none.csv")).expect_err("there is none").to_string();
         std::fs::remove_dir_all(&folder).expect("the folder can go");
-        assert!(latin.ends_with("latin.csv:2: a character in another encoding; allowed: a file in UTF-8"), "{latin}");
+        assert!(latin.contains("latin.csv:2:1: column \"a\": the cell is \"b (µm)\""), "{latin}");
+        assert!(binary.ends_with("latin.csv: no text; allowed: a CSV file in UTF-8, UTF-16 or Latin-1"), "{binary}");
         assert!(missing.contains("none.csv: "), "{missing}");
     }
 

@@ -2,6 +2,7 @@
 //! measured data, numbers of chance, roots, the level of intervals.
 
 pub mod bound_child;
+pub mod build;
 pub mod chance;
 pub mod confidence;
 pub mod console;
@@ -9,6 +10,8 @@ pub mod data_table;
 pub mod error;
 pub mod folder;
 pub mod interrupt;
+pub mod kept_file;
+pub mod nearest;
 pub mod progress;
 pub mod root;
 pub mod run_directory;

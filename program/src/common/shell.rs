@@ -3,7 +3,7 @@
 use std::path::Path;
 
 /// The words as a shell takes them: one with blanks or signs of the shell in quotes.
-fn command(words: &[String]) -> String {
+pub fn command(words: &[String]) -> String {
     words.iter().map(|text| word(text)).collect::<Vec<_>>().join(" ")
 }
 

@@ -1,7 +1,8 @@
-//! Tables: for a terminal, whose columns have two lines of heading, and as CSV.
+//! Tables: for a terminal, whose columns have two lines of heading, or as JSON in their place; and as CSV.
 
 use std::path::Path;
 
+use super::console::{is_json, table_record, value_record};
 use super::error::Error;
 
 /// The entry of a column that does not apply to a line.
@@ -32,9 +33,9 @@ pub fn or_dash(value: Option<f64>, text: impl Fn(f64) -> String) -> String {
     value.map_or(NONE.to_string(), text)
 }
 
-/// A name of at most so many letters, cut if it is longer.
+/// A name of at most so many letters on a terminal, cut if it is longer.
 pub fn shortened(name: &str, longest: usize) -> String {
-    if name.chars().count() <= longest {
+    if is_json() || name.chars().count() <= longest {
         name.to_string()
     } else {
         name.chars().take(longest - 1).chain(['…']).collect()
@@ -45,6 +46,9 @@ pub fn shortened(name: &str, longest: usize) -> String {
 /// left of their column, numbers on the right.
 pub fn table(columns: Vec<Column>, widest: usize) -> String {
     let mut columns: Vec<Column> = columns.into_iter().filter(Column::applies).collect();
+    if is_json() {
+        return if columns.is_empty() { String::new() } else { table_record(&columns) };
+    }
     let width = |columns: &[Column]| columns.iter().map(|column| column.width() + GAP.len()).sum::<usize>() - GAP.len();
     while columns.len() > FEWEST && width(&columns) > widest {
         columns.pop();
@@ -62,6 +66,23 @@ pub fn table(columns: Vec<Column>, widest: usize) -> String {
     text.push_str(&line(&|column| "-".repeat(column.width())));
     text.extend((0..lines).map(|i| line(&|column| column.entries[i].clone())));
     text
+}
+
+/// A table of a heading of one line, and rows of cells; `text` lays it out for a terminal.
+pub fn plain_table(head: &[&str], rows: &[Vec<String>], text: impl FnOnce() -> String) -> String {
+    if !is_json() {
+        return text();
+    }
+    let column = |(place, title): (usize, &&str)| Column {
+        heading: [title.to_string(), String::new()],
+        entries: rows.iter().map(|row| row.get(place).map_or(NONE.to_string(), String::clone)).collect(),
+    };
+    table_record(&head.iter().enumerate().map(column).collect::<Vec<_>>())
+}
+
+/// A line of names and values below one another, on a terminal after two blanks and a name of so many columns.
+pub fn value_line(name: &str, width: usize, value: &str) -> String {
+    if is_json() { value_record(name, value) } else { format!("  {name:<width$} {value}\n") }
 }
 
 /// The text in lines of at most so many letters, where its words allow it; lines after the first are indented.

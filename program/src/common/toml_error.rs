@@ -5,12 +5,24 @@ use std::ops::Range;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
+use super::nearest;
+
 /// A value of more characters is cut.
 const LONGEST: usize = 40;
 
 /// The message for an error: `layers is "many"; allowed: a whole number`, or the parser's own where no value is wrong.
 pub fn message(text: &str, error: &toml::de::Error) -> String {
-    explained(text, error).unwrap_or_else(|| error.message().trim_end().to_string())
+    explained(text, error).unwrap_or_else(|| with_hint(error.message().trim_end()))
+}
+
+/// The message, with what an unknown key may have been meant to be: `unknown field `sped`, did you mean speed? expected one of …`.
+fn with_hint(message: &str) -> String {
+    let parts = || {
+        let (name, expected) = message.strip_prefix("unknown field `")?.split_once("`, ")?;
+        let hint = nearest::hint(name, expected.split('`').skip(1).step_by(2));
+        (!hint.is_empty()).then(|| format!("unknown field `{name}`{hint} {expected}"))
+    };
+    parts().unwrap_or_else(|| message.to_string())
 }
 
 fn explained(text: &str, error: &toml::de::Error) -> Option<String> {

@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 use std::path::Path;
+use std::sync::OnceLock;
 
 use serde::de::{DeserializeOwned, Error as _};
 use serde::{Deserialize, Deserializer};
@@ -146,11 +147,21 @@ pub fn same_files(one: &str, other: &str, pictures: &str) -> bool {
     one.eq_ignore_ascii_case(other) || picture_of(one, other) || picture_of(other, one)
 }
 
+/// Where a file is named by this, the standard input is read.
+const STANDARD_INPUT: &str = "-";
+
 /// The name of a file for messages, and its text.
 ///
 /// # Errors
 /// It cannot be read.
 pub fn read(path: &Path) -> Result<(String, String), Error> {
+    if path == Path::new(STANDARD_INPUT) {
+        // Once, for who reads a file twice.
+        static TEXT: OnceLock<Result<String, String>> = OnceLock::new();
+        let text = TEXT.get_or_init(|| std::io::read_to_string(std::io::stdin()).map_err(|error| error.to_string()));
+        let name = "standard input".to_string();
+        return text.clone().map_err(|error| Error::Input(format!("{name}: {error}"))).map(|text| (name, text));
+    }
     let name = path.display().to_string();
     let text = std::fs::read_to_string(path).map_err(|error| Error::Input(format!("{name}: {error}")))?;
     Ok((name, text))

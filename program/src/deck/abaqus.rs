@@ -60,7 +60,7 @@ pub fn card(material: &Material, solver: Solver) -> Result<String, Error> {
 }
 
 pub fn comments(material: &Material) -> String {
-    material.comments().map(|comment| format!("** {comment}\n")).concat()
+    material.comments().iter().map(|comment| format!("** {comment}\n")).collect()
 }
 
 /// The material's name, behind that of its law where Abaqus finds the law by it.

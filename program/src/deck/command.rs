@@ -13,6 +13,7 @@ use super::openradioss::{Choice, FibreFrom};
 use super::{calculix, mtest, openradioss};
 use crate::common::console::{print, print_error};
 use crate::common::error::Error;
+use crate::common::toml_file;
 use crate::material::laws::{LawName, Laws};
 use crate::material::preset::Preset;
 
@@ -33,11 +34,11 @@ pub struct Arguments {
     /// The solver.
     #[arg(long, value_enum)]
     host: Host,
-    /// The yarn: a preset by name (`toron params` lists them), or a file of your own, as my-yarn.toml (see
-    /// docs/guides/load-paths.md); without it, the first built-in one of the law.
+    /// The yarn: a preset by name (`toron params` lists them), or a file of your own, as my-yarn.toml (`toron fit` and `toron init
+    /// path` write one); without it, the first built-in one of the law.
     #[arg(long)]
     preset: Option<String>,
-    /// The yarn's file, whatever its name ends in: what --preset takes, and `toron fit` writes.
+    /// The yarn's file, whatever its name ends in: what --preset takes, and `toron fit` writes; - is the standard input.
     #[arg(long, value_name = "FILE", conflicts_with = "preset")]
     properties: Option<PathBuf>,
     /// hyperelastic or linear-elastic: which built-in preset to take, or what law that of --preset must be of.
@@ -166,9 +167,8 @@ fn preset(laws: Laws, arguments: &Arguments, law: Option<LawName>) -> Result<Pre
             Preset::find(laws, name, Path::new(""), |message| Error::Input(format!("--preset: {message}")))?
         }
         (None, Some(path)) => {
-            let file = path.display().to_string();
-            let text = std::fs::read_to_string(path)
-                .map_err(|reason| Error::Input(format!("--properties {file}: it cannot be read: {reason}")))?;
+            let (file, text) =
+                toml_file::read(path).map_err(|reason| Error::Input(format!("--properties {reason}")))?;
             Preset::parse(laws, &file, &text)?
         }
         (None, None) => {

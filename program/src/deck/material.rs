@@ -13,7 +13,7 @@ use crate::common::units::unit;
 use crate::material::fibre_wave::FibreWave;
 use crate::material::laws::LawName;
 use crate::material::model::{self, Law};
-use crate::material::preset::Preset;
+use crate::material::preset::{Guesses, Preset};
 
 /// The columns of a number in cards that have room enough: twelve digits.
 pub const WIDE: usize = 19;
@@ -26,6 +26,7 @@ pub struct Material {
     place: String,
     /// Where the values come from, on one line.
     source: String,
+    guesses: Guesses,
     units: UnitSystem,
     pub law: LawName,
     bulk_and_shear: [f64; 2],
@@ -50,12 +51,13 @@ impl Material {
             toron::Error::Direction { .. } if fibre.is_some() => Error::Input(format!("--fibre: {error}")),
             error => preset.law_error(&error),
         })?;
-        let (name, source) = (preset.name.clone(), preset.source.clone());
+        let (name, source, guesses) = (preset.name.clone(), preset.source.clone(), preset.guesses.clone());
         let place = preset.file().unwrap_or(&name).to_string();
         let (law, density) = (preset.law, preset.density_in(units));
         let bulk_and_shear = prepared.bulk_and_shear();
         let (frame, criterion) = (Rotation::Fibre, Criterion::LargestPrincipal);
-        Ok(Material { name, place, source, units: *units, law, bulk_and_shear, values, density, frame, criterion })
+        let units = *units;
+        Ok(Material { name, place, source, guesses, units, law, bulk_and_shear, values, density, frame, criterion })
     }
 
     /// A scene's material, whose values are in the units `from`.
@@ -72,10 +74,16 @@ impl Material {
             Law::LinearElastic { frame, criterion, .. } => (frame, criterion),
             Law::Hyperelastic { .. } | Law::Own(_) => (Rotation::Fibre, Criterion::LargestPrincipal),
         };
+        let source = match (material.origin.source.as_str(), material.own.as_str()) {
+            ("", _) => material.name(),
+            (source, "") => source.to_string(),
+            (source, own) => format!("{source}; {own}"),
+        };
         Ok(Material {
             name: material.label.clone(),
             place: material.label.clone(),
-            source: material.name(),
+            source,
+            guesses: material.origin.guesses.clone(),
             units: *units,
             law: law.name(),
             bulk_and_shear: law.bulk_and_shear(),
@@ -140,17 +148,20 @@ impl Material {
         self.values[second.clone()].iter().any(|&x| x != 0.0).then_some(second)
     }
 
-    /// What the card is, where its values come from, and their units.
-    pub fn comments(&self) -> [String; 3] {
+    /// What the card is, where its values come from, which of them are guesses, and their units.
+    pub fn comments(&self) -> Vec<String> {
         let stresses = self.table().iter().filter(|property| property.dimension == STRESS);
         let names: Vec<&str> = stresses.map(|property| property.name).collect();
         let [length, mass, time] = self.units.names().map(ascii);
         let (title, stress, density) = (self.law.description().title, self.unit(STRESS), self.unit(DENSITY));
-        [
-            format!("{}: {}", self.name, self.source),
+        let guesses =
+            self.guesses.text(self.law).map(|guesses| format!("guesses, not measured on this yarn: {guesses}"));
+        let source = [format!("{}: {}", self.name, self.source)].into_iter().chain(guesses);
+        let of_units = [
             format!("toron, {title}, in {length}, {mass}, {time}"),
             format!("{} in {stress}, density in {density}, all others are numbers", names.join(", ")),
-        ]
+        ];
+        source.map(|text| ascii(&text)).chain(of_units).collect()
     }
 
     /// The unit of a value, in ASCII; empty for a number.

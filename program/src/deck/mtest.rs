@@ -7,7 +7,7 @@ use super::material::{Material, WIDE};
 use crate::common::short_number::short;
 
 pub fn card(material: &Material) -> String {
-    let mut card = material.comments().map(|comment| format!("// {comment}\n")).concat();
+    let mut card = material.comments().iter().map(|comment| format!("// {comment}\n")).collect::<String>();
     let Interface { library, behaviour, .. } = material.interface();
     let _ = writeln!(card, "@Behaviour<generic> '{library}' '{behaviour}';");
     for (property, &value) in material.table().iter().zip(&material.values) {

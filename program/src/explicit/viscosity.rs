@@ -145,7 +145,7 @@ mod tests {
     use super::*;
     use crate::explicit::medium::Control;
     use crate::explicit::stress::first_piola_kirchhoff;
-    use crate::material::model::{Law, Material};
+    use crate::material::model::{Law, Material, Origin};
     use toron::law::parameters;
     use toron::{Criterion, Rotation};
 
@@ -160,7 +160,13 @@ mod tests {
         let law =
             Law::new(preset.law.into(), preset.values, Rotation::Fibre, Criterion::LargestPrincipal).expect("valid");
         let density = preset.density;
-        let material = Material { law, density: Some(density), label: String::new(), own: String::new() };
+        let material = Material {
+            law,
+            density: Some(density),
+            label: String::new(),
+            own: String::new(),
+            origin: Origin::default(),
+        };
         Medium::new(&material, density, CONTROL).expect("valid")
     }
 

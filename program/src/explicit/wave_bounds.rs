@@ -63,6 +63,7 @@ mod tests {
 
     use super::*;
     use crate::explicit::element::{Measures, Shapes};
+    use crate::material::model::Origin;
     use toron::law::parameters;
     use toron::{Criterion, Rotation};
 
@@ -81,7 +82,13 @@ mod tests {
             }
         }
         let law = Law::new(preset.law.into(), &values, rotation, Criterion::LargestPrincipal).expect("valid");
-        Material { law, density: Some(preset.density), label: String::new(), own: String::new() }
+        Material {
+            law,
+            density: Some(preset.density),
+            label: String::new(),
+            own: String::new(),
+            origin: Origin::default(),
+        }
     }
 
     /// A and B at a deformation gradient with this stress.

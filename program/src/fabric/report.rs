@@ -6,7 +6,7 @@ use super::run::Outcome;
 use super::scene::{Case, Scene};
 use super::summary::{Figures, ending, residual_speed};
 use crate::common::text_table::{Column, NONE, files, folded, or_dash, shortened, table, yarns_of_cases};
-use crate::common::units::{LENGTH, SPEED, TIME, number, unit};
+use crate::common::units::{LENGTH, SPEED, TIME, number, one_digit, unit};
 use crate::explicit::judgement::warnings;
 use crate::strength::scatter;
 use crate::struck::report::after_failure;
@@ -69,7 +69,7 @@ fn columns(scene: &Scene, results: &Results) -> Vec<Column> {
         column("residual", &speed, &|_, outcome, figures| or_dash(residual_speed(outcome, figures), number)),
         column("at end", &speed, &|_, outcome, figures| at_end(outcome, figures)),
         column("deflection", &length, &|_, _, figures| number(figures.deflection.0)),
-        column("energy", "off by", &|_, outcome, _| format!("{:.0e}", outcome.balance.imbalance())),
+        column("energy", "off by", &|_, outcome, _| one_digit(outcome.balance.imbalance())),
         column("hourglass", "%", &|_, _, figures| format!("{:.2}", 100.0 * figures.measures.hourglass)),
         column("Jacobian", "scaled", &|_, _, figures| format!("{:.2}", figures.measures.least_scaled_jacobian)),
         column("W_ld", "%", &|_, _, figures| format!("{:.1}", 100.0 * figures.measures.shear)),

@@ -1,5 +1,6 @@
 //! `toron fibres`: from the file of a scene to what LAMMPS reads, to its runs, and to what they have come to.
 
+use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use indicatif::{ProgressBar, ProgressDrawTarget};
@@ -13,10 +14,11 @@ use super::reader::PICTURES;
 use super::run::Folder;
 use super::scene::{Case, Scene};
 use super::{picture, plot, pressed, report, summary};
-use crate::common::console::{print, print_error};
+use crate::common::console::{print, print_error, print_note};
 use crate::common::error::Error;
+use crate::common::kept_file;
 use crate::common::progress::{self, Lines};
-use crate::common::run_directory::{RunDirectory, file_error};
+use crate::common::run_directory::RunDirectory;
 use crate::impact::summary::{STRAINS, write_strains};
 
 const SUMMARY: &str = "summary.csv";
@@ -28,7 +30,7 @@ const TICKS: f64 = 1000.0;
 /// How the cases are run.
 #[derive(clap::Args)]
 pub struct Arguments {
-    /// The scene (see docs/guides/fibres.md and examples/fibre_scale/).
+    /// The scene, a TOML file (`toron init fibres` writes one); - is the standard input.
     scene: PathBuf,
     /// Where the files go.
     #[arg(short, long, default_value = "toron-out/fibres")]
@@ -75,7 +77,8 @@ pub fn run(arguments: &Arguments) -> Result<Option<PathBuf>, Error> {
         return Ok(None);
     }
     directory.remove(SUMMARY)?;
-    directory.remove(FIT)?;
+    let fit = output.join(FIT);
+    kept_file::set_aside_if_there(&fit)?;
     for case in &scene.cases {
         directory.remove_files_of(&case.name, PICTURES, Some(STRAINS), 0)?;
     }
@@ -118,8 +121,7 @@ pub fn run(arguments: &Arguments) -> Result<Option<PathBuf>, Error> {
     }
     combine(&errors)?;
     let Some(text) = pressed::output::fit_file(&scene, &pressed) else { return Ok(None) };
-    let fit = output.join(FIT);
-    std::fs::write(&fit, text).map_err(|error| file_error(&fit, &error))?;
+    kept_file::write(&fit, |file| file.write_all(text.as_bytes()))?;
     Ok(Some(fit))
 }
 
@@ -156,7 +158,7 @@ impl Observer<'_> {
     fn progress(&mut self, part: f64) {
         self.bar.set_position((TICKS * (self.number as f64 + part)) as u64);
         if self.bar.is_hidden() && self.lines.are_due(part) {
-            print_error(&format!("{}: {:.0} %\n", self.case.name, 100.0 * part));
+            print_note(&format!("{}: {:.0} %\n", self.case.name, 100.0 * part));
         }
     }
 }

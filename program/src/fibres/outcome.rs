@@ -140,11 +140,18 @@ impl Outcome {
         ((last.speed - before.speed).abs() < STEADY * striking).then_some(last.speed)
     }
 
+    /// What friction of fibres has taken, and friction at the projectile; none where nothing rubs, and the remainder is what the balance
+    /// is off by.
+    pub fn frictions(&self) -> [Option<f64>; 2] {
+        let at_projectile = matches!(self.model.striker, Striking::Cylinder { friction, .. } if friction > 0.0);
+        let Sample { friction_fibres, friction_projectile, .. } = self.last();
+        [(self.model.friction > 0.0).then_some(friction_fibres), at_projectile.then_some(friction_projectile)]
+    }
+
     /// How much friction seems to have given back at most, over the energy that came in: 0 but for what the step leaves of the
     /// balance. Without friction, by how much the balance is off.
     pub fn imbalance(&self) -> f64 {
-        let frictionless = self.model.friction == 0.0
-            && !matches!(self.model.striker, Striking::Cylinder { friction, .. } if friction > 0.0);
+        let frictionless = self.frictions() == [None; 2];
         let scale = self.samples.iter().fold(0.0, |most: f64, s| most.max(s.projectile).max(s.external.abs()));
         let (mut highest, mut worst): (f64, f64) = (0.0, 0.0);
         for friction in self.samples.iter().map(Sample::friction) {

@@ -8,7 +8,7 @@ use super::pressed;
 use super::scene::{Case, Scene};
 use super::summary::{cost, outcome};
 use crate::common::text_table::{Column, files, or_dash, shortened, table};
-use crate::common::units::{ENERGY, SPEED, TIME, number, unit};
+use crate::common::units::{ENERGY, SPEED, TIME, number, one_digit, unit};
 
 /// Columns of a terminal.
 const WIDTH: usize = 100;
@@ -54,7 +54,9 @@ fn struck(scene: &Scene, results: &Results) -> Vec<Column> {
         column(&cases, ["torn at", &time], |_, result| or_dash(result.torn(), number)),
         column(&cases, ["residual", &speed], |_, result| or_dash(result.residual_speed(), number)),
         column(&cases, ["at end", &speed], |_, result| or_dash(at_end(result), number)),
-        column(&cases, ["friction,", &energy], |_, result| number(result.last().friction())),
+        column(&cases, ["friction,", &energy], |_, result| {
+            or_dash(result.frictions().into_iter().flatten().reduce(|one, other| one + other), number)
+        }),
     ];
     columns.extend(costs(&cases));
     columns
@@ -88,7 +90,7 @@ fn driven(scene: &Scene, results: &Results) -> Vec<Column> {
 /// The error of the energy balance, and what the run took.
 fn costs(cases: &[&(&Case, Outcome)]) -> [Column; 3] {
     [
-        column(cases, ["energy", "off by"], |_, result| format!("{:.0e}", result.imbalance())),
+        column(cases, ["energy", "off by"], |_, result| one_digit(result.imbalance())),
         column(cases, ["run", "s"], |_, result| or_dash(result.seconds, |seconds| format!("{seconds:.1}"))),
         column(cases, ["a bead and", "step, ns"], |_, result| or_dash(cost(result), |cost| format!("{cost:.0}"))),
     ]

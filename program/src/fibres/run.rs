@@ -1,5 +1,6 @@
 //! A case in a folder of its own: written, run by LAMMPS or on from where a run was killed, and read.
 
+use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::time::{Instant, SystemTime};
 
@@ -10,6 +11,7 @@ use super::lammps::{LOG, Lammps};
 use super::model::{Model, Striking};
 use crate::common::error::Error;
 use crate::common::folder;
+use crate::common::kept_file;
 use crate::common::run_directory::{file_error, is_file};
 
 /// What a run has left.
@@ -56,8 +58,7 @@ impl<'a> Folder<'a> {
         folder::create(&self.path)?;
         let gone = self.forget()?;
         for (name, text) in &self.texts {
-            let file = self.file(name);
-            std::fs::write(&file, text).map_err(|error| file_error(&file, &error))?;
+            kept_file::write(&self.file(name), |file| file.write_all(text.as_bytes()))?;
         }
         Ok(gone)
     }

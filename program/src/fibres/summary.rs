@@ -7,7 +7,7 @@ use super::outcome::Outcome;
 use super::scene::{Case, Scene};
 use crate::common::error::Error;
 use crate::common::text_table::{or_dash, write_csv};
-use crate::common::units::{LENGTH, TIME, number};
+use crate::common::units::{LENGTH, TIME, number, one_digit};
 use toron::host::units::UnitSystem;
 
 /// How a case ended, in words.
@@ -62,13 +62,14 @@ fn cells(units: &UnitSystem, case: &Case, result: &Outcome) -> Vec<(&'static str
         ]);
     }
     let most = |of: &dyn Fn(&super::outcome::Sample) -> f64| result.samples.iter().map(of).fold(0.0, f64::max);
+    let [between_fibres, at_projectile] = result.frictions();
     cells.extend([
         ("elongation_max", number(most(&|s| s.elongation))),
         ("contact_max", number(most(&|s| s.contact))),
         ("fastest_bead", number(most(&|s| s.fastest))),
-        ("friction_fibres", number(last.friction_fibres)),
-        ("friction_projectile", number(last.friction_projectile)),
-        ("imbalance", format!("{:.0e}", result.imbalance())),
+        ("friction_fibres", or_dash(between_fibres, number)),
+        ("friction_projectile", or_dash(at_projectile, number)),
+        ("imbalance", one_digit(result.imbalance())),
         ("step", number(time * model.step)),
         ("steps", model.steps.to_string()),
         ("seconds", or_dash(result.seconds, |seconds| format!("{seconds:.1}"))),

@@ -1,5 +1,6 @@
 //! `toron fit`: from the file of a fit to its preset, tables, plot and summary.
 
+use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use super::file::Job;
@@ -8,6 +9,7 @@ use super::{output, plot, region, report, strength, worth};
 use crate::common::console::print;
 use crate::common::error::Error;
 use crate::common::folder;
+use crate::common::kept_file;
 use crate::impact::scene::Scene;
 
 /// Fits the parameters to the data of a file and writes what came of it to the directory `output`; with a scene, also what it
@@ -26,8 +28,7 @@ pub fn run(path: &Path, output: &Path, scene: Option<&Path>) -> Result<(), Error
     require_new(&job.inputs, output, &files)?;
     folder::create(output)?;
     let file = output.join(&files[0]);
-    std::fs::write(&file, output::preset(&job, &fit))
-        .map_err(|error| Error::Input(format!("{}: {error}", file.display())))?;
+    kept_file::write(&file, |file| file.write_all(output::preset(&job, &fit).as_bytes()))?;
     output::write_parameters(&output.join(PARAMETERS), &job, &fit)?;
     for (set, fitted) in job.problem.sets.iter().zip(&fit.sets) {
         output::write_set(&output.join(of_set(&set.name)), set, fitted)?;

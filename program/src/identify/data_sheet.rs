@@ -20,14 +20,14 @@ const AREA: Dimension = Dimension { mass: 0, length: 2, time: 0, name: "area" };
 const LINEAR: std::ops::RangeInclusive<f64> = 0.7..=1.3;
 
 /// What fibres have, in SI units, with a margin: a value beyond is in another unit than it says, or of something else.
-struct Known {
-    range: [f64; 2],
-    text: &'static str,
+pub(super) struct Known {
+    pub range: [f64; 2],
+    pub text: &'static str,
 }
 
 /// Polypropylene 900 kg/m³, steel 7900; polyamide 2 GPa, pitch carbon 900; wool 0.15 GPa, carbon 7.
 const DENSITIES: Known = Known { range: [800.0, 9000.0], text: "0.8 to 9 g/cm³, as fibres have" };
-const MODULI: Known = Known { range: [5e8, 1e12], text: "0.5 to 1000 GPa, as fibres have" };
+pub(super) const MODULI: Known = Known { range: [5e8, 1e12], text: "0.5 to 1000 GPa, as fibres have" };
 const STRENGTHS: Known = Known { range: [5e7, 1.2e10], text: "0.05 to 12 GPa, as fibres have" };
 /// Of one of several filaments: microfibres have 3 µm, coarse ones 50.
 const DIAMETERS: Known = Known { range: [1e-6, 1e-4], text: "filaments of 1 to 100 µm" };

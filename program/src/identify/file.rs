@@ -15,7 +15,8 @@ use super::parameter::{ALL, PARAMETERS, Parameter, Values};
 use super::reader::{Reader, plain_name};
 use super::strength::file::SetFile;
 use crate::common::error::Error;
-use crate::common::toml_file::{Numbers, Source};
+use crate::common::nearest;
+use crate::common::toml_file::{self, Numbers, Source};
 use crate::material::laws::{LawName, Laws};
 use crate::material::preset::{LONGEST_NAME, Preset};
 use toron::host::units::UnitSystem;
@@ -137,8 +138,7 @@ impl Job {
     /// # Errors
     /// An input error that names file, line and what is allowed.
     pub fn read(path: &Path) -> Result<Job, Error> {
-        let name = path.display().to_string();
-        let text = std::fs::read_to_string(path).map_err(|error| Error::Input(format!("{name}: {error}")))?;
+        let (name, text) = toml_file::read(path)?;
         let source = Source { name: &name, text: &text };
         let file: FitFile = source.parse()?;
         let units = source.units(&file.units)?;
@@ -289,7 +289,8 @@ impl Source<'_> {
     fn property(&self, name: &str, span: Range<usize>) -> Result<usize, Error> {
         HYPERELASTIC.iter().position(|property| property.name == name).ok_or_else(|| {
             let known: Vec<&str> = HYPERELASTIC.iter().map(|property| property.name).collect();
-            self.error(span, &format!("property \"{name}\"; allowed: {}", known.join(" ")))
+            let hint = nearest::hint(name, known.iter().copied());
+            self.error(span, &format!("property \"{name}\"{hint}; allowed: {}", known.join(" ")))
         })
     }
 }

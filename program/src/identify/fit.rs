@@ -47,6 +47,16 @@ pub struct Fit {
     pub untold: Vec<(String, Parameter)>,
 }
 
+impl Fit {
+    /// Whether the base preset gives a parameter, since neither the data nor the file do.
+    pub fn is_of_base(&self, problem: &Problem, parameter: Parameter) -> bool {
+        let index = parameter.index();
+        let is_told =
+            problem.known[index].is_some() || self.groups.iter().any(|group| group.parameters.contains(&parameter));
+        !is_told && problem.fallback[index].is_some()
+    }
+}
+
 /// How the law meets a set.
 #[derive(Clone, Debug)]
 pub struct SetFit {

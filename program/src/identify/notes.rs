@@ -1,10 +1,13 @@
 //! What a user has to know of a fit besides its numbers.
 
 use super::data::DataSet;
+use super::data_sheet::MODULI;
 use super::fit::{Fit, Problem, SetFit};
 use super::parameter::{ALL, Parameter};
+use crate::common::units::number;
 use crate::material::fibre_wave::FibreWave;
 use crate::material::laws::LawName;
+use toron::law::parameters::STRESS;
 
 /// An interval that reaches this far to one side, over the value, tells little.
 const WIDE: f64 = 0.5;
@@ -57,21 +60,31 @@ pub fn patterned(set: &DataSet, fitted: &SetFit) -> bool {
     seen && has_pattern(&order(&fitted.residuals, |i| set.distance(i)))
 }
 
-/// A wave along the fibre that no fibre has: a density or a stiffness is in other units.
+/// A wave along the fibre that no fibre has, or without a density a stiffness: something is in other units.
 fn unit_warning(problem: &Problem, fit: &Fit) -> Option<String> {
     let k_el = fit.values[Parameter::KEl.index()]?;
-    FibreWave::along(LawName::Hyperelastic, k_el, problem.density?, &problem.units)?.unit_warning(&problem.units)
+    if let Some(density) = problem.density {
+        return FibreWave::along(LawName::Hyperelastic, k_el, density, &problem.units)?.unit_warning(&problem.units);
+    }
+    let ([least, most], giga) = (MODULI.range, k_el / problem.units.from_si(1e9, STRESS));
+    (!(least..=most).contains(&(1e9 * giga))).then(|| {
+        format!(
+            "k_el is {} GPa; {}: a force, an area or a strain is most likely not in the unit that it is said to have",
+            number(giga),
+            MODULI.text
+        )
+    })
 }
 
 /// Which parameters nothing tells, and what would.
 fn open_parameters(problem: &Problem, fit: &Fit) -> Vec<String> {
-    let open = |p: &Parameter| fit.values[p.index()].is_none() && p.property().default.is_none();
-    let filled = |p: &Parameter| problem.fallback[p.index()].is_some();
     let names = |parameters: &[Parameter]| parameters.iter().map(|p| p.name()).collect::<Vec<_>>().join(", ");
-    let (filled, missing): (Vec<Parameter>, Vec<Parameter>) = ALL.into_iter().filter(open).partition(filled);
+    let (filled, others): (Vec<Parameter>, Vec<Parameter>) = ALL.into_iter().partition(|&p| fit.is_of_base(problem, p));
+    let is_open = |p: &Parameter| fit.values[p.index()].is_none() && p.property().default.is_none();
+    let missing: Vec<Parameter> = others.into_iter().filter(is_open).collect();
     let mut notes = Vec::new();
     if !filled.is_empty() {
-        notes.push(format!("the data say nothing of {}: these are the base preset's", names(&filled)));
+        notes.push(format!("the data say nothing of {}: these are guesses, the base preset's", names(&filled)));
     }
     if !missing.is_empty() {
         let alike = missing.chunk_by(|a, b| a.told_by() == b.told_by());

@@ -17,6 +17,9 @@ use toron::law::parameters::HYPERELASTIC;
 pub fn preset(job: &Job, fit: &Fit) -> String {
     let mut preset: Preset = job.preset.clone();
     let mut comments: BTreeMap<&str, String> = BTreeMap::new();
+    for parameter in ALL.into_iter().filter(|&parameter| fit.is_of_base(&job.problem, parameter)) {
+        preset.guesses.insert(parameter.name(), &origin(job, parameter.name()));
+    }
     for (index, property) in HYPERELASTIC.iter().enumerate() {
         let of_base = job.base.as_ref().and_then(|base| base.value(index, &job.units));
         if preset.values[index].is_some() {
@@ -38,8 +41,19 @@ pub fn preset(job: &Job, fit: &Fit) -> String {
             comments.insert(property.name, format!("of {}: the data do not tell it", base.name));
         }
     }
-    preset.density = preset.density.or_else(|| job.base.as_ref().and_then(|base| base.density_in(&job.units)));
+    if preset.density.is_none() {
+        preset.density = job.base.as_ref().and_then(|base| base.density_in(&job.units));
+        if preset.density.is_some() {
+            preset.guesses.insert("density", &origin(job, "density"));
+        }
+    }
     preset.to_toml(&comments)
+}
+
+/// Where a value of the base preset comes from, which may be a guess there.
+fn origin(job: &Job, name: &str) -> String {
+    let of_base = job.base.as_ref().and_then(|base| base.guesses.origin(name));
+    of_base.map_or_else(|| format!("of {}", base_name(job)), str::to_string)
 }
 
 /// A line for each parameter that has an interval: value, unit, standard error, ends, correlations.

@@ -7,6 +7,8 @@ use super::notes;
 use super::parameter::{ALL, Parameter};
 use super::ranges::{self, PARTS};
 use super::uncertainty::{self, Estimate};
+use crate::common::console::{is_json, value_record};
+use crate::common::text_table::{or_dash, plain_table};
 use crate::common::units::{number, unit};
 use toron::law::parameters::NUMBER;
 
@@ -18,9 +20,9 @@ const WIDTH: usize = 110;
 /// The parameters, their intervals, the sets and what else there is to say.
 pub fn report(job: &Job, fit: &Fit) -> String {
     let mut text = format!("{}\n", job.title);
-    for parameter in ALL {
-        text += &line(parameter.name(), &value(job, fit, parameter));
-    }
+    text += &plain_table(&PARAMETER_HEAD, &parameters(job, fit), || {
+        ALL.iter().map(|&parameter| line(parameter.name(), &value(job, fit, parameter))).collect()
+    });
     if let Some(sheet) = &job.sheet {
         text += &line("data sheet", &sheet.summary(&job.units));
         text += &sheet.warning().map_or(String::new(), |warning| line("warning", &warning));
@@ -42,6 +44,9 @@ pub fn report(job: &Job, fit: &Fit) -> String {
 
 /// A name and a text in lines that a terminal holds.
 pub fn line(name: &str, text: &str) -> String {
+    if is_json() {
+        return value_record(name, text);
+    }
     let mut lines = vec![String::new()];
     for word in text.split_whitespace() {
         let last = lines.len() - 1;
@@ -53,6 +58,22 @@ pub fn line(name: &str, text: &str) -> String {
     }
     let name = |i: usize| if i == 0 { name } else { "" };
     lines.iter().enumerate().map(|(i, text)| format!("  {:<NAMES$} {}\n", name(i), text.trim_end())).collect()
+}
+
+/// The cells of each parameter in a table that programs read.
+const PARAMETER_HEAD: [&str; 6] = ["parameter", "value", "unit", "low_95", "high_95", "said"];
+
+fn parameters(job: &Job, fit: &Fit) -> Vec<Vec<String>> {
+    let row = |parameter: Parameter| {
+        let estimate = fit.estimates.iter().find(|estimate| estimate.parameter == parameter);
+        let index = parameter.index();
+        let known = fit.values[index].or(job.problem.fallback[index]).or(parameter.property().default);
+        let numbers = [estimate.map(|e| e.value).or(known), estimate.map(|e| e.low), estimate.map(|e| e.high)];
+        let [value, low, high] = numbers.map(|number| or_dash(number, |number| number.to_string()));
+        let unit = unit(&job.units, parameter.property().dimension);
+        vec![parameter.name().to_string(), value, unit, low, high, self::value(job, fit, parameter)]
+    };
+    ALL.into_iter().map(row).collect()
 }
 
 /// A parameter's value, its interval or where it comes from.
@@ -178,8 +199,14 @@ pub fn digits(value: f64) -> String {
     format!("{value:.4e}")
 }
 
-/// Rows of cells in columns: the first one to the left, the others to the right.
+/// Rows of cells in columns, the heading first: the first column to the left, the others to the right.
 pub fn table(rows: &[Vec<String>]) -> String {
+    let Some((head, below)) = rows.split_first() else { return String::new() };
+    let head: Vec<&str> = head.iter().map(String::as_str).collect();
+    plain_table(&head, below, || aligned(rows))
+}
+
+fn aligned(rows: &[Vec<String>]) -> String {
     let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
     let width = |column: usize| rows.iter().filter_map(|row| row.get(column)).map(|cell| cell.chars().count()).max();
     let widths: Vec<usize> = (0..columns).map(|column| width(column).unwrap_or(0)).collect();

@@ -7,7 +7,7 @@ use super::outcome::Outcome;
 use super::scene::{Case, LEFT_OUT, Scene, Striker};
 use super::summary::outcome;
 use crate::common::text_table::{Column, NONE, files, or_dash, shortened, table, yarns_of_cases};
-use crate::common::units::{SPEED, TIME, number, unit};
+use crate::common::units::{SPEED, TIME, number, one_digit, unit};
 use crate::explicit::judgement::warnings;
 use crate::material::fibre_wave::FibreWave;
 use crate::strength::scatter;
@@ -138,7 +138,7 @@ fn driven(scene: &Scene, results: &Results) -> Vec<Column> {
 /// The error of the energy balance, and the time that a run took.
 fn costs(cases: &[&(&Case, Outcome)]) -> [Column; 2] {
     [
-        column(cases, ["energy", "off by"], |_, result| format!("{:.0e}", result.balance.imbalance())),
+        column(cases, ["energy", "off by"], |_, result| one_digit(result.balance.imbalance())),
         column(cases, ["run", "s"], |_, result| format!("{:.1}", result.cost.total().as_secs_f64())),
     ]
 }

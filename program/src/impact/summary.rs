@@ -7,7 +7,7 @@ use super::outcome::{End, OfYarn, Outcome};
 use super::scene::{Case, Outputs, Striker, Zones};
 use crate::common::error::Error;
 use crate::common::text_table::{NONE, or_dash, write_csv};
-use crate::common::units::{CONTACT_STIFFNESS, LENGTH, SPEED, TIME, number};
+use crate::common::units::{CONTACT_STIFFNESS, LENGTH, SPEED, TIME, number, one_digit};
 use crate::explicit::judgement::verdict;
 use crate::material::smith::Smith;
 use crate::struck::history::Column;
@@ -81,7 +81,7 @@ pub fn line(units: &UnitSystem, case: &Case, result: &Outcome) -> Cells {
         Striker::Driven => add_smith(&mut line, length, result),
     }
     let cost = result.cost;
-    line.add("imbalance", format_args!("{:.0e}", result.balance.imbalance()));
+    line.add("imbalance", one_digit(result.balance.imbalance()));
     line.add("steps", cost.steps);
     line.decimals("seconds", cost.total().as_secs_f64(), 2);
     line.decimals("ns_per_zone_cycle", result.ns_per_zone_cycle(), 1);

@@ -10,10 +10,11 @@ use indicatif::ProgressDrawTarget;
 use super::path::LoadPath;
 use super::run::{self, End, History};
 use super::{plot, report, table};
-use crate::common::console::print;
+use crate::common::console::{is_quiet, print};
 use crate::common::error::Error;
 use crate::common::folder;
 use crate::common::progress;
+use crate::common::text_table::value_line;
 use crate::material::laws::Laws;
 
 const DEMONSTRATION: &str = include_str!("../../assets/compaction-then-tension.toml");
@@ -22,7 +23,8 @@ const PROGRESS_DELAY: Duration = Duration::from_secs(1);
 
 #[derive(Args)]
 pub struct Arguments {
-    /// The load path (see docs/guides/load-paths.md); without it, a demonstration: compaction, then tension to failure.
+    /// The load path, a TOML file (`toron init path` writes one); - is the standard input. Without it, a demonstration: compaction,
+    /// then tension to failure.
     pub path: Option<PathBuf>,
     /// Where the table and the plot go.
     #[arg(short, long, default_value = "toron-out")]
@@ -55,7 +57,8 @@ pub fn run(laws: Laws, Arguments { path, output }: &Arguments) -> Result<(), Err
         let [table, svg, png] = ["increments{}.csv", "plot{}.svg", "plot{}.png"].map(|file| file.replace("{}", &name));
         table::write(&output.join(&table), &path, history)?;
         plot::write(&output.join(&svg), &output.join(&png), &path, history)?;
-        print(&format!("  {:<22} {table}, {svg}, {png} in {}\n", "written", output.display()));
+        let files = format!("{table}, {svg}, {png} in {}", output.display());
+        print(&value_line("written", report::NAMES, &files));
     }
     first_failure(&histories)
 }
@@ -67,7 +70,7 @@ fn run_with_progress(path: &LoadPath) -> Vec<History<'_>> {
     let (start, shown) = (Instant::now(), Once::new());
     let histories = run::run(path, &|| {
         bar.inc(1);
-        if !shown.is_completed() && start.elapsed() > PROGRESS_DELAY {
+        if !is_quiet() && !shown.is_completed() && start.elapsed() > PROGRESS_DELAY {
             shown.call_once(|| bar.set_draw_target(ProgressDrawTarget::stderr()));
         }
     });

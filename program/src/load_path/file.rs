@@ -14,7 +14,7 @@ use super::element::Hexahedron;
 use super::newton::COMPONENT_NAMES;
 use super::path::{LoadPath, Point, Step, Target, equal_parts};
 use crate::common::error::Error;
-use crate::common::toml_file::{Numbers, Source};
+use crate::common::toml_file::{self, Numbers, Source};
 use crate::material::file::MaterialFile;
 use crate::material::laws::Laws;
 use toron::host::units::UnitSystem;
@@ -94,8 +94,7 @@ impl LoadPath {
     /// # Errors
     /// An input error that names file, line and what was expected.
     pub fn read(laws: Laws, path: &Path) -> Result<LoadPath, Error> {
-        let name = path.display().to_string();
-        let text = std::fs::read_to_string(path).map_err(|error| Error::Input(format!("{name}: {error}")))?;
+        let (name, text) = toml_file::read(path)?;
         LoadPath::parse(laws, &name, &text)
     }
 

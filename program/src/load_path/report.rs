@@ -1,9 +1,9 @@
 //! The summary of a run on the terminal.
 
-use std::fmt::Write;
-
-use super::path::LoadPath;
+use super::newton::{COMPONENT_NAMES, COMPONENTS};
+use super::path::{LoadPath, Target};
 use super::run::{End, History, Increment};
+use crate::common::text_table::value_line;
 use crate::common::units::{ENERGY, number, unit};
 use crate::material::fibre_wave::FibreWave;
 use crate::material::model::{Law, Material};
@@ -13,6 +13,12 @@ use toron::law::state::{ENERGIES, INVARIANTS};
 /// The names of the four deformation modes.
 pub const MODE_NAMES: [&str; 4] = ["elongation", "compaction", "distortion", "shear"];
 
+/// A section of so many times its area has grown.
+const GROWN: f64 = 1.01;
+
+/// The width of the names of values.
+pub const NAMES: usize = 22;
+
 /// An energy below this fraction of the largest one is none.
 const ROUNDING: f64 = 1e-12;
 
@@ -21,8 +27,7 @@ pub fn summary(path: &LoadPath, history: &History) -> String {
     let mut text = String::new();
     let material = &history.point.material;
     let mut line = |name: &str, value: String| {
-        // Writing to a string does not fail.
-        let _ = writeln!(text, "  {name:<22} {value}");
+        text += &value_line(name, NAMES, &value);
     };
     line("law", law(material));
     let wave = FibreWave::of(material, &path.units);
@@ -39,6 +44,9 @@ pub fn summary(path: &LoadPath, history: &History) -> String {
     }
     for (name, value) in failure(path, history) {
         line(name, value);
+    }
+    if let Some(text) = grown_section(path, history) {
+        line("section", text);
     }
     if let Some(last) = history.increments.last() {
         let unit = unit(&path.units, ENERGY);
@@ -69,6 +77,29 @@ pub fn summary(path: &LoadPath, history: &History) -> String {
         }
     }
     text
+}
+
+/// What is to be said of a section that has grown where its sides are free: Newton's method has found one of many equilibria.
+fn grown_section(path: &LoadPath, history: &History) -> Option<String> {
+    let (material, last) = (&history.point.material, history.increments.last()?);
+    let area = last.f.determinant() / (last.f * material.fibre()).norm();
+    let is_free = |place: usize| {
+        let mut targets = path.steps[..=last.step].iter().map(|step| step.targets[place]);
+        targets.any(|target| matches!(target, Some(Target::Stress(_))))
+    };
+    let on_sides = (0..COMPONENTS.len()).filter(|&place| COMPONENTS[place].0 == COMPONENTS[place].1);
+    let free: Vec<usize> = on_sides.filter(|&place| is_free(place)).collect();
+    if !matches!(material.law, Law::Hyperelastic { .. }) || free.is_empty() || area < GROWN {
+        return None;
+    }
+    let side = |&place: &usize| format!("F{} = {}", COMPONENT_NAMES[place], number(last.f[COMPONENTS[place]]));
+    Some(format!(
+        "has {} times its area at the end, {}: the law does not resist a section that grows, and any such sides are in \
+         equilibrium; hold one, as with F = {{ {} = 1 }}, where that is not meant",
+        number(area),
+        free.iter().map(side).collect::<Vec<_>>().join(", "),
+        COMPONENT_NAMES[free[free.len() - 1]]
+    ))
 }
 
 /// The law, and the preset where there is one.

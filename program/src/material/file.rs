@@ -7,12 +7,13 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use super::laws::{LawName, LawText, Laws};
-use super::model::{Law, Material};
+use super::model::{Law, Material, Origin};
 use super::preset::{Preset, first_property};
 use crate::common::error::Error;
 use crate::common::toml_file::{Numbers, Source};
+use crate::common::units::{plain, with_unit};
 use toron::host::units::UnitSystem;
-use toron::law::parameters::Property;
+use toron::law::parameters::{DENSITY, NUMBER, Property};
 use toron::{Criterion, Rotation};
 
 /// A table that describes a material.
@@ -56,14 +57,28 @@ impl MaterialFile {
         preset.or(self.law.as_ref().map(|law| law.get_ref().0.as_str()))
     }
 
-    /// What is other than the preset has it. A fibre is a place rather than a yarn's property.
-    fn own(&self) -> String {
+    /// Names and values of what the file itself gives. A fibre is a place rather than a yarn's property.
+    fn own(&self) -> impl Iterator<Item = (&str, f64)> {
         let density = self.density.as_ref().map(|value| ("density", *value.get_ref()));
         let properties = self.properties.iter().map(|(name, value)| (name.get_ref().as_str(), *value.get_ref()));
-        let text =
-            |value: f64| if (1e-3..1e6).contains(&value.abs()) { value.to_string() } else { format!("{value:e}") };
-        let values = density.into_iter().chain(properties).map(|(name, value)| format!("{name} = {}", text(value)));
+        density.into_iter().chain(properties)
+    }
+
+    /// What is other than the preset has it, in words.
+    fn own_text(&self, table: &[Property], units: &UnitSystem) -> String {
+        let values = self.own().map(|(name, value)| {
+            let property = table.iter().find(|property| property.name == name);
+            let dimension = if name == "density" { DENSITY } else { property.map_or(NUMBER, |row| row.dimension) };
+            format!("{name} = {}", with_unit(units, &plain(value), dimension))
+        });
         values.collect::<Vec<_>>().join("; ")
+    }
+
+    /// Where the values come from that a preset gives.
+    fn origin(&self, preset: &Preset) -> Origin {
+        let mut guesses = preset.guesses.clone();
+        self.own().for_each(|(name, _)| guesses.remove(name));
+        Origin { source: preset.source.clone(), guesses }
     }
 
     /// The table that names a preset and nothing else.
@@ -123,8 +138,9 @@ impl Source<'_> {
             Some(density) => Some(self.positive("density", *density.get_ref(), density.span())?),
             None => preset.as_ref().and_then(|preset| preset.density_in(units)),
         };
+        let origin = preset.as_ref().map_or(Origin::default(), |preset| file.origin(preset));
         let label = preset.map_or_else(|| law_name.text().to_string(), |preset| preset.name);
-        Ok(Material { law, density, label, own: file.own() })
+        Ok(Material { law, density, label, own: file.own_text(law_name.table(), units), origin })
     }
 
     fn preset(&self, laws: Laws, name: &Spanned<String>) -> Result<Preset, Error> {

@@ -4,6 +4,7 @@ use nalgebra::{Matrix3, SMatrix, Vector3};
 
 use super::laws::LawName;
 use super::own_law::Own;
+use super::preset::Guesses;
 use toron::law::parameters::{HYPERELASTIC_PROPERTIES, LINEAR_ELASTIC_PROPERTIES, Property, STRESS};
 use toron::law::state::{FAILURE_INDEX, INVARIANTS, LINEAR_LARGEST, LINEAR_STRESS, StateVariable};
 use toron::law::status;
@@ -34,8 +35,17 @@ pub struct Material {
     pub density: Option<f64>,
     /// The preset's name, or the law's.
     pub label: String,
-    /// What is other than the preset has it, as in `k_ld = 126; density = 1.44e-3`.
+    /// What is other than the preset has it, as in `k_ld = 126 MPa; density = 1.44e-3 g/mm³`.
     pub own: String,
+    pub origin: Origin,
+}
+
+/// Where a material's values come from.
+#[derive(Clone, Debug, Default)]
+pub struct Origin {
+    /// The preset's, on one line; empty without a preset.
+    pub source: String,
+    pub guesses: Guesses,
 }
 
 /// The history of a point: what it keeps from one increment to the next.

@@ -9,18 +9,17 @@ use toml::Spanned;
 
 use super::laws::{LawName, LawText, Laws};
 use crate::common::error::Error;
-use crate::common::short_number::short;
+use crate::common::nearest;
+use crate::common::text_table::grouped;
 use crate::common::toml_error::shortened;
 use crate::common::toml_file::Source;
+use crate::common::units::{plain, with_unit};
 use toron::host::units::UnitSystem;
 use toron::law::bounds;
 use toron::law::parameters::{self, DENSITY, Dimension, Property};
 
 /// Decks name the material by the preset, and Abaqus takes names of up to 80 characters.
 pub const LONGEST_NAME: usize = 80;
-
-/// Columns of a changed value in a preset's source.
-const LONGEST_VALUE: usize = 12;
 
 /// A yarn's properties, with or without some of them, in units of their own.
 #[derive(Clone, Debug, PartialEq)]
@@ -35,7 +34,40 @@ pub struct Preset {
     /// In the order of the law's table; none where the preset leaves a property to its default or to the material.
     pub values: Vec<Option<f64>>,
     pub density: Option<f64>,
+    pub guesses: Guesses,
     file: Option<File>,
+}
+
+/// Which properties, or the density, nobody has measured on this yarn, and where their values come from.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Guesses(BTreeMap<String, String>);
+
+impl Guesses {
+    pub fn insert(&mut self, name: &str, origin: &str) {
+        self.0.insert(name.to_string(), origin.to_string());
+    }
+
+    /// Forgets the guess of what somebody has given.
+    pub fn remove(&mut self, name: &str) {
+        self.0.remove(name);
+    }
+
+    /// Where a guess comes from; none of what is not guessed.
+    pub fn origin(&self, name: &str) -> Option<&str> {
+        self.0.get(name).map(String::as_str)
+    }
+
+    /// The guesses in words, in the order of the law's table: `k_tc, p (of kevlar-km2-600)`. None without any.
+    pub fn text(&self, law: LawName) -> Option<String> {
+        let groups = grouped(self.in_order(law).map(|(name, origin)| (name, origin.as_str())));
+        let texts = groups.into_iter().map(|(origin, names)| format!("{} ({origin})", names.join(", ")));
+        (!self.0.is_empty()).then(|| texts.collect::<Vec<_>>().join("; "))
+    }
+
+    fn in_order(&self, law: LawName) -> impl Iterator<Item = (&'static str, &String)> {
+        let names = law.table().iter().map(|property| property.name).chain(["density"]);
+        names.filter_map(|name| Some((name, self.0.get(name)?)))
+    }
 }
 
 /// The file of a preset: its name, and the line of each property that it has.
@@ -55,6 +87,8 @@ struct PresetFile {
     density: Option<Spanned<f64>>,
     #[serde(default)]
     properties: BTreeMap<Spanned<String>, Spanned<f64>>,
+    #[serde(default)]
+    guesses: BTreeMap<Spanned<String>, Spanned<String>>,
 }
 
 impl From<&parameters::Preset> for Preset {
@@ -66,6 +100,7 @@ impl From<&parameters::Preset> for Preset {
             units: UnitSystem::SI,
             values: preset.values.iter().copied().map(Some).collect(),
             density: Some(preset.density),
+            guesses: Guesses::default(),
             file: None,
         }
     }
@@ -75,7 +110,8 @@ impl Preset {
     /// A preset without values, to be filled in and written.
     pub fn new(name: &str, source: &str, law: LawName, units: UnitSystem) -> Preset {
         let values = vec![None; law.table().len()];
-        Preset { name: name.to_string(), source: source.to_string(), law, units, values, density: None, file: None }
+        let (name, source, guesses) = (name.to_string(), source.to_string(), Guesses::default());
+        Preset { name, source, law, units, values, density: None, guesses, file: None }
     }
 
     /// The preset of this name among those of the laws, or the file, where the name ends in `.toml`; a relative one is in `folder`.
@@ -90,7 +126,8 @@ impl Preset {
         if !name.ends_with(".toml") {
             let known: String = laws.presets().iter().map(|preset| format!("{}, ", preset.name)).collect();
             let or = if known.is_empty() { "" } else { "or " };
-            return Err(error(&format!("preset \"{name}\"; allowed: {known}{or}a file NAME.toml")));
+            let hint = nearest::hint(name, laws.presets().iter().map(|preset| preset.name));
+            return Err(error(&format!("preset \"{name}\"{hint}; allowed: {known}{or}a file NAME.toml")));
         }
         let path = folder.join(name);
         let file = path.display().to_string();
@@ -111,8 +148,10 @@ impl Preset {
         let density = file.density.as_ref();
         let density = density.map(|value| source.positive("density", *value.get_ref(), value.span())).transpose()?;
         let label = source.preset_name(&file)?;
+        let given = file.source.as_ref().map(|text| source.one_line("source", text)).transpose()?;
         Ok(Preset {
-            source: source.one_line(&file)?.unwrap_or(&label).to_string(),
+            source: given.unwrap_or(&label).to_string(),
+            guesses: source.guesses(&file, law, &values)?,
             name: label,
             law,
             units: source.units(&file.units)?,
@@ -134,16 +173,20 @@ impl Preset {
                 return Err(format!("density is {value}; allowed: a finite number > 0"));
             }
             self.density = Some(own(DENSITY));
+            self.source += &format!("; {name} = {}", with_unit(units, &plain(value), DENSITY));
         } else {
             let known = || {
                 let known: Vec<&str> = table.iter().map(|property| property.name).collect();
-                format!("no property {name}; allowed: {} density", known.join(" "))
+                let hint = nearest::hint(name, known.iter().copied());
+                format!("no property {name}{hint}; allowed: {} density", known.join(" "))
             };
             let index = table.iter().position(|property| property.name == name).ok_or_else(known)?;
             check(table, index, value).map_err(|error| error.to_string())?;
-            self.values[index] = Some(own(table[index].dimension));
+            let dimension = table[index].dimension;
+            self.values[index] = Some(own(dimension));
+            self.source += &format!("; {name} = {}", with_unit(units, &plain(value), dimension));
         }
-        self.source += &format!("; {name} = {}", short(value, LONGEST_VALUE));
+        self.guesses.remove(name);
         Ok(())
     }
 
@@ -221,7 +264,9 @@ impl Preset {
         for (property, &value) in self.law.table().iter().zip(&self.values) {
             text += &line(property.name, value);
         }
-        text
+        let guesses: String =
+            self.guesses.in_order(self.law).map(|(name, origin)| format!("{name} = {}\n", quoted(origin))).collect();
+        if guesses.is_empty() { text } else { format!("{text}\n[guesses]\n{guesses}") }
     }
 }
 
@@ -242,7 +287,8 @@ impl Source<'_> {
     pub fn property_index(&self, table: &[Property], name: &Spanned<String>) -> Result<usize, Error> {
         table.iter().position(|property| property.name == name.get_ref()).ok_or_else(|| {
             let known: Vec<&str> = table.iter().map(|property| property.name).collect();
-            let message = format!("property \"{}\"; allowed: {}", name.get_ref(), known.join(" "));
+            let hint = nearest::hint(name.get_ref(), known.iter().copied());
+            let message = format!("property \"{}\"{hint}; allowed: {}", name.get_ref(), known.join(" "));
             self.error(name.span(), &message)
         })
     }
@@ -269,15 +315,31 @@ impl Source<'_> {
         Err(self.error(span, &message))
     }
 
-    /// Where the values come from, if the file says so: a line break would end the comment of a deck.
-    fn one_line<'a>(&self, file: &'a PresetFile) -> Result<Option<&'a str>, Error> {
-        match &file.source {
-            Some(source) if source.get_ref().chars().any(char::is_control) => {
-                let message = "source has a line break or another control character; allowed: one line of text";
-                Err(self.error(source.span(), message))
-            }
-            source => Ok(source.as_ref().map(|source| source.get_ref().as_str())),
+    /// A text that decks have as a comment, which a line break would end.
+    fn one_line<'a>(&self, key: &str, text: &'a Spanned<String>) -> Result<&'a str, Error> {
+        if text.get_ref().chars().any(char::is_control) {
+            let message = format!("{key} has a line break or another control character; allowed: one line of text");
+            return Err(self.error(text.span(), &message));
         }
+        Ok(text.get_ref())
+    }
+
+    /// Which of the file's values are guesses.
+    fn guesses(&self, file: &PresetFile, law: LawName, values: &[Option<f64>]) -> Result<Guesses, Error> {
+        let mut guesses = Guesses::default();
+        for (name, origin) in &file.guesses {
+            let has_value = match name.get_ref().as_str() {
+                "density" => file.density.is_some(),
+                _ => values[self.property_index(law.table(), name)?].is_some(),
+            };
+            if !has_value {
+                let message =
+                    format!("a guess of {}, which the file does not give; allowed: a property of it", name.get_ref());
+                return Err(self.error(name.span(), &message));
+            }
+            guesses.insert(name.get_ref(), self.one_line(name.get_ref(), origin)?);
+        }
+        Ok(guesses)
     }
 }
 

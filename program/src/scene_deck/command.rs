@@ -1,7 +1,7 @@
 //! The arguments of `--deck`, and the files that it writes.
 
 use std::fs::File;
-use std::io::{self, BufWriter, Write};
+use std::io::{self, BufWriter};
 use std::path::Path;
 
 use clap::{Args, ValueEnum};
@@ -12,7 +12,7 @@ use super::{abaqus, ls_dyna, of_fabric, of_impact, openradioss};
 use crate::common::console::{print, print_error};
 use crate::common::error::Error;
 use crate::common::folder;
-use crate::common::run_directory::file_error;
+use crate::common::kept_file;
 use crate::common::units::number;
 use crate::deck::openradioss::FibreFrom;
 use crate::{fabric, impact, weave};
@@ -158,7 +158,7 @@ fn ascii(text: &str) -> String {
     text.replace('µ', "u").chars().map(|c| if c.is_ascii() && !c.is_ascii_control() { c } else { '?' }).collect()
 }
 
-/// Writes a file of the deck as a stream; returns its name.
+/// Writes a file of the deck as a stream, and keeps one of other contents beside it; returns its name.
 ///
 /// # Errors
 /// It cannot be written.
@@ -167,12 +167,6 @@ pub fn file(
     name: String,
     write: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
 ) -> Result<String, Error> {
-    let place = output.join(&name);
-    let written = File::create(&place).and_then(|file| {
-        let mut file = BufWriter::with_capacity(1 << 20, file);
-        write(&mut file)?;
-        file.flush()
-    });
-    written.map_err(|error| file_error(&place, &error))?;
+    kept_file::write(&output.join(&name), write)?;
     Ok(name)
 }

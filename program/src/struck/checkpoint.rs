@@ -1,38 +1,22 @@
 //! What it takes to go on with a case: of which case it is, where it stands, its state or its outcome, and a checksum.
 
-use std::path::Path;
-use std::sync::LazyLock;
-
 use serde::{Deserialize, Serialize};
 
 use super::plan::Plan;
 use super::run::{End, OutcomeOf, ROUNDING, Struck};
+use crate::common::build;
 use crate::common::error::Error;
 use crate::common::units::number;
 use crate::explicit::archive::Archive;
 
-/// The checksum of the program's file, since another build may have other bits; nothing where the file cannot be read.
-static BUILD: LazyLock<Option<u32>> = LazyLock::new(|| {
-    // The link leads to the file that runs, even when another one has taken its place.
-    let link = Path::new("/proc/self/exe");
-    let file = std::fs::read(link).or_else(|_| std::env::current_exe().and_then(std::fs::read));
-    file.ok().map(|bytes| crc32fast::hash(&bytes))
-});
-
-/// Tells the program's build from others, as early as it can.
-///
-/// # Errors
-/// The program's own file cannot be read.
-pub fn build() -> Result<u32, Error> {
-    let message = "the program's own file cannot be read, by which checkpoints tell its build from others; allowed: runs without them";
-    BUILD.ok_or_else(|| Error::Input(message.to_string()))
+/// The build in which a checkpoint begins: one of another build is not to be taken.
+fn build() -> String {
+    format!("toron {} build {:08x}", env!("CARGO_PKG_VERSION"), build::number())
 }
 
-/// What a checkpoint begins with: one of another build is not to be taken, nor one of another scene, but for what only the
-/// future depends on.
-fn identity(struck: &impl Struck) -> Result<String, Error> {
-    let (version, build) = (env!("CARGO_PKG_VERSION"), build()?);
-    Ok(format!("toron {version} build {build:08x} {}", struck.identity()))
+/// What a checkpoint begins with: its build, and the scene but for what only the future depends on.
+fn identity(struck: &impl Struck) -> String {
+    format!("{} {}", build(), struck.identity())
 }
 
 /// Where a checkpoint stands in time, and the plan of the run that wrote it.
@@ -76,8 +60,12 @@ pub fn check<'a>(struck: &impl Struck, checkpoint: &'a [u8]) -> Result<(Head, &'
         return Err(damaged());
     }
     let (found, rest) = postcard::take_from_bytes::<String>(contents).map_err(|_| damaged())?;
-    if found != identity(struck)? {
-        return Err(refused(struck, "of another scene or another build of the program"));
+    if found != identity(struck) {
+        let own = build();
+        let is_of_build = found.strip_prefix(&own).is_some_and(|rest| rest.starts_with(' '));
+        let other = found.split(' ').take(4).collect::<Vec<_>>().join(" ");
+        let of_build = format!("of another build of the program ({other}, not {own})");
+        return Err(refused(struck, if is_of_build { "of another scene" } else { &of_build }));
     }
     let (head, rest) = postcard::take_from_bytes::<Head>(rest).map_err(|_| damaged())?;
     let (name, plan) = (struck.name(), struck.plan());
@@ -106,7 +94,7 @@ pub fn outcome<S: Struck>(struck: &S, checkpoint: &[u8]) -> Result<Option<Outcom
 /// The checkpoint of a case that has ended: small, since it has the outcome and no state.
 ///
 /// # Errors
-/// The program's own file cannot be read.
+/// It cannot be put into bytes.
 pub fn of_outcome<S: Struck>(struck: &S, outcome: &mut OutcomeOf<S>) -> Result<Vec<u8>, Error> {
     let head = Head { time: outcome.last().time, plan: struck.plan().clone(), ended: Some(outcome.end) };
     write(struck, head, |archive| archive.keep(outcome))
@@ -115,7 +103,7 @@ pub fn of_outcome<S: Struck>(struck: &S, outcome: &mut OutcomeOf<S>) -> Result<V
 /// The checkpoint of a case that can go on from the state that `contents` writes.
 ///
 /// # Errors
-/// The program's own file cannot be read.
+/// It cannot be put into bytes.
 pub fn of_state(
     struck: &impl Struck,
     plan: Plan,
@@ -131,7 +119,7 @@ fn write(
     contents: impl FnOnce(&mut Archive<'_>) -> Result<(), postcard::Error>,
 ) -> Result<Vec<u8>, Error> {
     let mut archive = Archive::Writes(Vec::new());
-    let mut identity = identity(struck)?;
+    let mut identity = identity(struck);
     let written =
         archive.keep(&mut identity).and_then(|()| archive.keep(&mut head)).and_then(|()| contents(&mut archive));
     written.map_err(|error| Error::Evaluation(format!("case {}: {error}", struck.name())))?;

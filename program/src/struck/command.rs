@@ -10,18 +10,20 @@ use rayon::prelude::*;
 
 use super::checkpoint;
 use super::history::{self, Column};
+use super::pace::Estimate;
 use super::run::{self, End, Observer, Outcome, Struck};
 use super::sample::Sample;
 use super::summary::Cells;
-use crate::common::console::{print, print_error};
+use crate::common::console::{print, print_error, print_note};
 use crate::common::error::Error;
 use crate::common::folder;
 use crate::common::interrupt::Interrupt;
+use crate::common::kept_file;
 use crate::common::progress::{self, Lines};
 use crate::common::run_directory::{RunDirectory, file_error, is_file};
 use crate::common::shell;
 use crate::common::text_table::write_csv;
-use crate::common::units::{SPEED, TIME, number, unit};
+use crate::common::units::{SPEED, TIME, number, one_digit, unit};
 use crate::common::vtk::Frames;
 use crate::explicit::judgement::{Finding, warnings};
 use toron::host::units::UnitSystem;
@@ -102,11 +104,10 @@ pub trait Scene: Sync {
 pub fn run<S: Scene>(scene: &S, path: &Path, output: &Path, restart: bool) -> Result<(), Error> {
     folder::check(output)?;
     // Before hours are spent on the first one.
-    let (mut found, mut keeps) = (false, restart);
+    let mut found = false;
     let mut names = Vec::new();
     for number in 0..scene.cases() {
         let case = scene.case(number)?;
-        keeps |= case.plan().checkpoints > 0;
         let checkpoint = Checkpoint::of(case.name(), output);
         for file in checkpoint.files() {
             is_file(file)?;
@@ -117,9 +118,6 @@ pub fn run<S: Scene>(scene: &S, path: &Path, output: &Path, restart: bool) -> Re
         }
         names.push(case.name().to_string());
     }
-    if keeps {
-        checkpoint::build()?;
-    }
     if restart && !found {
         let allowed = "allowed: the directory of the run that was stopped";
         return Err(Error::Input(format!("no case has a checkpoint in {}; {allowed}", output.display())));
@@ -127,7 +125,7 @@ pub fn run<S: Scene>(scene: &S, path: &Path, output: &Path, restart: bool) -> Re
     let directory = RunDirectory::open(output)?;
     print_error(&clear(scene, &names, output, &directory, restart)?);
     let interrupt = Interrupt::listen()?;
-    print_error("Ctrl-C ends the run with a checkpoint, from which --restart goes on\n");
+    print_note("Ctrl-C ends the run with a checkpoint, from which --restart goes on\n");
     let bar = progress::bar(
         TICKS * names.len() as u64,
         "{msg} {wide_bar} {percent} %, {eta} left",
@@ -200,7 +198,7 @@ fn clear<S: Scene>(
             std::fs::remove_file(&checkpoint.place).map_err(|error| file_error(&checkpoint.place, &error))?;
             removed += 1;
         } else {
-            let old = checkpoint.set_aside()?;
+            let old = kept_file::set_aside(&checkpoint.place)?;
             said += &format!("the checkpoint of an earlier run of case {name} is now {}\n", old.display());
         }
     }
@@ -228,7 +226,7 @@ impl<'a, S: Scene> Cases<'a, S> {
         let (name, checkpoint) = (case.name().to_string(), Checkpoint::of(case.name(), self.output));
         let mut outcome = self.strike(&case, &checkpoint)?;
         // Who goes on after an interruption of a later case finds that this one has ended.
-        if case.plan().checkpoints == 0 && outcome.end != End::Interrupted && checkpoint::build().is_ok() {
+        if case.plan().checkpoints == 0 && outcome.end != End::Interrupted {
             checkpoint.write(&checkpoint::of_outcome(&case, &mut outcome)?)?;
         }
         let time = self::number(outcome.last_time());
@@ -257,7 +255,7 @@ impl<'a, S: Scene> Cases<'a, S> {
             Some((head, _)) if head.ended.is_some() => "has ended, its files stay".to_string(),
             Some(_) => format!("goes on from its checkpoint; {grows}"),
         };
-        print_error(&format!("case {}: {how}\n", case.name()));
+        print_note(&format!("case {}: {how}\n", case.name()));
         print_error(&warnings([(case.name(), &self.scene.before(case)[..])]));
         let mut observer = CaseObserver {
             name: case.name(),
@@ -293,16 +291,6 @@ impl Checkpoint {
     pub fn of(case: &str, output: &Path) -> Checkpoint {
         let [place, new] = ["checkpoint", "checkpoint-new"].map(|ending| output.join(format!("{case}.{ending}")));
         Checkpoint { place, new }
-    }
-
-    /// Gives it another name, which none has that was set aside before; returns that.
-    pub fn set_aside(&self) -> Result<PathBuf, Error> {
-        let numbered = (2..).map(|number| format!("checkpoint-old-{number}"));
-        let endings = std::iter::once("checkpoint-old".to_string()).chain(numbered);
-        let mut places = endings.map(|ending| self.place.with_extension(ending));
-        let old = places.find(|place| !place.exists()).unwrap_or_default();
-        std::fs::rename(&self.place, &old).map_err(|error| file_error(&old, &error))?;
-        Ok(old)
     }
 
     pub fn files(&self) -> [&Path; 2] {
@@ -374,15 +362,20 @@ impl<E> CaseObserver<'_, E> {
 
 impl<E> Observer<E> for CaseObserver<'_, E> {
     fn progress(&mut self, fraction: f64, sample: &Sample<E>, imbalance: f64) {
-        let (name, speed) = (self.name, number(sample.speed));
+        let (name, speed, imbalance) = (self.name, number(sample.speed), one_digit(imbalance));
         self.tick(fraction);
-        self.bar.set_message(format!("{name}: speed {speed}, energy off by {imbalance:.0e}"));
+        self.bar.set_message(format!("{name}: speed {speed}, energy off by {imbalance}"));
         if self.bar.is_hidden() && self.lines.are_due(fraction) {
             let (percent, time) = (100.0 * fraction, number(sample.time));
             let [of_time, of_speed] = [TIME, SPEED].map(|dimension| unit(self.units, dimension));
-            let speed = format!("speed {speed} {of_speed}, energy off by {imbalance:.0e}");
-            print_error(&format!("case {name}: {percent:.0} %, time {time} {of_time}, {speed}\n"));
+            let speed = format!("speed {speed} {of_speed}, energy off by {imbalance}");
+            print_note(&format!("case {name}: {percent:.0} %, time {time} {of_time}, {speed}\n"));
         }
+    }
+
+    fn estimate(&mut self, estimate: &Estimate) {
+        let name = self.name;
+        self.bar.suspend(|| print_note(&format!("case {name}: {estimate}\n")));
     }
 
     fn sample(&mut self, sample: &Sample<E>) -> Result<(), Error> {
@@ -425,7 +418,7 @@ mod tests {
             [("a", "one.checkpoint-old"), ("b", "one.checkpoint-old-2"), ("c", "one.checkpoint-old-3")]
         {
             checkpoint.write(contents.as_bytes()).expect("it is written");
-            assert_eq!(checkpoint.set_aside().expect("it is set aside"), folder.join(name));
+            assert_eq!(kept_file::set_aside(&checkpoint.place).expect("it is set aside"), folder.join(name));
         }
         assert_eq!(std::fs::read_to_string(folder.join("one.checkpoint-old")).expect("a file"), "a");
         std::fs::remove_dir_all(&folder).expect("it is removed");

@@ -5,6 +5,7 @@ pub mod checkpoint;
 pub mod command;
 pub mod history;
 pub mod keys;
+pub mod pace;
 pub mod plan;
 pub mod report;
 pub mod run;

@@ -7,6 +7,7 @@ use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
 use super::checkpoint;
+use super::pace::{Estimate, Pace};
 use super::plan::Plan;
 use super::sample::Sample;
 use crate::common::error::Error;
@@ -148,6 +149,9 @@ impl<E: Copy + Default, C> Outcome<E, C> {
 pub trait Observer<E> {
     /// How far the run is: the part of its time, what was measured, and how far the total energy has moved.
     fn progress(&mut self, _fraction: f64, _sample: &Sample<E>, _imbalance: f64) {}
+
+    /// How long the run will take, once.
+    fn estimate(&mut self, _estimate: &Estimate) {}
 
     /// A line of the history.
     ///
@@ -324,6 +328,8 @@ impl<'a, S: Struck, T: Number> Run<'a, S, T> {
     fn steps(&mut self, observer: &mut (dyn Observer<S::Own> + Send)) -> Result<End, Error> {
         let Plan { end: last, frames, checkpoints, .. } = self.plan;
         let (between_frames, between_checkpoints) = (self.plan.between_frames(), self.plan.between_checkpoints());
+        let elements = self.solver.bodies.iter().map(|body| body.mesh.elements.len()).sum();
+        let mut pace = Some(Pace::new(self.solver.state.time, self.solver.state.cost.steps));
         loop {
             let time = self.solver.state.time;
             let reached = |instant: f64| time >= instant - ROUNDING * last;
@@ -373,6 +379,12 @@ impl<'a, S: Struck, T: Number> Run<'a, S, T> {
                 return Ok(end);
             }
             self.solver.displace();
+            let now = self.solver.state.time;
+            let estimate = |pace: &Pace| pace.estimate([now, last], self.solver.state.cost.steps, elements);
+            if let Some(estimate) = pace.as_ref().and_then(estimate) {
+                observer.estimate(&estimate);
+                pace = None;
+            }
         }
     }
 

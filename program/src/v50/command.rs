@@ -13,7 +13,7 @@ use super::series::Series;
 use super::shot::Ended;
 use super::simulation::{Experiment, Truth};
 use super::{limit, plot, report, shot};
-use crate::common::console::{print, print_error};
+use crate::common::console::{print, print_error, print_note};
 use crate::common::error::Error;
 use crate::common::interrupt::Interrupt;
 use crate::common::run_directory::{RunDirectory, is_file};
@@ -30,7 +30,7 @@ const TRUTH: [f64; 2] = [0.5, 0.125];
 /// What a user asks for.
 #[derive(clap::Args)]
 pub struct Arguments {
-    /// The scene of `toron fabric` or `toron impact`, with a table `[shots]` (see docs/guides/v50.md).
+    /// The scene of `toron fabric` or `toron impact`, with a table `[shots]` (`toron init v50` writes one); - is the standard input.
     scene: PathBuf,
     /// Where the tables and the picture go.
     #[arg(short, long, default_value = "toron-out/v50")]
@@ -89,7 +89,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Error> {
     let directory = RunDirectory::open(&arguments.output)?;
     print_error(&warnings([(scene.target.name(), &findings[..])]));
     let records = open(&scene, &place)?;
-    print_error("Ctrl-C ends the run: shots under way are lost, and --restart goes on with the others\n");
+    print_note("Ctrl-C ends the run: shots under way are lost, and --restart goes on with the others\n");
     let threads = arguments.threads.unwrap_or_else(rayon::current_num_threads);
     if arguments.limit {
         return find_limit(&scene, threads, records, arguments);
@@ -167,10 +167,10 @@ fn check_restart(place: &Path, restart: bool) -> Result<(), Error> {
 
 /// The table that the shots go to, with those that are there.
 fn open(scene: &Scene, place: &Path) -> Result<Records, Error> {
-    let mut records = Records::new(scene, place)?;
+    let mut records = Records::new(scene, place);
     if is_file(place)? {
         let count = records.read(place)?;
-        print_error(&format!("{count} shots stand in {}\n", place.display()));
+        print_note(&format!("{count} shots stand in {}\n", place.display()));
     }
     records.open()?;
     Ok(records)
@@ -195,7 +195,7 @@ fn evaluate(scene: &Scene, records: &Records, directory: &RunDirectory, argument
 
 fn collect(scene: &Scene, arguments: &Arguments) -> Result<(), Error> {
     let place = arguments.output.join(SHOTS);
-    let mut records = Records::new(scene, &place)?;
+    let mut records = Records::new(scene, &place);
     // Before there is a directory for them.
     for part in &arguments.collect {
         let table = part.join(SHOTS);

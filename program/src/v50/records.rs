@@ -10,12 +10,12 @@ use csv::{Position, ReaderBuilder, StringRecord, WriterBuilder};
 use super::difference;
 use super::scene::{Scene, Shot};
 use super::shot::{Ended, Ending};
+use crate::common::build;
 use crate::common::error::Error;
 use crate::common::run_directory::file_error;
 use crate::common::text_table::{NONE, or_dash};
 use crate::common::toml_error::shortened;
 use crate::common::units::{LENGTH, SPEED, TIME};
-use crate::struck::checkpoint;
 use crate::struck::history::title;
 
 /// The ending of the name of the file in which the scene stands that shots are of.
@@ -37,10 +37,7 @@ pub struct Records {
 
 impl Records {
     /// The table at a place, with nothing in it yet.
-    ///
-    /// # Errors
-    /// The program's own file cannot be read.
-    pub fn new(scene: &Scene, place: &Path) -> Result<Records, Error> {
+    pub fn new(scene: &Scene, place: &Path) -> Records {
         let units = &scene.units;
         let quantity = |name: &str, dimension| title(name, dimension, units);
         let titles = vec![
@@ -60,9 +57,9 @@ impl Records {
             "build".to_string(),
             "error".to_string(),
         ];
-        let of = [scene.identity(), checkpoint::build()?].map(|number| format!("{number:08x}"));
+        let of = [scene.identity(), build::number()].map(|number| format!("{number:08x}"));
         let scene = scene.text.clone();
-        Ok(Records { place: place.to_path_buf(), titles, of, scene, shots: BTreeMap::new(), file: None })
+        Records { place: place.to_path_buf(), titles, of, scene, shots: BTreeMap::new(), file: None }
     }
 
     /// Adds the shots of a file of this scene and this build. One that stands here already has to be the same, or one of the two has no fate.
@@ -277,7 +274,7 @@ mod tests {
         std::fs::create_dir_all(&folder).expect("a folder");
         let place = folder.join("shots.csv");
         let scene = scene(1);
-        let mut records = Records::new(&scene, &place).expect("a table");
+        let mut records = Records::new(&scene, &place);
         records.open().expect("it is written");
         let message = "case a: \"x\", 2 of 3\nand more";
         let endings = [Ending::Through, Ending::Stopped, Ending::Undecided, Ending::Error(message.to_string())];
@@ -289,7 +286,7 @@ mod tests {
         assert_eq!(text.lines().count(), 5, "{text}");
         std::fs::write(&place, format!("{text}5,100")).expect("it is written");
 
-        let mut again = Records::new(&scene, &place).expect("a table");
+        let mut again = Records::new(&scene, &place);
         assert_eq!(again.read(&place).expect("the shots"), 4);
         let error = ended(4, Ending::Error(message.replace('\n', " ")));
         assert_eq!(again.shots.remove(&4), Some(error.clone()));
@@ -298,7 +295,7 @@ mod tests {
 
         let refused = |change: &dyn Fn(&str) -> String, scene: &Scene| {
             std::fs::write(&place, change(&text)).expect("it is written");
-            let mut records = Records::new(scene, &place).expect("a table");
+            let mut records = Records::new(scene, &place);
             records.shots.insert(1, ended(1, Ending::Through));
             records.read(&place).expect_err("a change").to_string()
         };
@@ -318,9 +315,9 @@ mod tests {
         // A character that is cut is no harm in a line without an end, and named in another.
         let cut = [text.as_bytes(), b"5,\xc3"].concat();
         std::fs::write(&place, &cut).expect("it is written");
-        assert_eq!(Records::new(&scene, &place).expect("a table").read(&place).expect("the shots"), 4);
+        assert_eq!(Records::new(&scene, &place).read(&place).expect("the shots"), 4);
         std::fs::write(&place, [&cut, &b"\n"[..]].concat()).expect("it is written");
-        let error = Records::new(&scene, &place).expect("a table").read(&place).expect_err("no text");
+        let error = Records::new(&scene, &place).read(&place).expect_err("no text");
         assert!(error.to_string().contains("shots.csv:6: no text in UTF-8"), "{error}");
         std::fs::remove_dir_all(&folder).expect("it is removed");
     }
@@ -331,10 +328,10 @@ mod tests {
         let folder = std::env::temp_dir().join(format!("toron-scenes-{}", std::process::id()));
         std::fs::create_dir_all(&folder).expect("a folder");
         let place = folder.join("shots.csv");
-        let mut records = Records::new(&scene(1), &place).expect("a table");
+        let mut records = Records::new(&scene(1), &place);
         records.open().expect("it is written");
         records.add(ended(1, Ending::Stopped)).expect("it is written");
-        let error = Records::new(&scene(2), &place).expect("a table").read(&place).expect_err("another seed");
+        let error = Records::new(&scene(2), &place).read(&place).expect_err("another seed");
         assert!(error.to_string().contains("shots.seed is 2, and 1 there; allowed: shots of this scene"), "{error}");
         std::fs::remove_dir_all(&folder).expect("it is removed");
     }
@@ -345,7 +342,7 @@ mod tests {
         let folder = std::env::temp_dir().join(format!("toron-half-{}", std::process::id()));
         std::fs::create_dir_all(&folder).expect("a folder");
         let place = folder.join("shots.csv");
-        let mut records = Records::new(&scene(1), &place).expect("a table");
+        let mut records = Records::new(&scene(1), &place);
         records.open().expect("it is written");
         // Opened for reading alone: nothing can be written.
         records.file = Some(File::open(&place).expect("a table"));
@@ -353,7 +350,7 @@ mod tests {
         std::fs::write(&place, format!("{}1,10", std::fs::read_to_string(&place).expect("a table")))
             .expect("half a line");
         records.add(ended(2, Ending::Stopped)).expect("it is written");
-        let mut again = Records::new(&scene(1), &place).expect("a table");
+        let mut again = Records::new(&scene(1), &place);
         assert_eq!((again.read(&place).expect("the shots"), again.shots), (2, records.shots));
         std::fs::remove_dir_all(&folder).expect("it is removed");
     }

@@ -12,7 +12,7 @@ use super::designs::Fired;
 use super::records::Records;
 use super::scene::{Scene, Shot};
 use super::shot::{Ended, Ending, Watch, fire};
-use crate::common::console::print_error;
+use crate::common::console::print_note;
 use crate::common::error::Error;
 use crate::common::interrupt::Interrupt;
 use crate::common::progress;
@@ -142,7 +142,7 @@ impl<'a> FiringRange<'a> {
     /// Above the bar, if there is one.
     fn say(&self, line: &str) {
         if self.bar.is_hidden() {
-            print_error(&format!("{line}\n"));
+            print_note(&format!("{line}\n"));
         } else {
             self.bar.println(line);
         }
@@ -257,7 +257,7 @@ mod tests {
 
     /// A table of the shots of these numbers at these speeds, with their endings.
     fn records(scene: &Scene, shots: &[(usize, f64, Ending)]) -> Records {
-        let mut records = Records::new(scene, Path::new("shots.csv")).expect("a table");
+        let mut records = Records::new(scene, Path::new("shots.csv"));
         let of = |(number, nominal, ending): &(usize, f64, Ending)| {
             (*number, ended(scene.shot(*number, *nominal), ending.clone()))
         };

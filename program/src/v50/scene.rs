@@ -97,7 +97,9 @@ impl Scene {
         let tables: toml::Table = source.parse()?;
         let wanted = "allowed: a table [shots] with number and speeds at least";
         let shots = |shots: Option<Shots>| {
-            shots.ok_or_else(|| Error::Input(format!("{name}: no shots; {wanted} (see docs/guides/v50.md)")))
+            shots.ok_or_else(|| {
+                Error::Input(format!("{name}: no shots; {wanted} (`toron init v50` writes a scene with them)"))
+            })
         };
         let scene = if OF_PANELS.iter().any(|table| tables.contains_key(*table)) {
             let scene = fabric::scene::Scene::parse(name, text)?;

@@ -9,12 +9,16 @@ use super::foreign::reader::Foreign;
 use super::layup::Ply;
 use super::model::Model;
 use super::reader::Scene;
+use crate::common::text_table::value_line;
 use crate::common::units::number;
 use crate::material::fibre_wave::FibreWave;
 use toron::host::units::UnitSystem;
 use toron::law::parameters::Dimension;
 
 const AREAL_DENSITY: Dimension = Dimension { mass: 1, length: -2, time: 0, name: "areal density" };
+
+/// The width of the names of figures, with a blank.
+const NAMES: usize = 31;
 
 /// What woven fabrics weigh, in kg/m², with a margin on both sides: sailcloth and parachutes from 0.03, heavy rovings 2.
 const KNOWN: RangeInclusive<f64> = 0.01..=10.0;
@@ -53,7 +57,7 @@ pub fn report(scene: &Scene, model: &Model) -> String {
     let mut text = format!("{}\n\n", scene.title);
     let mut add = |rows: &[(&str, String)]| {
         for (name, value) in rows {
-            let _ = writeln!(text, "  {name:<30}  {value}");
+            text += &if name.is_empty() { "\n".to_string() } else { value_line(name, NAMES, value) };
         }
     };
     for (place, (ply, figures)) in plies.iter().zip(&figures).enumerate() {

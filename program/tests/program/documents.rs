@@ -409,6 +409,21 @@ fn linked_documents() -> Vec<PathBuf> {
     .concat()
 }
 
+/// `cargo install` takes other versions of packages than Cargo.lock has, unless it is told not to.
+#[test]
+fn installations_are_locked() {
+    let scripts = ["install.sh", "test.sh"].map(|name| Path::new(ROOT).join(name));
+    let mut found = 0;
+    for file in linked_documents().into_iter().chain(scripts) {
+        let text = std::fs::read_to_string(&file).expect("text");
+        for line in text.lines().filter(|line| line.contains("cargo install ")) {
+            assert!(line.contains("cargo install --locked"), "{}: {line}", file.display());
+            found += 1;
+        }
+    }
+    assert!(found >= 2, "the README and the tutorial have one each");
+}
+
 /// A heading as a link names it: small letters, digits and hyphens.
 fn anchor(heading: &str) -> String {
     let kept = |c: &char| c.is_alphanumeric() || "-_ ".contains(*c);

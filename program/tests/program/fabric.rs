@@ -267,7 +267,20 @@ fn a_run_that_was_killed_goes_on_with_the_same_bits() {
     let [history, complete] =
         [&stopped, &whole].map(|from| std::fs::read_to_string(from.join("scene.csv")).expect("a file"));
     assert!(history.lines().count() > 3 && complete.starts_with(&history), "{history}");
-    let answer = program(&stopped, &text, 1).arg("--restart").output().expect("it starts");
+    // The same build in another file, as after another installation: with a byte at its end.
+    let other = stopped.join("toron");
+    let mut bytes = std::fs::read(env!("CARGO_BIN_EXE_toron")).expect("the program");
+    bytes.push(0);
+    std::fs::copy(env!("CARGO_BIN_EXE_toron"), &other).expect("it is copied");
+    std::fs::write(&other, bytes).expect("it is written");
+    let answer = loop {
+        match program_of(&other, &stopped, &text, 1).arg("--restart").output() {
+            // A process that another test starts at this moment may still hold the program that was written.
+            Err(error) if error.kind() == std::io::ErrorKind::ExecutableFileBusy => sleep(Duration::from_millis(10)),
+            answer => break answer.expect("it starts"),
+        }
+    };
+    std::fs::remove_file(&other).expect("it is removed");
     let said = String::from_utf8_lossy(&answer.stderr).to_string();
     assert!(answer.status.success() && said.contains("case scene: goes on from its checkpoint"), "{said}");
     let mut names = ["scene.csv", "scene.pvd", "scene-panel-1.svg", "scene-panel-2.svg"].map(str::to_string).to_vec();
@@ -284,33 +297,32 @@ fn a_run_that_was_killed_goes_on_with_the_same_bits() {
     let error = String::from_utf8_lossy(&answer.stderr).to_string();
     assert!(!answer.status.success() && error.contains("no case has a checkpoint in "), "{error}");
     assert!(!new.exists(), "a directory without a run");
-    // A checkpoint of something else is refused: of another scene, and of another program, here the same with a byte at its end.
-    let wanted = "the checkpoint of case scene is of another scene or another build of the program; \
-                  allowed: one of the same build and scene, but for end, until, pictures, frames and checkpoints";
-    let refused = |mut program: Command| {
-        program.arg("--restart");
-        // A process that another test starts at this moment may still hold the program that was written.
-        let answer = loop {
-            match program.output() {
-                Err(error) if error.kind() == std::io::ErrorKind::ExecutableFileBusy => {
-                    sleep(Duration::from_millis(10))
-                }
-                answer => break answer.expect("it starts"),
-            }
-        };
+    // A checkpoint of something else is refused: of another scene, and of another build.
+    let refused = |text: &str, of: &str| {
+        let answer = program(&stopped, text, 1).arg("--restart").output().expect("it starts");
         let error = String::from_utf8_lossy(&answer.stderr).to_string();
-        assert!(!answer.status.success() && error.contains(wanted), "{error}");
+        let wanted =
+            format!("the checkpoint of case scene is of another {of}; allowed: one of the same build and scene, ");
+        assert!(!answer.status.success() && error.contains(&wanted), "{error}");
     };
-    refused(program(&stopped, &text.replace("0.02 }", "0.03 }"), 1));
-    let other = stopped.join("toron");
-    std::fs::copy(env!("CARGO_BIN_EXE_toron"), &other).expect("it is copied");
-    let mut end = std::fs::OpenOptions::new().append(true).open(&other).expect("it opens");
-    std::io::Write::write_all(&mut end, &[0]).expect("it is written");
-    drop(end);
-    refused(program_of(&other, &stopped, &text, 1));
-    std::fs::remove_file(&other).expect("it is removed");
+    refused(&text.replace("0.02 }", "0.03 }"), "scene");
+    let own = String::from_utf8(
+        Command::new(env!("CARGO_BIN_EXE_toron")).arg("--version").output().expect("it starts").stdout,
+    );
+    let own = own.expect("UTF-8").split("build ").nth(1).expect("a build")[..8].to_string();
+    let bytes = std::fs::read(&checkpoint).expect("a file");
+    let place = bytes.windows(8).position(|window| window == own.as_bytes()).expect("the build is in it");
+    let mut of_other = bytes.clone();
+    of_other[place..place + 8].copy_from_slice(b"0badb111");
+    let contents = of_other.len() - 4;
+    let sum = crc32fast::hash(&of_other[..contents]);
+    of_other[contents..].copy_from_slice(&sum.to_le_bytes());
+    std::fs::write(&checkpoint, of_other).expect("it is written");
+    let version = env!("CARGO_PKG_VERSION");
+    refused(&text, &format!("build of the program (toron {version} build 0badb111, not toron {version} build {own})"));
+    std::fs::write(&checkpoint, &bytes).expect("it is written");
     // So is one in which a single bit has changed, and what is none at all.
-    let mut bytes = std::fs::read(&checkpoint).expect("a file");
+    let mut bytes = bytes;
     let middle = bytes.len() / 2;
     bytes[middle] ^= 1;
     for damaged in [&bytes[..], b"not one", b""] {
@@ -379,8 +391,7 @@ fn a_wrong_scene_does_not_look_right() {
     let (answer, output) = strike("wrong", &scene(6.0, &keys), 2);
     assert!(answer.status.success());
     let [report, log] = [&answer.stdout, &answer.stderr].map(|text| String::from_utf8_lossy(text).into_owned());
-    let wave =
-        "warning: case heavy: kevlar-km2-600 (density = 1.3514; k_ld = 126): the wave along the fibre has 0.2468 km/s";
+    let wave = "warning: case heavy: kevlar-km2-600 (density = 1.3514 g/mm³; k_ld = 126 MPa): the wave along the fibre has 0.2468 km/s";
     let mesh = "warning: case needle: the sphere's radius of 0.05000 mm is less than 4 edges of the elements' faces";
     for warning in [wave, "warning: case heavy: the panel weighs 177.", mesh] {
         // Before hours are spent, and at the end.

@@ -69,9 +69,9 @@ fn a_blow_writes_all_files() {
     );
     assert_eq!(summary.lines().count(), 3);
     assert!(report.contains("hourglass  Jacobian  W_ld"), "{report}");
-    let yarns = ["Yarns of yarns: kevlar-km2-600 (k_ld = 126)\n", "Yarns of linear: kevlar-km2-600-linear\n"];
+    let yarns = ["Yarns of yarns: kevlar-km2-600 (k_ld = 126 MPa)\n", "Yarns of linear: kevlar-km2-600-linear\n"];
     assert!(yarns.iter().all(|line| report.contains(line)), "{report}");
-    let materials = [",kevlar-km2-600 (k_ld = 126),", ",kevlar-km2-600-linear,"];
+    let materials = [",kevlar-km2-600 (k_ld = 126 MPa),", ",kevlar-km2-600-linear,"];
     assert!(summary.lines().skip(1).zip(materials).all(|(line, material)| line.contains(material)), "{summary}");
     for case in ["yarns", "linear"] {
         assert!(read(&format!("{case}.csv")).lines().count() > 5);

@@ -309,3 +309,32 @@ fn what_is_only_written_is_read_after_a_run_by_hand() {
     assert!(read.status.success(), "{}", said(&read));
     assert!(String::from_utf8_lossy(&read.stdout).contains("0.4984"));
 }
+
+/// What the balance is off by is no friction where nothing rubs.
+#[test]
+fn friction_is_printed_where_something_rubs() {
+    let Some(program) = lammps() else { return };
+    let place = fresh("fibres-rubbing");
+    let scene = "units = \"mm-g-ms\"\n[scene]\nfibre = { diameter = 0.012, modulus = 84.62e3, density = 1.44e-3, \
+                 strain-at-failure = 0.0458 }\nhalf-length = 2.0\nspacing = 0.05\nfibres = 7\nsection = \"circle\"\n\
+                 contact = [500.0]\nmass = 0.235e-3\nradius = 1.1\nprojectile-stiffness = 500.0\nspeed = 60.0\nend = 0.001\n\
+                 sample = 1.5e-4\n[[case]]\nname = \"smooth\"\n[[case]]\nname = \"rough\"\nfriction = 0.2\n\
+                 projectile-friction = 0.18\n";
+    let file = place.join("scene.toml");
+    std::fs::write(&file, scene).expect("a file");
+    let out = place.join("out");
+    let answer = toron(&[file.to_str().expect("UTF-8")], &out).env("TORON_LMP", program).output().expect("it starts");
+    assert!(answer.status.success(), "{}", said(&answer));
+    let report = String::from_utf8(answer.stdout).expect("UTF-8");
+    let cell = |case: &str, place: usize| {
+        let line = report.lines().find(|line| line.starts_with(case)).unwrap_or_else(|| panic!("{report}"));
+        line.split_whitespace().rev().nth(place).expect("a cell").to_string()
+    };
+    // From the right: a bead's step, the run, the imbalance, friction.
+    assert_eq!(cell("smooth", 3), "-", "{report}");
+    assert!(cell("rough", 3).parse::<f64>().is_ok_and(|friction| friction > 0.0), "{report}");
+    assert!(cell("rough", 2) != "0e0", "{report}");
+    let summary = std::fs::read_to_string(out.join("summary.csv")).expect("a summary");
+    let smooth = summary.lines().find(|line| line.starts_with("smooth,")).expect("a line");
+    assert!(smooth.contains(",-,-,"), "{summary}");
+}

@@ -616,6 +616,21 @@ fn notes_are_indented_and_say_each_thing_once() {
     assert!(words.contains(would), "{words}");
 }
 
+/// A force in kN for one in N, without a density that would show it by the wave.
+#[test]
+fn a_stiffness_that_no_fibre_has_is_said() {
+    let folder = new_folder("stiffness");
+    let text = "units = \"mm-tonne-s\"\n[[data]]\nname = \"pull\"\nfile = \"data.csv\"\nloading = \"elongation\"\narea = 0.05\n";
+    std::fs::write(folder.join("fit.toml"), text).expect("a file");
+    for (unit, wrong) in [("N", false), ("kN", true), ("mN", true)] {
+        let rows = "0.2,7.58\n0.365,13.87\n0.53,20.93\n0.696,27.75\n0.861,34.56\n";
+        std::fs::write(folder.join("data.csv"), format!("strain (%),force ({unit})\n{rows}")).expect("a file");
+        let job = Job::read(&folder.join("fit.toml")).expect("valid");
+        let notes = notes::notes(&job.problem, &job.problem.fit().expect("a fit"));
+        assert_eq!(notes[0].contains("0.5 to 1000 GPa, as fibres have: a force, an area"), wrong, "{unit}: {notes:?}");
+    }
+}
+
 #[test]
 fn tension_says_nothing_of_compaction() {
     let folder = new_folder("tension");

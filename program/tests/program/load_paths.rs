@@ -4,6 +4,7 @@ use nalgebra::{Matrix3, Rotation3, Unit, Vector3};
 use toron_program::common::error::Error;
 use toron_program::load_path::element::Hexahedron;
 use toron_program::load_path::path::LoadPath;
+use toron_program::load_path::report;
 use toron_program::load_path::run::{self, End, History};
 use toron_program::material::laws::Laws;
 
@@ -223,7 +224,11 @@ fn input_errors_name_file_line_and_what_was_expected() {
             "(k_el, longitudinal elongation stiffness) is -3.0; allowed: a number from 0 to 1e25",
         ),
         (format!("{HEAD}properties = {{ p = 1 }}\n{step}"), 4, "allowed: a number > 1, at most 40"),
-        (format!("{HEAD}properties = {{ k_e = 3 }}\n{step}"), 4, "property \"k_e\"; allowed: k_el k_tc p"),
+        (
+            format!("{HEAD}properties = {{ k_e = 3 }}\n{step}"),
+            4,
+            "property \"k_e\", did you mean k_el?; allowed: k_el k_tc p",
+        ),
         (
             format!("{HEAD}fibre = [0, 0, 0]\n{step}"),
             4,
@@ -291,5 +296,28 @@ fn the_documentations_example_runs() {
         assert_eq!(history.end, End::Completed);
         assert_eq!(history.increments.len(), 1 + 40 + 20 + 3 * 40);
         assert!(history.increments.iter().all(|increment| increment.answer.cauchy.iter().all(|s| s.is_finite())));
+    }
+}
+
+/// Nothing resists a section that grows: where its sides are free, what Newton's method finds is one of many equilibria, and that is said.
+#[test]
+fn a_section_that_grows_is_said() {
+    let summary = |fibre: &str, sides: &str| {
+        let text = format!(
+            "units = \"mm-tonne-s\"\n[material]\npreset = \"kevlar-km2-600\"\n{fibre}properties = {{ k_ld = 10 }}\n\
+             [[step]]\nincrements = 20\nF = {{ 11 = 1.02 }}\n{sides}"
+        );
+        let path = LoadPath::parse(Laws::Toron, "path.toml", &text).expect("a path");
+        let histories = run::run(&path, &|| {});
+        let area = histories[0].increments.last().map(|last| last.f.determinant() / last.f.column(0).norm());
+        (report::summary(&path, &histories[0]), area.expect("an increment"))
+    };
+    let (off_axis, free) = ("fibre = [1, 0.1, 0]\n", "P = { 22 = 0, 33 = 0, 12 = 0, 13 = 0, 23 = 0 }\n");
+    let (said, area) = summary(off_axis, free);
+    assert!(area > 1.5 && said.contains("  section                has "), "{area} {said}");
+    assert!(said.contains("the law does not resist a section that grows"), "{said}");
+    for (fibre, sides) in [("", free), (off_axis, ""), (off_axis, "P = { 12 = 0 }\n")] {
+        let (said, area) = summary(fibre, sides);
+        assert!(area < 1.01 && !said.contains("section "), "{area} {said}");
     }
 }

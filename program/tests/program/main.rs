@@ -9,6 +9,7 @@ mod library;
 mod python;
 
 mod akantu;
+mod build;
 mod calculix;
 #[allow(dead_code)] // each test uses its own part
 mod calculix_decks;
@@ -26,6 +27,7 @@ mod fibres;
 mod hexahedra;
 mod identify;
 mod impact;
+mod interface;
 mod licences;
 mod load_paths;
 mod long;

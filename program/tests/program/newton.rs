@@ -14,7 +14,7 @@ fn material(preset: &str, frame: Rotation, changed: &[(usize, f64)]) -> Material
         values[index] = value;
     }
     let law = Law::new(preset.law.into(), &values, frame, Criterion::LargestPrincipal).expect("valid properties");
-    Material { law, density: None, label: preset.name.into(), own: String::new() }
+    Material { law, density: None, label: preset.name.into(), own: String::new(), origin: Default::default() }
 }
 
 /// The way to the deformation gradient at which the law carries the stress of `target`, from `start`.

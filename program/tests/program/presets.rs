@@ -233,3 +233,97 @@ fn a_file_prints_as_a_deck() {
     let known = "kevlar-km2-600, kevlar-km2-600-linear, or a file NAME.toml";
     assert_eq!(deck(&["nylon"]), Err(format!("toron: --preset: preset \"nylon\"; allowed: {known}\n")));
 }
+
+const TENSION: &str = "units = \"mm-tonne-s\"\n[yarn]\nname = \"mine\"\nsource = \"lot 12\"\npreset = \"kevlar-km2-600\"\n[[data]]\n\
+                       name = \"pull\"\nfile = \"pull.csv\"\nloading = \"elongation\"\n";
+
+/// A tensile test alone: all else is a guess, α and ε_lim as well, and every way on says so: the notes, the preset, cards, decks.
+#[test]
+fn guesses_are_called_so_wherever_the_yarn_goes() {
+    let folder = folder("guesses");
+    write(&folder, "pull.csv", "strain (%),stress (MPa)\n0.5,404\n1,811\n1.5,1205\n2,1599\n2.5,1990\n3,2363\n");
+    write(&folder, "fit.toml", TENSION);
+    let said = |arguments: &[&str]| {
+        let output = toron(&folder, arguments);
+        assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+        text(&output.stdout).split_whitespace().collect::<Vec<_>>().join(" ")
+    };
+    let notes = said(&["fit", "fit.toml", "-o", "."]);
+    let names = "k_tc, p, k_td, k_ld, eps_lim, alpha, beta";
+    let note = format!("the data say nothing of {names}: these are guesses, the base preset's");
+    assert!(notes.contains(&note), "{notes}");
+
+    let guesses = |names: &str| format!("guesses, not measured on this yarn: {names} (of kevlar-km2-600)");
+    for host in ["ls-dyna", "abaqus", "openradioss", "calculix", "mtest"] {
+        let card = said(&["deck", "--host", host, "--preset", "mine.toml"]);
+        assert!(card.contains("mine: lot 12") && card.contains(&guesses(&format!("{names}, density"))), "{card}");
+    }
+    // What somebody has given is no guess any more, and has a unit.
+    let card = said(&["deck", "--host", "abaqus", "--preset", "mine.toml", "--set", "k_tc=900", "--set", "k_ld=10"]);
+    let left = guesses("p, k_td, eps_lim, alpha, beta, density");
+    assert!(card.contains("mine: lot 12; k_tc = 900 MPa; k_ld = 10 MPa") && card.contains(&left), "{card}");
+
+    let own = "hyperelastic = { preset = \"mine.toml\", properties = { k_tc = 900, k_ld = 10 } }";
+    write(&folder, "scene.toml", &scene(own));
+    for (host, file) in [("ls-dyna", "scene.k"), ("abaqus-explicit", "scene.inp"), ("openradioss", "scene_0000.rad")] {
+        said(&["impact", "scene.toml", "-o", host, "--deck", host, "--units", "mm-kg-ms"]);
+        let deck = std::fs::read_to_string(folder.join(host).join(file)).expect("a deck");
+        assert!(deck.contains("mine: lot 12; k_ld = 10 MPa; k_tc = 900 MPa\n") && deck.contains(&left), "{deck}");
+    }
+}
+
+/// A guess of a guess is one of where it began; a guess of what the file does not give is none.
+#[test]
+fn guesses_are_handed_on() {
+    let folder = folder("handed-on");
+    write(&folder, "pull.csv", "strain (%),stress (MPa)\n1,811\n1.5,1205\n2,1599\n2.5,1990\n3,2363\n");
+    write(&folder, "yarns/my-yarn.toml", &format!("{YARN}[guesses]\nk_tc = \"of nylon\"\n"));
+    write(&folder, "fit.toml", &TENSION.replace("kevlar-km2-600", "yarns/my-yarn.toml"));
+    assert!(toron(&folder, &["fit", "fit.toml", "-o", "."]).status.success());
+    let card = text(&toron(&folder, &["deck", "--host", "abaqus", "--preset", "mine.toml"]).stdout);
+    assert!(card.contains(": k_tc (of nylon); p, k_td, eps_lim, density (of my-yarn)\n"), "{card}");
+
+    write(&folder, "yarns/my-yarn.toml", &format!("{YARN}[guesses]\nk_ld = \"of nylon\"\n"));
+    let output = toron(&folder, &["params", "--preset", "yarns/my-yarn.toml"]);
+    let expected =
+        "toron: yarns/my-yarn.toml:12: a guess of k_ld, which the file does not give; allowed: a property of it\n";
+    assert_eq!((output.status.code(), text(&output.stderr).as_str()), (Some(2), expected));
+}
+
+/// What a user may have changed by hand is not lost when a command writes it again: it has another name then, which is said.
+#[test]
+fn a_file_that_may_have_been_edited_is_kept() {
+    let folder = folder("kept");
+    write(&folder, "pull.csv", "strain (%),stress (MPa)\n1,811\n1.5,1205\n2,1599\n2.5,1990\n3,2363\n");
+    write(&folder, "fit.toml", TENSION);
+    let strengths = "units = \"mm-tonne-s\"\n[[strength]]\nname = \"lot\"\nfile = \"lot.csv\"\nlength = 50\n";
+    write(&folder, "strengths.toml", strengths);
+    write(&folder, "lot.csv", "strength (MPa)\n2900\n3000\n3100\n3150\n3300\n");
+    write(&folder, "scene.toml", &scene("law = \"hyperelastic\""));
+    let said = |arguments: &[&str]| {
+        let output = toron(&folder, arguments);
+        assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+        text(&output.stderr)
+    };
+    let read =
+        |name: &str| std::fs::read_to_string(folder.join(name)).unwrap_or_else(|error| panic!("{name}: {error}"));
+    for (command, file) in
+        [(&["fit", "fit.toml", "-o", "."][..], "mine.toml"), (&["fit", "strengths.toml", "-o", "."], "lot.toml")]
+    {
+        assert_eq!(said(command), "", "nothing was there");
+        assert_eq!(said(command), "", "the same is no loss");
+        let edited = read(file) + "# weighed again\n";
+        write(&folder, file, &edited);
+        let old = format!("{file}-old");
+        assert_eq!(said(command), format!("./{file} of before is now ./{old}\n"));
+        assert!(read(&old) == edited && !read(file).contains("weighed"), "{}", read(file));
+    }
+    for (host, file) in [("ls-dyna", "scene.k"), ("abaqus-explicit", "scene.inp"), ("openradioss", "scene_0000.rad")] {
+        let deck = |units: &str| said(&["impact", "scene.toml", "-o", "deck", "--deck", host, "--units", units]);
+        assert!(!deck("mm-tonne-s").contains("of before"));
+        let first = read(&format!("deck/{file}"));
+        let said = deck("mm-kg-ms");
+        assert!(said.contains(&format!("deck/{file} of before is now deck/{file}-old\n")), "{said}");
+        assert!(read(&format!("deck/{file}-old")) == first && read(&format!("deck/{file}")) != first);
+    }
+}

@@ -5,7 +5,7 @@ use crate::explicit::body::Support;
 use crate::explicit::medium::{Control, Medium};
 use crate::explicit::mesh::{Mesh, Section, Yarn};
 use crate::explicit::solver::{Ramp, Solver};
-use crate::material::model::{Law, Material};
+use crate::material::model::{Law, Material, Origin};
 use toron::law::parameters;
 use toron::{Criterion, Rotation};
 
@@ -24,7 +24,13 @@ fn media_with(k_ld: f64) -> Vec<Medium<f64>> {
     values[4] = k_ld;
     values[5..8].fill(0.0);
     let law = Law::new(preset.law.into(), &values, Rotation::Fibre, Criterion::LargestPrincipal).expect("valid");
-    let material = Material { law, density: Some(preset.density), label: String::new(), own: String::new() };
+    let material = Material {
+        law,
+        density: Some(preset.density),
+        label: String::new(),
+        own: String::new(),
+        origin: Origin::default(),
+    };
     let control = Control { hourglass: 0.1, linear: 0.06, quadratic: 1.5, shape: 0.2, by_direction: false };
     vec![Medium::new(&material, preset.density, control).expect("valid")]
 }

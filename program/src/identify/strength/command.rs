@@ -1,5 +1,6 @@
 //! `toron fit` of strengths: to the terminal, a table of the figures, and the tables that scenes take.
 
+use std::io::Write;
 use std::path::Path;
 
 use super::file::{Set, StrengthJob};
@@ -7,6 +8,7 @@ use super::report;
 use crate::common::console::print;
 use crate::common::error::Error;
 use crate::common::folder;
+use crate::common::kept_file;
 use crate::common::text_table::write_csv;
 use crate::identify::command::require_new;
 use crate::identify::report::line;
@@ -28,9 +30,7 @@ pub fn run(job: &StrengthJob, output: &Path, scene: Option<&Path>) -> Result<(),
     folder::create(output)?;
     print(&report::report(job));
     for set in &job.sets {
-        let place = output.join(table(set));
-        std::fs::write(&place, report::table(job, set))
-            .map_err(|error| Error::Input(format!("{}: {error}", place.display())))?;
+        kept_file::write(&output.join(table(set)), |file| file.write_all(report::table(job, set).as_bytes()))?;
     }
     write_csv(&output.join(FIGURES), &report::lines(job))?;
     print(&line("written", &format!("{} in {}", files.join(", "), output.display())));

@@ -1,0 +1,97 @@
+//! Files that a user may have changed by hand: a command that writes one again keeps the old one beside it.
+
+use std::ffi::OsString;
+use std::fs::File;
+use std::io::{self, BufReader, BufWriter, Read, Write};
+use std::path::{Path, PathBuf};
+
+use super::console::print_error;
+use super::error::Error;
+use super::run_directory::{file_error, is_file};
+
+/// Large enough for decks of many elements.
+const BUFFER: usize = 1 << 20;
+
+/// Writes a file in one go. If one is there with other contents, it gets another name first, and that is said.
+///
+/// # Errors
+/// The file cannot be written, or what is there is no regular file.
+pub fn write(place: &Path, contents: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>) -> Result<(), Error> {
+    let is_there = is_file(place)?;
+    let new = with_ending(place, "-new");
+    let written = File::create(&new).and_then(|file| {
+        let mut file = BufWriter::with_capacity(BUFFER, file);
+        contents(&mut file)?;
+        file.flush()
+    });
+    written.map_err(|error| file_error(place, &error))?;
+    if is_there && !are_equal(&new, place).map_err(|error| file_error(place, &error))? {
+        set_aside_if_there(place)?;
+    }
+    std::fs::rename(&new, place).map_err(|error| file_error(place, &error))
+}
+
+/// Gives a file another name, if it is there, and says so.
+///
+/// # Errors
+/// It cannot be renamed, or is no regular file.
+pub fn set_aside_if_there(place: &Path) -> Result<(), Error> {
+    if is_file(place)? {
+        let old = set_aside(place)?;
+        print_error(&format!("{} of before is now {}\n", place.display(), old.display()));
+    }
+    Ok(())
+}
+
+/// Gives a file another name, which none has that was set aside before, but for one of the same contents; returns that.
+///
+/// # Errors
+/// It cannot be read or renamed.
+pub fn set_aside(place: &Path) -> Result<PathBuf, Error> {
+    let mut endings = std::iter::once("-old".to_string()).chain((2..).map(|number| format!("-old-{number}")));
+    let is_free = |old: &PathBuf| !old.exists() || are_equal(old, place).unwrap_or(false);
+    let old = endings.find_map(|ending| Some(with_ending(place, &ending)).filter(is_free)).unwrap_or_default();
+    std::fs::rename(place, &old).map_err(|error| file_error(&old, &error))?;
+    Ok(old)
+}
+
+fn with_ending(place: &Path, ending: &str) -> PathBuf {
+    let mut name = OsString::from(place);
+    name.push(ending);
+    name.into()
+}
+
+fn are_equal(one: &Path, other: &Path) -> io::Result<bool> {
+    let [one, other] = [File::open(one)?, File::open(other)?];
+    if one.metadata()?.len() != other.metadata()?.len() {
+        return Ok(false);
+    }
+    let [mut one, mut other] = [one, other].map(|file| BufReader::with_capacity(BUFFER, file).bytes());
+    loop {
+        match (one.next().transpose()?, other.next().transpose()?) {
+            (None, None) => return Ok(true),
+            (a, b) if a == b => {}
+            _ => return Ok(false),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_was_there_is_kept_unless_it_is_the_same() {
+        let folder = std::env::temp_dir().join(format!("toron-kept-{}", std::process::id()));
+        std::fs::create_dir_all(&folder).expect("a folder");
+        let place = folder.join("my-yarn.toml");
+        for text in ["one", "one", "two", "six", "six", "two", "six"] {
+            write(&place, |file| file.write_all(text.as_bytes())).expect("it is written");
+        }
+        let read = |name: &str| std::fs::read_to_string(folder.join(name)).expect("it is there");
+        assert_eq!(["my-yarn.toml-old", "my-yarn.toml-old-2", "my-yarn.toml"].map(read), ["one", "two", "six"]);
+        assert_eq!(std::fs::read_dir(&folder).expect("a folder").count(), 3);
+        assert!(write(&folder, |_| Ok(())).expect_err("a directory").to_string().contains("is a directory"));
+        std::fs::remove_dir_all(&folder).expect("it is removed");
+    }
+}
