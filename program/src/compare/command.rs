@@ -12,7 +12,7 @@ use super::{of_abaqus, of_ls_dyna, of_openradioss, of_toron, plot, report};
 use crate::common::console::print;
 use crate::common::error::Error;
 use crate::common::folder;
-use crate::common::run_directory::file_error;
+use crate::common::run_directory::{RunDirectory, Writes, file_error};
 use crate::common::text_table::{files, shortened, write_csv};
 use crate::scene_deck::origin::Origin;
 
@@ -61,7 +61,8 @@ pub fn run(arguments: &Arguments) -> Result<(), Error> {
     }
     let judged = histories.iter().map(|history| Figures::of(history, &histories[0])).collect::<Vec<_>>();
     let judged: Vec<(&History, Figures)> = histories.iter().zip(judged).collect();
-    folder::create(&arguments.output)?;
+    let writes = Writes { command: "compare", scene: None, names: vec!["compare".to_string()], restart: false };
+    let _directory = RunDirectory::open(&arguments.output, writes)?;
     let [svg, png] = FIGURE.map(|name| arguments.output.join(name));
     plot::write(&svg, &png, &histories.iter().collect::<Vec<_>>(), &units)?;
     let lines: Vec<_> = judged.iter().map(|(history, figures)| report::line(history, figures, &units)).collect();

@@ -5,12 +5,12 @@ use std::path::Path;
 use super::fate::Fate;
 use super::judgement::before;
 use super::measure::OfPanel;
-use super::reader::PICTURES;
 use super::run::{Outcome, StruckPanel};
 use super::scene::{Case, Scene};
 use super::summary::{self, Figures};
 use super::{panel_picture, plot, report};
 use crate::common::error::Error;
+use crate::common::file_names::PANEL;
 use crate::explicit::judgement::Finding;
 use crate::struck::command;
 use crate::struck::history::Column;
@@ -28,7 +28,6 @@ pub fn run(path: &Path, output: &Path, restart: bool) -> Result<(), Error> {
 
 impl command::Scene for Scene {
     const COMMAND: &'static str = "fabric";
-    const PICTURES: &'static str = PICTURES;
     const PARALLEL: bool = false;
 
     type Own = OfPanel;
@@ -65,7 +64,7 @@ impl command::Scene for Scene {
         let file = |ending: &str| output.join(format!("{}{ending}", case.name));
         plot::write(&file(".svg"), &file(".png"), self, case, &outcome)?;
         for (number, snapshot) in outcome.snapshots.iter().enumerate() {
-            let [svg, png] = ["svg", "png"].map(|ending| file(&format!("{PICTURES}{}.{ending}", number + 1)));
+            let [svg, png] = ["svg", "png"].map(|ending| file(&format!("{PANEL}{}.{ending}", number + 1)));
             panel_picture::write(&svg, &png, self, case, &panel, snapshot)?;
         }
         let figures = Figures::of(&self.units, case, &panel, &outcome);

@@ -27,8 +27,6 @@ use crate::weave::layup::Ply;
 use crate::weave::panel::Part;
 use toron::law::parameters::DENSITY;
 
-/// Between a case's name and the number of a picture.
-pub const PICTURES: &str = "-panel-";
 /// Samples of a history where the file does not say otherwise.
 const SAMPLES: f64 = 400.0;
 /// Friction of the sphere and of the yarns, where the file gives none: the thesis's.
@@ -70,7 +68,7 @@ impl Scene {
         let cases = keys::cases(
             (&source, &units),
             (&file.scene, &file.case),
-            (&["summary"], PICTURES),
+            &["summary"],
             CaseFile::unused,
             |reader, [file_of_case, _], name| {
                 let (cloth, threads) = reader.cloth_of_case(&file, file_of_case, &cloth)?;

@@ -15,9 +15,6 @@ use crate::struck::summary::{Cells, Line};
 use toron::host::units::UnitSystem;
 use toron::law::parameters::{ENERGY_DENSITY, NUMBER};
 
-/// Between a case's name and the number of a table of strains.
-pub const STRAINS: &str = "-strain-";
-
 /// Writes mean and largest strain along the yarn: their place in the middle of a layer at rest, and they.
 ///
 /// # Errors
