@@ -13,7 +13,7 @@ use toron_program::eval::command::Entry;
 use toron_program::material::laws::Laws;
 use toron_program::{
     bench, cell, command_line, compare, deck, eval, fabric, fibres, identify, impact, load_path, params, scene_deck,
-    v50, weave,
+    v50,
 };
 
 /// A user-material library for yarns and dry fabrics: load paths on one element, struck yarns and panels, property tables, decks.
@@ -167,7 +167,7 @@ fn run(command: Command) -> Result<(), Error> {
         Command::V50(arguments) => v50::command::run(&arguments),
         Command::Weave { scene, output, deck } => match deck.host {
             Some(host) => scene_deck::command::weave(&scene, &output, host, &deck),
-            None => weave::command::run(&scene, &output),
+            None => fabric::command::weave(&scene, &output),
         },
         Command::Completions { shell } => {
             completions(shell);

@@ -6,7 +6,6 @@ pub mod command;
 pub mod history;
 pub mod keys;
 pub mod plan;
-pub mod report;
 pub mod run;
 pub mod sample;
 pub mod shots;

@@ -640,7 +640,8 @@ fn the_program_writes_what_came_of_a_scene() {
     let said = String::from_utf8_lossy(&output.stdout).into_owned();
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     assert!(said.contains("\nYarns: kevlar-km2-600\n"), "{said}");
-    let heading = "case  how it ended        at end  elements  energy  run\n                           mm/ms   deleted  off by    s\n";
+    let heading = "case  how it ended        verdict  at end  elements  energy  run\n\
+                   \x20                                   mm/ms   deleted  off by    s\n";
     assert!(said.contains(heading), "{said}");
     assert!(said.contains("\na     unbroken, not over") && said.contains("\nb     unbroken, not over"), "{said}");
     assert!(said.contains("\nc-of-a-name-that-is-longer-th…  "), "{said}");
