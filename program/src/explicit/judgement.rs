@@ -23,7 +23,7 @@ const LARGEST_VISCOSITY: f64 = 0.1;
 /// The verdict of a run with which nothing is wrong.
 pub const SOUND: &str = "sound";
 /// Between what a verdict says of the run up to the first failure and what it says of the rest.
-const THEN: &str = " to failure, then ";
+const THEN: &str = " to failure; then ";
 
 /// Something that is wrong with a run.
 #[derive(Clone, Debug, PartialEq)]
@@ -164,10 +164,10 @@ mod tests {
             (
                 &[][..],
                 &["viscosity", "jacobian"][..],
-                "sound to failure, then viscosity; jacobian",
+                "sound to failure; then viscosity; jacobian",
                 ("sound", Some("viscosity; jacobian")),
             ),
-            (&["mesh"], &["viscosity", "mesh"], "mesh to failure, then viscosity", ("mesh", Some("viscosity"))),
+            (&["mesh"], &["viscosity", "mesh"], "mesh to failure; then viscosity", ("mesh", Some("viscosity"))),
             (&["mesh"], &["mesh"], "mesh", ("mesh", None)),
             (&[], &[], "sound", ("sound", None)),
         ] {

@@ -329,12 +329,12 @@ mod tests {
     fn what_follows_a_failure_is_in_the_verdict() {
         let of = |measures, whole, failed| judged([measures, whole], [2.778, 1.0, 1e-5], None, failed);
         let shreds = Measures { viscosity: 0.32, least_scaled_jacobian: -0.96, ahead: 3.0, collapsed: 9, ..SOUND };
-        assert_eq!(of(SOUND, shreds, Some(0.03)), "sound to failure, then viscosity; jacobian");
+        assert_eq!(of(SOUND, shreds, Some(0.03)), "sound to failure; then viscosity; jacobian");
         assert_eq!(of(SOUND, SOUND, Some(0.03)), "sound");
         let before = Measures { least_scaled_jacobian: -0.6, ..SOUND };
-        assert_eq!(of(before, shreds, Some(0.03)), "jacobian to failure, then viscosity");
+        assert_eq!(of(before, shreds, Some(0.03)), "jacobian to failure; then viscosity");
         let wild = Measures { hourglass: 0.2, contact: f64::NAN, ..SOUND };
-        assert_eq!(of(SOUND, wild, Some(0.03)), "sound to failure, then hourglass; contact");
+        assert_eq!(of(SOUND, wild, Some(0.03)), "sound to failure; then hourglass; contact");
     }
 
     #[test]
