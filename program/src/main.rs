@@ -13,7 +13,7 @@ use toron_program::eval::command::Entry;
 use toron_program::material::laws::Laws;
 use toron_program::{
     bench, cell, command_line, compare, deck, eval, fabric, fibres, identify, impact, init, load_path, params,
-    scene_deck, v50, weave,
+    scene_deck, v50,
 };
 
 /// A user-material library for yarns and dry fabrics: load paths on one element, struck yarns and panels, property tables, decks.
@@ -150,7 +150,7 @@ fn run(command: Command) -> Result<(), Error> {
         Command::Run(arguments) => load_path::command::run(Laws::Toron, &arguments),
         Command::Weave { scene, output, deck } => match deck.host {
             Some(host) => scene_deck::command::weave(&scene, &output, host, &deck),
-            None => weave::command::run(&scene, &output),
+            None => fabric::command::weave(&scene, &output),
         },
         Command::Fabric { scene, output, restart, deck } => match deck.host {
             Some(host) => scene_deck::command::fabric(&scene, &output, host, &deck),

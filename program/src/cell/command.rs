@@ -20,7 +20,7 @@ use crate::common::folder;
 use crate::common::interrupt::Interrupt;
 use crate::common::kept_file;
 use crate::common::progress;
-use crate::common::run_directory::{RunDirectory, file_error};
+use crate::common::run_directory::{RunDirectory, Writes, file_error};
 use crate::common::shell;
 use crate::struck::command::Checkpoint;
 use crate::struck::run::{End, Observer};
@@ -60,7 +60,9 @@ pub fn run(path: &Path, output: &Path, ccx: Option<&Path>, restart: bool) -> Res
             "output is the folder of the scene, whose files could be overwritten; allowed: another one, -o DIR";
         return Err(Error::Input(message.to_string()));
     }
-    let _directory = RunDirectory::open(output)?;
+    let own = ["fit", "parameters"].into_iter().chain(scene.loads.iter().map(|load| load.name()));
+    let writes = Writes { command: "cell", scene: Some(path), names: own.map(String::from).collect(), restart };
+    let _directory = RunDirectory::open(output, writes)?;
     let fit = output.join(FIT);
     // One of an earlier run would stand beside other tables.
     kept_file::set_aside_if_there(&fit)?;

@@ -1,4 +1,4 @@
-//! What all commands share: errors and their exit codes, the console, progress bars, units, short numbers, files in TOML, tables of
+//! What all commands share: errors and their exit codes, the console, progress bars, units, short numbers, names of files, files in TOML, tables of
 //! measured data, numbers of chance, roots, the level of intervals.
 
 pub mod bound_child;
@@ -8,6 +8,7 @@ pub mod confidence;
 pub mod console;
 pub mod data_table;
 pub mod error;
+pub mod file_names;
 pub mod folder;
 pub mod interrupt;
 pub mod kept_file;

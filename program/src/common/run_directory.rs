@@ -1,14 +1,18 @@
-//! The directory that a scene's runs write to: one program writes there at a time, and nothing of an earlier run stays that a
-//! reader would take for this one's.
+//! The directory that a command writes to: one program writes there at a time, it says whose its files are, so that no other command or
+//! scene overwrites them, and nothing of an earlier run stays that a reader would take for this one's.
 
 use std::fs::{File, OpenOptions, TryLockError};
-use std::io::ErrorKind;
-use std::path::{Path, PathBuf};
+use std::io::{ErrorKind, Read, Seek, Write};
+use std::path::{Component, Path, PathBuf};
+
+use serde::{Deserialize, Serialize};
 
 use super::error::Error;
+use super::file_names::{collide, is_of};
 use super::folder;
 
-/// The file whose lock says that a run writes to its directory. The system releases it however the run ends; the file stays.
+/// The file whose lock says that a run writes to its directory, and in which stands whose the files there are. The system releases the
+/// lock however the run ends; the file stays.
 const LOCK: &str = "toron.lock";
 
 /// The directory, for as long as its lock is held.
@@ -18,17 +22,63 @@ pub struct RunDirectory {
     _lock: File,
 }
 
+/// What a command is about to write to a directory.
+pub struct Writes<'a> {
+    pub command: &'a str,
+    /// The file that the command was given, if it was given one.
+    pub scene: Option<&'a Path>,
+    /// What its files are called, without endings and what is behind the names of cases.
+    pub names: Vec<String>,
+    /// Whether it goes on from checkpoints there, which it knows for its own: the scene may have been moved since.
+    pub restart: bool,
+}
+
+/// Who has written files to a directory: a line of [`LOCK`].
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+struct Owner {
+    command: String,
+    /// The scene's file, as seen from the directory, which may be moved together with it; empty where there is none.
+    scene: String,
+    names: Vec<String>,
+}
+
+impl Owner {
+    fn is_same_run(&self, other: &Owner) -> bool {
+        self.command == other.command && self.scene == other.scene
+    }
+
+    /// A name of the other's files that would be called as some of this one's.
+    fn shared<'a>(&self, other: &'a Owner) -> Option<&'a str> {
+        let shared = |name: &&String| self.names.iter().any(|own| collide(own, name));
+        other.names.iter().find(shared).map(String::as_str)
+    }
+
+    fn described(&self) -> String {
+        format!("toron {} {}", self.command, self.scene).trim_end().to_string()
+    }
+}
+
+/// A file's path from a directory on, both real ones where they exist.
+fn seen_from(directory: &Path, file: &Path) -> String {
+    let real = |path: &Path| std::fs::canonicalize(path).or_else(|_| std::path::absolute(path)).unwrap_or_default();
+    let [directory, file] = [directory, file].map(real);
+    let [from, to]: [Vec<Component>; 2] = [&directory, &file].map(|path| path.components().collect());
+    let common = from.iter().zip(&to).take_while(|(from, to)| from == to).count();
+    let up = from[common..].iter().map(|_| Component::ParentDir);
+    up.chain(to[common..].iter().copied()).collect::<PathBuf>().display().to_string()
+}
+
 impl RunDirectory {
-    /// Makes the directory, if it is new, and takes its lock.
+    /// Makes the directory, if it is new, takes its lock, and writes down whose the files are.
     ///
     /// # Errors
-    /// It is a file, it cannot be made, or another run writes there.
-    pub fn open(path: &Path) -> Result<RunDirectory, Error> {
+    /// It is a file, it cannot be made, another run writes there, or files of another command or scene would be overwritten.
+    pub fn open(path: &Path, writes: Writes<'_>) -> Result<RunDirectory, Error> {
         folder::create(path)?;
         let file = path.join(LOCK);
         is_file(&file)?;
-        let lock = OpenOptions::new().create(true).truncate(false).write(true).open(&file);
-        let lock = lock.map_err(|error| file_error(&file, &error))?;
+        let lock = OpenOptions::new().create(true).truncate(false).read(true).write(true).open(&file);
+        let mut lock = lock.map_err(|error| file_error(&file, &error))?;
         // Where a file system has no locks, the run goes on without.
         if let Err(TryLockError::WouldBlock) = lock.try_lock() {
             let (path, allowed) =
@@ -36,6 +86,21 @@ impl RunDirectory {
             return Err(Error::Input(format!(
                 "output is {path}, to which another run writes ({LOCK} is locked); {allowed}"
             )));
+        }
+        let mut text = String::new();
+        lock.read_to_string(&mut text).map_err(|error| file_error(&file, &error))?;
+        let Writes { command, scene, names, restart } = writes;
+        let scene = scene.map_or(String::new(), |scene| seen_from(path, scene));
+        let owner = Owner { command: command.to_string(), scene, names };
+        let owners = with(owners(&file, &text)?, owner, restart).map_err(|taken| {
+            let allowed = format!("allowed: another directory, or this one without {LOCK}: then they are overwritten");
+            Error::Input(format!("output is {}, where {taken}; {allowed}", path.display()))
+        })?;
+        let lines = owners.iter().map(|owner| serde_json::to_string(owner).map(|line| line + "\n"));
+        let lines: String = lines.collect::<Result<_, _>>().map_err(|error| file_error(&file, &error))?;
+        if lines != text {
+            let written = lock.rewind().and_then(|()| lock.set_len(0)).and_then(|()| lock.write_all(lines.as_bytes()));
+            written.map_err(|error| file_error(&file, &error))?;
         }
         Ok(RunDirectory { path: path.to_path_buf(), _lock: lock })
     }
@@ -53,24 +118,17 @@ impl RunDirectory {
         }
     }
 
-    /// Removes what an earlier run has written for this case: histories, plots, pictures, which have `pictures` between name and
-    /// number, tables, which have `tables` there, and the files for ParaView from the number `frames` on. Its checkpoint stays. Returns
-    /// how many there were.
+    /// Removes what an earlier run has written for this case: histories, plots, pictures, tables of strains, and the files for ParaView
+    /// from the number `frames` on. Its checkpoint stays. Returns how many there were.
     ///
     /// # Errors
     /// The directory cannot be read, or a file not be removed.
-    pub fn remove_files_of(
-        &self,
-        case: &str,
-        pictures: &str,
-        tables: Option<&str>,
-        frames: usize,
-    ) -> Result<usize, Error> {
+    pub fn remove_files_of(&self, case: &str, frames: usize) -> Result<usize, Error> {
         let mut removed = 0;
         let entries = std::fs::read_dir(&self.path).map_err(|error| file_error(&self.path, &error))?;
         for entry in entries {
             let name = entry.map_err(|error| file_error(&self.path, &error))?.file_name();
-            if let Some(name) = name.to_str().filter(|name| is_of(name, case, pictures, tables, frames)) {
+            if let Some(name) = name.to_str().filter(|name| is_of(name, case, frames)) {
                 removed += usize::from(self.remove(name)?);
             }
         }
@@ -87,19 +145,39 @@ impl RunDirectory {
     }
 }
 
-/// Whether a file of this name is of a case, as [`RunDirectory::remove_files_of`] has it.
-fn is_of(name: &str, case: &str, pictures: &str, tables: Option<&str>, frames: usize) -> bool {
-    let Some((stem, ending)) = name.strip_prefix(case).and_then(|rest| rest.rsplit_once('.')) else { return false };
-    let number =
-        |text: &str| text.bytes().all(|byte| byte.is_ascii_digit()).then(|| text.parse::<usize>().ok()).flatten();
-    let numbered = |between: &str| stem.strip_prefix(between).and_then(number).is_some();
-    match ending {
-        "csv" => stem.is_empty() || tables.is_some_and(numbered),
-        "pvd" => stem.is_empty() && frames == 0,
-        "svg" | "png" => stem.is_empty() || numbered(pictures),
-        "vtu" => stem.strip_prefix('-').and_then(number).is_some_and(|number| number >= frames),
-        _ => false,
+/// The lines of [`LOCK`]; an earlier version wrote none.
+///
+/// # Errors
+/// One cannot be read.
+fn owners(file: &Path, text: &str) -> Result<Vec<Owner>, Error> {
+    let line = |(number, line)| {
+        serde_json::from_str(line).map_err(|error| {
+            let allowed = "allowed: what toron wrote there, or no such file";
+            Error::Input(format!("{}:{}: {error}; {allowed}", file.display(), number + 1))
+        })
+    };
+    text.lines().enumerate().map(line).collect()
+}
+
+/// The owners of a directory with one more, which takes the place of the same run's before; the names of that one stay its own, since
+/// its files may be there still.
+///
+/// # Errors
+/// Whose files would be overwritten.
+fn with(owners: Vec<Owner>, mut new: Owner, restart: bool) -> Result<Vec<Owner>, String> {
+    let is_own = |owner: &Owner| owner.is_same_run(&new) || restart && owner.command == new.command;
+    let (before, mut others): (Vec<Owner>, Vec<Owner>) = owners.into_iter().partition(is_own);
+    for other in &others {
+        if let Some(name) = new.shared(other) {
+            let [other, new] = [other, &new].map(Owner::described);
+            return Err(format!("files called {name} are of {other}, and {new} would overwrite them"));
+        }
     }
+    new.names.extend(before.into_iter().flat_map(|owner| owner.names));
+    new.names.sort();
+    new.names.dedup();
+    others.push(new);
+    Ok(others)
 }
 
 /// Whether there is a file; what is none, a pipe or a device, would be waited for without end.
@@ -127,29 +205,51 @@ pub fn file_error(file: &Path, error: &dyn std::fmt::Display) -> Error {
 mod tests {
     use super::*;
 
+    fn owner(command: &str, scene: &str, names: &[&str]) -> Owner {
+        Owner {
+            command: command.into(),
+            scene: scene.into(),
+            names: names.iter().map(|name| name.to_string()).collect(),
+        }
+    }
+
     #[test]
-    fn the_files_of_a_case_are_told_from_others() {
-        let of = |name: &str| is_of(name, "one", "-panel-", Some("-strain-"), 2);
-        for name in
-            ["one.csv", "one.svg", "one.png", "one-panel-3.png", "one-panel-12.svg", "one-strain-2.csv", "one-0002.vtu"]
-        {
-            assert!(of(name), "{name}");
-        }
-        for name in [
-            "one.checkpoint",
-            "one.toml",
-            "one-0001.vtu",
-            "one.pvd",
-            "one-2.csv",
-            "one-panel-x.png",
-            "one-panel-.png",
-            "one-more-0003.vtu",
-            "two.csv",
-            "one",
+    fn files_of_another_command_or_scene_are_not_overwritten() {
+        let impact = owner("impact", "../a.toml", &["one", "summary"]);
+        let there = || vec![impact.clone()];
+        for (new, name) in [
+            (owner("fabric", "../a.toml", &["summary", "scene"]), "summary"),
+            (owner("impact", "../b.toml", &["two", "summary"]), "summary"),
+            (owner("fabric", "../b.toml", &["ONE-strain-2"]), "one"),
         ] {
-            assert!(!of(name), "{name}");
+            let refused = with(there(), new.clone(), false).expect_err("it is refused");
+            let said = format!("files called {name} are of toron impact ../a.toml, and toron {}", new.command);
+            assert!(refused.starts_with(&said), "{refused}");
         }
-        assert!(!is_of("one-strain-2.csv", "one", "-panel-", None, 0));
-        assert!(is_of("one.pvd", "one", "-panel-", None, 0));
+        // What overwrites nothing is welcome, and the same scene may have other cases.
+        let weave = owner("weave", "../a.toml", &["weave"]);
+        let both = with(there(), weave.clone(), false).expect("two owners");
+        assert_eq!(both, [impact.clone(), weave.clone()]);
+        let other = with(both, owner("impact", "../a.toml", &["summary", "two"]), false).expect("the same run");
+        assert_eq!(other, [weave, owner("impact", "../a.toml", &["one", "summary", "two"])]);
+        // A run that goes on is known by its checkpoint, wherever its scene lies now.
+        let moved = owner("impact", "../../b.toml", &["one", "summary"]);
+        assert_eq!(with(there(), moved.clone(), true), Ok(vec![moved]));
+        assert!(with(there(), owner("fabric", "", &["one"]), true).is_err());
+    }
+
+    #[test]
+    fn a_scene_is_known_from_the_directory_on() {
+        assert_eq!(seen_from(Path::new("/x/out"), Path::new("/x/a b.toml")), "../a b.toml");
+        assert_eq!(seen_from(Path::new("/x"), Path::new("/x/y/a.toml")), "y/a.toml");
+    }
+
+    #[test]
+    fn what_stands_in_the_file_is_read_or_refused() {
+        let one = owner("run", "a.toml", &["plot"]);
+        let text = serde_json::to_string(&one).expect("JSON") + "\n";
+        assert_eq!(owners(Path::new("toron.lock"), &text).expect("a line"), [one]);
+        let error = owners(Path::new("toron.lock"), &format!("{text}x\n")).expect_err("no line").to_string();
+        assert!(error.starts_with("toron.lock:2: "), "{error}");
     }
 }

@@ -9,8 +9,6 @@ use super::error::Error;
 pub const NONE: &str = "-";
 /// The gap between two columns.
 const GAP: &str = "  ";
-/// Columns that are never left out: what a line is of, and one thing about it.
-const FEWEST: usize = 2;
 
 /// A column: two lines of heading, of which the second is a unit, and an entry for each line.
 pub struct Column {
@@ -42,18 +40,33 @@ pub fn shortened(name: &str, longest: usize) -> String {
     }
 }
 
-/// The table without columns that apply to nothing and, where it is wider than this, without the last ones. Words stand on the
-/// left of their column, numbers on the right.
+/// The table without columns that apply to nothing; columns for which a line of this width has no room stand in tables below it, each of
+/// which begins with the first column. Words stand on the left of their column, numbers on the right.
 pub fn table(columns: Vec<Column>, widest: usize) -> String {
-    let mut columns: Vec<Column> = columns.into_iter().filter(Column::applies).collect();
+    let columns: Vec<Column> = columns.into_iter().filter(Column::applies).collect();
     if is_json() {
         return if columns.is_empty() { String::new() } else { table_record(&columns) };
     }
-    let width = |columns: &[Column]| columns.iter().map(|column| column.width() + GAP.len()).sum::<usize>() - GAP.len();
-    while columns.len() > FEWEST && width(&columns) > widest {
-        columns.pop();
+    let Some((first, mut rest)) = columns.split_first() else { return String::new() };
+    let mut text = String::new();
+    loop {
+        let mut width = first.width();
+        let fit = rest.iter().take_while(|column| {
+            width += GAP.len() + column.width();
+            width <= widest
+        });
+        let (here, below) = rest.split_at(fit.count().max(1).min(rest.len()));
+        text.push_str(&lines(&std::iter::once(first).chain(here).collect::<Vec<_>>()));
+        if below.is_empty() {
+            return text;
+        }
+        text.push('\n');
+        rest = below;
     }
-    let Some(lines) = columns.first().map(|column| column.entries.len()) else { return String::new() };
+}
+
+/// Heading, rule and entries of some columns.
+fn lines(columns: &[&Column]) -> String {
     let line = |text: &dyn Fn(&Column) -> String| {
         let cells = columns.iter().map(|column| {
             let (text, width) = (text(column), column.width());
@@ -64,7 +77,8 @@ pub fn table(columns: Vec<Column>, widest: usize) -> String {
     };
     let mut text: String = (0..2).map(|i| line(&|column| column.heading[i].clone())).collect();
     text.push_str(&line(&|column| "-".repeat(column.width())));
-    text.extend((0..lines).map(|i| line(&|column| column.entries[i].clone())));
+    let entries = columns.first().map_or(0, |column| column.entries.len());
+    text.extend((0..entries).map(|i| line(&|column| column.entries[i].clone())));
     text
 }
 
@@ -116,14 +130,14 @@ pub fn grouped<'a, 'b>(named: impl IntoIterator<Item = (&'a str, &'b str)>) -> V
     groups
 }
 
-/// The yarns of the cases of these names, which are named where they differ.
-pub fn yarns_of_cases(yarns: &[(&str, String)], widest: usize) -> String {
-    let groups = grouped(yarns.iter().map(|(case, yarns)| (*case, yarns.as_str())));
-    if let [(yarns, _)] = groups[..] {
-        return folded(&format!("Yarns: {yarns}"), widest) + "\n";
+/// What the cases of these names have, `Yarns` or other things; they are named where they differ.
+pub fn of_cases(what: &str, cases: &[(&str, String)], widest: usize) -> String {
+    let groups = grouped(cases.iter().map(|(case, text)| (*case, text.as_str())));
+    if let [(text, _)] = groups[..] {
+        return folded(&format!("{what}: {text}"), widest) + "\n";
     }
     let line =
-        |(yarns, cases): (&str, Vec<&str>)| folded(&format!("Yarns of {}: {yarns}", cases.join(", ")), widest) + "\n";
+        |(text, cases): (&str, Vec<&str>)| folded(&format!("{what} of {}: {text}", cases.join(", ")), widest) + "\n";
     groups.into_iter().map(line).collect()
 }
 
@@ -166,10 +180,36 @@ mod tests {
         assert_eq!(folded("seventeen letters", 3), "seventeen\n  letters");
     }
 
+    /// None vanishes.
+    #[test]
+    fn columns_without_room_stand_below() {
+        let column = |above: &str, below: &str, entries: [&str; 2]| Column {
+            heading: [above, below].map(String::from),
+            entries: entries.map(String::from).to_vec(),
+        };
+        let columns = || {
+            vec![
+                column("case", "", ["a", "b"]),
+                column("speed", "m/s", ["10", "200"]),
+                column("none", "-", [NONE, NONE]),
+                column("energy", "J", ["1", "2"]),
+            ]
+        };
+        let one =
+            "case  speed  energy\n        m/s       J\n----  -----  ------\na        10       1\nb       200       2\n";
+        assert_eq!(table(columns(), 19), one);
+        let two = "case  speed\n        m/s\n----  -----\na        10\nb       200\n\n\
+                   case  energy\n           J\n----  ------\na          1\nb          2\n";
+        assert_eq!(table(columns(), 18), two);
+        assert_eq!(table(columns(), 3), two);
+        assert_eq!(table(columns().into_iter().take(1).collect(), 3), "case\n\n----\na\nb\n");
+        assert_eq!(table(Vec::new(), 3), "");
+    }
+
     #[test]
     fn cases_are_named_where_their_yarns_differ() {
         let of = |yarns: [&str; 3]| {
-            yarns_of_cases(&["a", "b", "c"].into_iter().zip(yarns.map(str::to_string)).collect::<Vec<_>>(), 80)
+            of_cases("Yarns", &["a", "b", "c"].into_iter().zip(yarns.map(str::to_string)).collect::<Vec<_>>(), 80)
         };
         assert_eq!(of(["one"; 3]), "Yarns: one\n");
         assert_eq!(of(["one", "two", "one"]), "Yarns of a, c: one\nYarns of b: two\n");

@@ -10,6 +10,7 @@ use toml::Spanned;
 use toml::de::DeTable;
 
 use super::error::Error;
+use super::file_names::collide;
 use super::toml_error;
 use toron::host::units::UnitSystem;
 
@@ -55,26 +56,34 @@ impl Source<'_> {
         })
     }
 
-    /// The name of a case, out of which its files' names are made; `taken` says which names there are already.
+    /// The name of a case, or of another of several `what`, out of which its files' names are made; `taken` are the names that are there
+    /// already.
     ///
     /// # Errors
-    /// There is none, it is taken, or files cannot be named by it.
-    pub fn name_of_case(
+    /// There is none, files cannot be named by it, or they would be called as those of one that is taken.
+    pub fn name_of<'n>(
         &self,
+        what: &str,
         name: Option<&Spanned<String>>,
-        case: Range<usize>,
-        taken: impl Fn(&str) -> bool,
+        place: Range<usize>,
+        mut taken: impl Iterator<Item = &'n str>,
     ) -> Result<String, Error> {
         let wanted = "a name of its own out of letters, digits and - _ ., since files are named by it";
         let Some(name) = name else {
-            return Err(self.error(case, &format!("a case has no name; allowed: {wanted}")));
+            return Err(self.error(place, &format!("a {what} has no name; allowed: {wanted}")));
         };
         let text = name.get_ref();
         let plain = |c: char| c.is_ascii_alphanumeric() || "-_.".contains(c);
-        if text.is_empty() || taken(text) || !text.chars().all(plain) {
-            return Err(self.error(name.span(), &format!("case \"{text}\"; allowed: {wanted}")));
+        if text.is_empty() || !text.chars().all(plain) {
+            return Err(self.error(name.span(), &format!("{what} \"{text}\"; allowed: {wanted}")));
         }
-        Ok(text.clone())
+        match taken.find(|taken| collide(taken, text)) {
+            None => Ok(text.clone()),
+            Some(other) => {
+                let message = format!("{what} \"{text}\", with files that would be called as some of \"{other}\"");
+                Err(self.error(name.span(), &format!("{message}; allowed: {wanted}")))
+            }
+        }
     }
 
     /// Where the value of a table's key stands; the file's beginning where it is not there.
@@ -136,15 +145,6 @@ impl Source<'_> {
         }
         Err(self.error(span, &format!("{what} is {value}; allowed: a finite number")))
     }
-}
-
-/// Whether two cases would write the same files, one the other's pictures, which have this between name and number.
-pub fn same_files(one: &str, other: &str, pictures: &str) -> bool {
-    let picture_of = |case: &str, name: &str| {
-        let number = name.strip_prefix(case).and_then(|rest| rest.strip_prefix(pictures));
-        number.is_some_and(|number| number.parse::<usize>().is_ok())
-    };
-    one.eq_ignore_ascii_case(other) || picture_of(one, other) || picture_of(other, one)
 }
 
 /// Where a file is named by this, the standard input is read.

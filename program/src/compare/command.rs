@@ -12,7 +12,7 @@ use super::{of_abaqus, of_ls_dyna, of_openradioss, of_toron, plot, report};
 use crate::common::console::print;
 use crate::common::error::Error;
 use crate::common::folder;
-use crate::common::run_directory::file_error;
+use crate::common::run_directory::{RunDirectory, Writes, file_error};
 use crate::common::text_table::{files, shortened, write_csv};
 use crate::scene_deck::origin::Origin;
 
@@ -27,7 +27,7 @@ pub struct Arguments {
     /// beside an Abaqus deck makes. The first one is what the others are compared with.
     #[arg(required = true)]
     histories: Vec<PathBuf>,
-    /// What the histories are called, in their order: A,B,…; without it, as their files.
+    /// What the histories are called, in their order: A,B,…; without it, as their files, with as much of their folders as tells them apart.
     #[arg(long, value_delimiter = ',')]
     names: Vec<String>,
     /// The units of table and figure.
@@ -55,13 +55,14 @@ pub fn run(arguments: &Arguments) -> Result<(), Error> {
     }
     folder::check(&arguments.output)?;
     let mut histories = Vec::new();
-    for (i, path) in arguments.histories.iter().enumerate() {
-        let name = arguments.names.get(i).cloned().unwrap_or_else(|| name_of(path));
+    let names = if arguments.names.is_empty() { names(&arguments.histories) } else { arguments.names.clone() };
+    for (path, name) in arguments.histories.iter().zip(names) {
         histories.push(read(path, name, &units, given)?);
     }
     let judged = histories.iter().map(|history| Figures::of(history, &histories[0])).collect::<Vec<_>>();
     let judged: Vec<(&History, Figures)> = histories.iter().zip(judged).collect();
-    folder::create(&arguments.output)?;
+    let writes = Writes { command: "compare", scene: None, names: vec!["compare".to_string()], restart: false };
+    let _directory = RunDirectory::open(&arguments.output, writes)?;
     let [svg, png] = FIGURE.map(|name| arguments.output.join(name));
     plot::write(&svg, &png, &histories.iter().collect::<Vec<_>>(), &units)?;
     let lines: Vec<_> = judged.iter().map(|(history, figures)| report::line(history, figures, &units)).collect();
@@ -95,6 +96,24 @@ fn system(option: &str, name: &str) -> Result<UnitSystem, Error> {
 fn name_of(path: &Path) -> String {
     let name = if path.is_dir() { path.file_name() } else { path.file_stem() };
     name.map_or_else(|| path.display().to_string(), |name| name.to_string_lossy().into_owned())
+}
+
+/// The names of all, each with as many of its folders before it as it takes to be no other's.
+fn names(paths: &[PathBuf]) -> Vec<String> {
+    let with_folders = |path: &Path, folders: usize| {
+        let above = path.parent().map(|parent| parent.components().collect::<Vec<_>>()).unwrap_or_default();
+        let above = above.iter().skip(above.len().saturating_sub(folders)).collect::<PathBuf>();
+        above.join(name_of(path)).display().to_string()
+    };
+    let deepest = paths.iter().map(|path| path.components().count()).max().unwrap_or_default();
+    let name = |path: &PathBuf| {
+        let alone = |folders: &usize| {
+            let own = with_folders(path, *folders);
+            paths.iter().filter(|other| with_folders(other, *folders) == own).count() == 1
+        };
+        with_folders(path, (0..deepest).find(alone).unwrap_or_default())
+    };
+    paths.iter().map(name).collect()
 }
 
 /// A history, whatever host's it is, in these units.
@@ -159,4 +178,19 @@ fn decks_in(folder: &Path) -> Result<Vec<PathBuf>, Error> {
     decks.retain(|file| file.extension() == Some(OsStr::new("k")));
     decks.sort();
     Ok(decks)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn histories_of_one_name_are_told_by_their_folders() {
+        let of = |paths: &[&str]| names(&paths.iter().map(PathBuf::from).collect::<Vec<_>>());
+        assert_eq!(of(&["a/scene.csv", "b/sceneT01.csv"]), ["scene", "sceneT01"]);
+        assert_eq!(of(&["a/scene.csv", "b/scene.csv", "b/one.csv"]), ["a/scene", "b/scene", "one"]);
+        assert_eq!(of(&["a/x/scene.csv", "b/x/scene.csv"]), ["a/x/scene", "b/x/scene"]);
+        assert_eq!(of(&["scene.csv", "b/scene.csv"]), ["scene", "b/scene"]);
+        assert_eq!(of(&["scene.csv", "scene.csv"]), ["scene", "scene"]);
+    }
 }

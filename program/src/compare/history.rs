@@ -6,6 +6,10 @@ use toron::law::parameters::Dimension;
 use crate::common::units::{ENERGY, FORCE, LENGTH, SPEED, TIME};
 use crate::scene_deck::origin::Origin;
 
+/// A sum of energies falls if it does so by this many times its largest move before, which counts as so much of its size at least.
+const FALL: f64 = 5.0;
+const LEAST_MOVE: f64 = 1e-5;
+
 /// A quantity over time.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Curve {
@@ -51,6 +55,21 @@ impl Curve {
         Curve::new(points.filter_map(|(&time, &value)| Some((time, of(value, other.at(time)?)))))
     }
 
+    /// The first sample into which a sum of energies, which hardly moves otherwise, has fallen by far more than it has ever moved from
+    /// sample to sample before: what is deleted takes its energy with it.
+    pub fn first_fall(&self) -> Option<f64> {
+        let size = self.values.first()?.abs();
+        let mut largest = LEAST_MOVE * size;
+        for (i, pair) in self.values.windows(2).enumerate() {
+            let change = pair[1] - pair[0];
+            if change < -FALL * largest {
+                return self.times.get(i + 1).copied();
+            }
+            largest = largest.max(change.abs());
+        }
+        None
+    }
+
     /// Differences from sample to sample over the time between them, each in the middle of its two.
     pub fn slope(&self) -> Curve {
         let samples: Vec<(f64, f64)> = self.times.iter().copied().zip(self.values.iter().copied()).collect();
@@ -71,6 +90,7 @@ pub enum Quantity {
     Kinetic,
     Internal,
     Hourglass,
+    Viscosity,
     Contact,
     Friction,
     Total,
@@ -89,7 +109,7 @@ const fn row(quantity: Quantity, name: &'static str, title: &'static str, dimens
 }
 
 /// All quantities, in the order of [`Quantity`].
-pub const QUANTITIES: [Row; 10] = [
+pub const QUANTITIES: [Row; 11] = [
     row(Quantity::Speed, "speed", "Speed of the striker", SPEED),
     row(Quantity::Deflection, "deflection", "Deflection", LENGTH),
     row(Quantity::Force, "force", "Force on the striker", FORCE),
@@ -97,6 +117,7 @@ pub const QUANTITIES: [Row; 10] = [
     row(Quantity::Kinetic, "kinetic_energy", "Kinetic energy of the yarns", ENERGY),
     row(Quantity::Internal, "internal_energy", "Internal energy", ENERGY),
     row(Quantity::Hourglass, "hourglass_energy", "Hourglass energy", ENERGY),
+    row(Quantity::Viscosity, "viscosity_energy", "Energy taken by viscosity", ENERGY),
     row(Quantity::Contact, "contact_energy", "Energy of contact", ENERGY),
     row(Quantity::Friction, "friction_energy", "Energy of friction", ENERGY),
     row(Quantity::Total, "total_energy", "Sum of the energies", ENERGY),
@@ -173,6 +194,16 @@ mod tests {
         );
         assert_eq!(curve.slope(), Curve::new([(1.0, 2.0)]));
         assert_eq!(Curve::default().at(0.0), None);
+    }
+
+    #[test]
+    fn a_sum_of_energies_falls_where_it_moves_as_never_before() {
+        let fall = |values: &[f64]| Curve::new((0..).map(f64::from).zip(values.iter().copied())).first_fall();
+        assert_eq!(fall(&[1744.19, 1744.15, 1744.14, 1744.21, 1743.54, 1743.2]), Some(4.0));
+        // Drift, and what comes in, are no fall.
+        assert_eq!(fall(&[1744.19, 1744.15, 1744.05, 1743.9, 1743.7]), None);
+        assert_eq!(fall(&[100.0, 101.0, 102.0, 98.5]), None);
+        assert_eq!(fall(&[]), None);
     }
 
     #[test]

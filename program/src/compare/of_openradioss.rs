@@ -63,9 +63,9 @@ pub fn read(path: &Path, text: &str, name: String) -> Result<History, Error> {
     history.set(Quantity::Internal, internal);
     history.set(Quantity::Hourglass, hourglass);
     history.set(Quantity::Friction, friction);
-    history.set(Quantity::Total, total);
-    // OFF of elements that are watched.
+    // OFF of elements that are watched; others, at a clamp, take their energy out of the sum.
     let failed = of("watched", None).into_iter().filter_map(|column| table.curve(column).first(|off| off < 1.0));
-    history.failed = failed.reduce(f64::min);
+    history.failed = failed.chain(total.first_fall()).reduce(f64::min);
+    history.set(Quantity::Total, total);
     Ok(history)
 }

@@ -14,13 +14,14 @@ use crate::common::units::{ENERGY, FORCE, LENGTH, SPEED, TIME};
 pub const START: &str = "time (";
 
 /// Quantities by the titles of [`columns`](crate::struck::history::columns).
-const NAMED: [(Quantity, &str, Dimension); 9] = [
+const NAMED: [(Quantity, &str, Dimension); 10] = [
     (Quantity::Speed, "speed", SPEED),
     (Quantity::Force, "force", FORCE),
     (Quantity::Striker, "projectile_energy", ENERGY),
     (Quantity::Kinetic, "kinetic_energy", ENERGY),
     (Quantity::Internal, "internal_energy", ENERGY),
     (Quantity::Hourglass, "hourglass_energy", ENERGY),
+    (Quantity::Viscosity, "viscosity_energy", ENERGY),
     (Quantity::Contact, "contact_energy", ENERGY),
     (Quantity::Friction, "friction_energy", ENERGY),
     (Quantity::Total, "total_energy", ENERGY),

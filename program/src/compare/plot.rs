@@ -34,7 +34,12 @@ pub fn write(svg: &Path, png: &Path, histories: &[&History], units: &UnitSystem)
         false => format!("{}: {}", history.name, history.host),
     };
     let hosts: Vec<String> = histories.iter().copied().map(of_host).collect();
+    let one_host = histories.iter().all(|history| history.host == histories[0].host);
+    let title = match histories {
+        [first, ..] if one_host => format!("Runs of {}", first.host),
+        _ => "The same strike in several hosts".to_string(),
+    };
     let label = format!("time ({})", unit(units, TIME));
     let abscissa = Abscissa { label, values: times.clone(), failure: None };
-    history::write(svg, png, ["The same strike in several hosts", &hosts.join("; ")], panels, &abscissa)
+    history::write(svg, png, [&title, &hosts.join("; ")], panels, &abscissa)
 }

@@ -17,8 +17,13 @@ const LARGEST_IMBALANCE: f64 = 0.01;
 /// Columns for the names of the cases that a warning is of.
 const WIDTH: usize = 98;
 
+/// Of the energy that the blow has given away, artificial viscosity may take this part.
+const LARGEST_VISCOSITY: f64 = 0.1;
+
 /// The verdict of a run with which nothing is wrong.
 pub const SOUND: &str = "sound";
+/// Between what a verdict says of the run up to the first failure and what it says of the rest.
+const THEN: &str = " to failure; then ";
 
 /// Something that is wrong with a run.
 #[derive(Clone, Debug, PartialEq)]
@@ -27,23 +32,45 @@ pub struct Finding {
     pub name: &'static str,
     /// What it is, by which bound, and what to change; lines after the first are indented.
     pub text: String,
+    /// Whether it was found in what followed the first failure.
+    pub after_failure: bool,
 }
 
 impl Finding {
     pub fn new(name: &'static str, text: String) -> Finding {
-        Finding { name, text: text.replace('\n', "\n  ") }
+        Finding { name, text: text.replace('\n', "\n  "), after_failure: false }
     }
 }
 
-/// The words of all findings, each once.
-pub fn verdict(findings: &[Finding]) -> String {
-    let mut names: Vec<&str> = Vec::new();
-    for finding in findings {
-        if !names.contains(&finding.name) {
-            names.push(finding.name);
+/// Adds what was found in the run after it had failed, `failed` says how and when; a word that stands there already is not said twice.
+pub fn add_after_failure(findings: &mut Vec<Finding>, failed: &str, found: impl IntoIterator<Item = Finding>) {
+    for finding in found {
+        if !findings.iter().any(|known| known.name == finding.name) {
+            let text = format!("after {failed}: {}", finding.text);
+            findings.push(Finding { text, after_failure: true, ..finding });
         }
     }
-    if names.is_empty() { SOUND.to_string() } else { names.join("; ") }
+}
+
+/// The words of all findings, each once: those of the run up to the first failure, and those of what followed.
+pub fn verdict(findings: &[Finding]) -> String {
+    let names = |after: bool| {
+        let mut names: Vec<&str> = Vec::new();
+        for finding in findings.iter().filter(|finding| finding.after_failure == after) {
+            if !names.contains(&finding.name) {
+                names.push(finding.name);
+            }
+        }
+        names.join("; ")
+    };
+    let [before, after] = [false, true].map(names);
+    let before = if before.is_empty() { SOUND } else { &before };
+    if after.is_empty() { before.to_string() } else { format!("{before}{THEN}{after}") }
+}
+
+/// The two parts of a [`verdict`]; none of what followed a failure where there was none, or nothing is wrong with it.
+pub fn parts_of_verdict(verdict: &str) -> (&str, Option<&str>) {
+    verdict.split_once(THEN).map_or((verdict, None), |(before, after)| (before, Some(after)))
 }
 
 /// Warnings of what was found in each case; what is wrong with several in the same way stands there once.
@@ -78,6 +105,18 @@ pub fn contact(share: f64, stiffness: f64) -> Option<Finding> {
              take a larger contact-stiffness than {stiffness:e}"
         );
         Finding::new("contact", text)
+    })
+}
+
+/// Where artificial viscosity has taken too large a part of the energy that the blow has given away.
+pub fn viscosity(share: f64, remedy: &str) -> Option<Finding> {
+    let exceeds = share.is_nan() || share > LARGEST_VISCOSITY;
+    exceeds.then(|| {
+        let [share, most] = [share, LARGEST_VISCOSITY].map(|share| 100.0 * share);
+        let text = format!(
+            "artificial viscosity took {share:.0} % of the energy that the blow gave away, more than {most:.0} %:\ntake {remedy}"
+        );
+        Finding::new("viscosity", text)
     })
 }
 
@@ -117,6 +156,30 @@ mod tests {
     }
 
     #[test]
+    fn a_verdict_says_up_to_where_it_holds() {
+        let words = |words: &[&'static str]| -> Vec<Finding> {
+            words.iter().map(|name| Finding::new(name, name.to_string())).collect()
+        };
+        for (before, after, text, parts) in [
+            (
+                &[][..],
+                &["viscosity", "jacobian"][..],
+                "sound to failure; then viscosity; jacobian",
+                ("sound", Some("viscosity; jacobian")),
+            ),
+            (&["mesh"], &["viscosity", "mesh"], "mesh to failure; then viscosity", ("mesh", Some("viscosity"))),
+            (&["mesh"], &["mesh"], "mesh", ("mesh", None)),
+            (&[], &[], "sound", ("sound", None)),
+        ] {
+            let mut findings = words(before);
+            add_after_failure(&mut findings, "the break", words(after));
+            assert_eq!((verdict(&findings).as_str(), parts_of_verdict(text)), (text, parts));
+            let said = findings.iter().filter(|finding| finding.text.starts_with("after the break: "));
+            assert_eq!(said.count(), parts.1.map_or(0, |after| after.split("; ").count()));
+        }
+    }
+
+    #[test]
     fn bounds_and_what_is_no_number_are_found() {
         let found = |of: fn(f64) -> Option<Finding>, most: f64| {
             [0.99 * most, 1.01 * most, f64::NAN].map(|value| of(value).is_some())
@@ -124,5 +187,6 @@ mod tests {
         assert_eq!(found(|share| hourglass(share, "less"), 0.1), [false, true, true]);
         assert_eq!(found(|share| contact(share, 1.0), 0.05), [false, true, true]);
         assert_eq!(found(balance, 0.01), [false, true, true]);
+        assert_eq!(found(|share| viscosity(share, "less"), 0.1), [false, true, true]);
     }
 }

@@ -5,16 +5,18 @@ use std::path::Path;
 use super::fate::Fate;
 use super::judgement::before;
 use super::measure::OfPanel;
-use super::reader::PICTURES;
 use super::run::{Outcome, StruckPanel};
 use super::scene::{Case, Scene};
 use super::summary::{self, Figures};
 use super::{panel_picture, plot, report};
+use crate::common::console::print_error;
 use crate::common::error::Error;
-use crate::explicit::judgement::Finding;
+use crate::common::file_names::PANEL;
+use crate::explicit::judgement::{Finding, verdict};
 use crate::struck::command;
 use crate::struck::history::Column;
 use crate::struck::summary::Cells;
+use crate::weave;
 use toron::host::units::UnitSystem;
 
 /// Runs the cases of a scene, one after another, and writes what came of them to the directory `output`. With `restart`, cases
@@ -26,9 +28,24 @@ pub fn run(path: &Path, output: &Path, restart: bool) -> Result<(), Error> {
     command::run(&Scene::read(path)?, path, output, restart)
 }
 
+/// `toron weave`: the panel of a weave, or of a strike, whose yarns are those of its first case.
+///
+/// # Errors
+/// As for [`weave::command::run`].
+pub fn weave(path: &Path, output: &Path) -> Result<(), Error> {
+    let mut scene = weave::reader::Scene::read(path)?;
+    if scene.is_struck && scene.materials.is_empty() {
+        match Scene::read(path) {
+            Ok(strike) => scene.materials = strike.cases.first().map_or(Vec::new(), Case::of_plies),
+            // A strike that cannot be run yet has a mesh all the same.
+            Err(error) => print_error(&format!("warning: the yarns' materials are not known: {error}\n")),
+        }
+    }
+    weave::command::run(&scene, path, output)
+}
+
 impl command::Scene for Scene {
     const COMMAND: &'static str = "fabric";
-    const PICTURES: &'static str = PICTURES;
     const PARALLEL: bool = false;
 
     type Own = OfPanel;
@@ -63,12 +80,13 @@ impl command::Scene for Scene {
         output: &Path,
     ) -> Result<Self::Result<'a>, Error> {
         let file = |ending: &str| output.join(format!("{}{ending}", case.name));
-        plot::write(&file(".svg"), &file(".png"), self, case, &outcome)?;
-        for (number, snapshot) in outcome.snapshots.iter().enumerate() {
-            let [svg, png] = ["svg", "png"].map(|ending| file(&format!("{PICTURES}{}.{ending}", number + 1)));
-            panel_picture::write(&svg, &png, self, case, &panel, snapshot)?;
-        }
         let figures = Figures::of(&self.units, case, &panel, &outcome);
+        let verdict = verdict(&figures.findings);
+        plot::write(&file(".svg"), &file(".png"), self, case, &outcome, &verdict)?;
+        for (number, snapshot) in outcome.snapshots.iter().enumerate() {
+            let [svg, png] = ["svg", "png"].map(|ending| file(&format!("{PANEL}{}.{ending}", number + 1)));
+            panel_picture::write(&svg, &png, (self, case, &verdict), &panel, snapshot)?;
+        }
         Ok((case, outcome, figures))
     }
 

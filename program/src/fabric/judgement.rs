@@ -1,19 +1,18 @@
 //! Whether a strike can be believed: the finished run is held against bounds, and each verdict says what to change.
 //! `docs/guides/fabric.md` has the bounds and why they are where they are.
 //!
-//! A run is judged up to the first failure: afterwards torn shreds whip about, which carry nothing.
+//! A run is judged up to the first failure, and what follows by itself: torn shreds whip about then, which carry nothing.
 
 use nalgebra::Vector3;
 
 use super::measure::Sample;
 use super::run::Outcome;
 use super::scene::Case;
-use crate::common::units::{LENGTH, number, unit};
+use super::weights;
+use crate::common::units::{LENGTH, TIME, number, unit};
 use crate::explicit::judgement::{self, Finding};
 use crate::explicit::lanes::{largest, smallest};
-use crate::weave::geometry::Family;
 use crate::weave::model::Model;
-use crate::weave::report::areal_density_warning;
 use toron::host::units::UnitSystem;
 
 /// The sphere's radius has to hold so many edges of the elements' faces.
@@ -25,7 +24,7 @@ const LARGEST_SHEAR: f64 = 0.5;
 /// Over a yarn's height: how far the sphere may get ahead of the panel.
 const DEEPEST: f64 = 0.5;
 
-/// What is measured up to the first failure.
+/// What is measured up to a time: the first failure, or the end.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Measures {
     /// The largest hourglass energy over the largest internal energy.
@@ -41,16 +40,29 @@ pub struct Measures {
     pub collapsed: usize,
     /// Of the sphere.
     pub travel: f64,
+    /// The part that artificial viscosity has taken of the energy that the blow has given away.
+    pub viscosity: f64,
 }
 
 impl Measures {
-    pub fn of(outcome: &Outcome) -> Measures {
-        let end = outcome.failed.unwrap_or(f64::INFINITY);
+    /// Up to the first failure.
+    pub fn to_failure(outcome: &Outcome) -> Measures {
+        Measures::to(outcome.failed.unwrap_or(f64::INFINITY), outcome)
+    }
+
+    /// Of the whole run.
+    pub fn whole(outcome: &Outcome) -> Measures {
+        Measures::to(f64::INFINITY, outcome)
+    }
+
+    fn to(end: f64, outcome: &Outcome) -> Measures {
         let samples = || outcome.measured.iter().take_while(|sample| sample.time <= end);
         let most = |of: fn(&Sample) -> f64| samples().map(of).fold(0.0, largest);
         let share = |part: f64, whole: f64| if part == 0.0 { 0.0 } else { part / whole };
         let internal = most(|sample| sample.energies.internal);
-        let start = outcome.measured.first().map_or(0.0, |sample| sample.energies.total());
+        let first = outcome.measured.first().map(|sample| sample.energies).unwrap_or_default();
+        let start = first.total();
+        let viscosity = samples().last().and_then(|last| last.energies.viscosity_share(&first));
         Measures {
             hourglass: share(most(|sample| sample.energies.hourglass), internal),
             shear: share(most(|sample| sample.parts[3]), most(|sample| sample.parts.iter().sum())),
@@ -59,6 +71,7 @@ impl Measures {
             ahead: most(|sample| sample.travel - sample.own.deflection),
             collapsed: samples().map(|sample| sample.collapsed).max().unwrap_or(0),
             travel: most(|sample| sample.travel),
+            viscosity: viscosity.unwrap_or(0.0),
         }
     }
 }
@@ -67,43 +80,62 @@ impl Measures {
 pub fn before(units: &UnitSystem, case: &Case, panel: &Model) -> Vec<Finding> {
     let mut findings: Vec<Finding> =
         case.materials().flat_map(|material| judgement::units(std::slice::from_ref(material), units)).collect();
-    for (number, figures) in case.cloth.figures(panel).into_iter().enumerate() {
-        let density = |family: Family| case.material(number, family).density.unwrap_or_default();
-        let mass = |family: Family| figures.volumes_by_area[family as usize] * density(family);
-        let volume = figures.volume_by_area();
-        let mass: f64 = Family::BOTH.map(mass).iter().sum();
-        let areal_density = areal_density_warning(volume, mass / volume, units);
-        findings.extend(areal_density.map(|text| Finding::new("units", text)));
-    }
+    findings.extend(weights::findings(units, case, panel));
     findings.extend(coarse(units, case, panel));
     findings
 }
 
-/// What is wrong with a run that has ended; `front_at_rim` is when the transverse wave came to the rim.
+/// What is wrong with a run that has ended, by what was measured up to the first failure and of the whole; `front_at_rim` is when the
+/// transverse wave came to the rim.
 pub fn judge(
     units: &UnitSystem,
     case: &Case,
     panel: &Model,
     outcome: &Outcome,
-    measures: &Measures,
+    [measures, whole]: [&Measures; 2],
     front_at_rim: Option<f64>,
 ) -> Vec<Finding> {
     let mut findings = before(units, case, panel);
     let ended = outcome.failed.unwrap_or(f64::INFINITY);
     let spread = measures.travel >= case.sphere.radius || front_at_rim.is_some_and(|time| time <= ended);
     if spread {
-        let remedy = format!("a finer mesh, a larger k_ld, or another hourglass than {}", case.control.hourglass);
-        findings.extend(judgement::hourglass(measures.hourglass, &remedy));
+        findings.extend(hourglass(case, measures));
         findings.extend(shear(case, measures));
+        findings.extend(viscosity(measures));
     } else {
         findings.extend(transient(units, case, measures));
     }
-    findings.extend(distorted(measures));
+    findings.extend(distorted(
+        measures,
+        "a finer mesh, a larger k_ld or contact-stiffness, or a failure if the yarns would break",
+    ));
     findings.extend(collapsed(case, measures));
     findings.extend(judgement::contact(measures.contact, case.sphere.stiffness));
     findings.extend(sunk(units, case, measures));
     findings.extend(judgement::balance(outcome.balance.imbalance()));
+    if let Some(time) = outcome.failed {
+        let failed = format!("the first failure, at {} {}", number(time), unit(units, TIME));
+        judgement::add_after_failure(&mut findings, &failed, after_failure(case, whole));
+    }
     findings
+}
+
+/// What is wrong with what followed the first failure, by bounds that torn yarns know too: the sphere is ahead of them, and corners of
+/// shreds turn over.
+fn after_failure(case: &Case, whole: &Measures) -> Vec<Finding> {
+    let folded = distorted(whole, "a finer mesh: shreds of torn yarns fold, and carry what they should not");
+    let findings = [viscosity(whole), hourglass(case, whole), folded];
+    let contact = judgement::contact(whole.contact, case.sphere.stiffness);
+    findings.into_iter().chain([contact]).flatten().collect()
+}
+
+fn hourglass(case: &Case, measures: &Measures) -> Option<Finding> {
+    let remedy = format!("a finer mesh, a larger k_ld, or another hourglass than {}", case.control.hourglass);
+    judgement::hourglass(measures.hourglass, &remedy)
+}
+
+fn viscosity(measures: &Measures) -> Option<Finding> {
+    judgement::viscosity(measures.viscosity, "a finer mesh, and see how far what is left to the sphere moves with it")
 }
 
 /// A sphere that the mesh cannot tell from a needle: it meets nodes, few of them.
@@ -163,13 +195,13 @@ fn shear(case: &Case, measures: &Measures) -> Option<Finding> {
 }
 
 /// Elements whose corners are inside out.
-fn distorted(measures: &Measures) -> Option<Finding> {
+fn distorted(measures: &Measures, remedy: &str) -> Option<Finding> {
     let least = measures.least_scaled_jacobian;
     let below = least.is_nan() || least < LEAST_JACOBIAN;
     below.then(|| {
         let text = format!(
             "an element's corner is inside out, with a scaled Jacobian of {least:.2}, less than {LEAST_JACOBIAN}:\n\
-             take a finer mesh, a larger k_ld or contact-stiffness, or a failure if the yarns would break"
+             take {remedy}"
         );
         Finding::new("jacobian", text)
     })
@@ -219,10 +251,21 @@ mod tests {
         ahead: 0.0038,
         collapsed: 0,
         travel: 5.404,
+        viscosity: 0.02,
     };
 
     /// The verdict of a panel that a sphere of this radius strikes; the density as a factor, how far the energy is off.
     fn verdict_of(measures: Measures, radius: f64, density: f64, off: f64, front_at_rim: Option<f64>) -> String {
+        judged([measures, measures], [radius, density, off], front_at_rim, None)
+    }
+
+    /// The verdict by what was measured up to the first failure, at `failed`, and of the whole.
+    fn judged(
+        [measures, whole]: [Measures; 2],
+        [radius, density, off]: [f64; 3],
+        front_at_rim: Option<f64>,
+        failed: Option<f64>,
+    ) -> String {
         let density = 1.3514e-3 * density;
         let text = format!(
             "units = \"mm-g-ms\"\n[weave]\npreset = \"kevlar-s706\"\nalong = 4\ncolumns = 4\n\
@@ -243,14 +286,14 @@ mod tests {
             snapshots: Vec::new(),
             end: End::Time,
             course: Default::default(),
-            failed: None,
+            failed,
             failure: None,
             elements: 1,
             cost: Default::default(),
             searches: 0,
             wall: Default::default(),
         };
-        verdict(&judge(&scene.units, case, &panel, &outcome, &measures, front_at_rim))
+        verdict(&judge(&scene.units, case, &panel, &outcome, [&measures, &whole], front_at_rim))
     }
 
     #[test]
@@ -264,6 +307,7 @@ mod tests {
             (Measures { least_scaled_jacobian: -0.51, ..SOUND }, "jacobian"),
             (Measures { least_scaled_jacobian: f64::NAN, ..SOUND }, "jacobian"),
             (Measures { contact: 0.051, ..SOUND }, "contact"),
+            (Measures { viscosity: 0.11, ..SOUND }, "viscosity"),
             (Measures { ahead: 0.058, ..SOUND }, "penetration"),
             (Measures { collapsed: 1, ..SOUND }, "collapsed"),
             (
@@ -278,6 +322,19 @@ mod tests {
         // Of the wave, and of the panel's weight.
         assert_eq!(verdict_of(SOUND, 2.778, 1000.0, 1e-5, None), "units");
         assert_eq!(verdict_of(SOUND, 2.778, 1e-3, 1e-5, None), "units");
+    }
+
+    /// What follows the first failure is judged by itself; what was wrong before it is not said twice.
+    #[test]
+    fn what_follows_a_failure_is_in_the_verdict() {
+        let of = |measures, whole, failed| judged([measures, whole], [2.778, 1.0, 1e-5], None, failed);
+        let shreds = Measures { viscosity: 0.32, least_scaled_jacobian: -0.96, ahead: 3.0, collapsed: 9, ..SOUND };
+        assert_eq!(of(SOUND, shreds, Some(0.03)), "sound to failure; then viscosity; jacobian");
+        assert_eq!(of(SOUND, SOUND, Some(0.03)), "sound");
+        let before = Measures { least_scaled_jacobian: -0.6, ..SOUND };
+        assert_eq!(of(before, shreds, Some(0.03)), "jacobian to failure; then viscosity");
+        let wild = Measures { hourglass: 0.2, contact: f64::NAN, ..SOUND };
+        assert_eq!(of(SOUND, wild, Some(0.03)), "sound to failure; then hourglass; contact");
     }
 
     #[test]

@@ -19,3 +19,4 @@ pub mod strength;
 pub mod summary;
 #[cfg(test)]
 mod tests;
+pub mod weights;

@@ -57,6 +57,7 @@ const AMBIENT: f64 = 0.48;
 const DIFFUSE: f64 = 0.64;
 /// The scale ends where this part of the elements that carry something lies below.
 const SHOWN: f64 = 0.98;
+const BEYOND: &str = "2 %";
 /// The views show where a density has this part of its largest, with some air; or the whole panel, where that is not much more.
 const SMALL: f64 = 0.01;
 const AIR: f64 = 1.25;
@@ -73,20 +74,19 @@ fn modes(case: &Case) -> Vec<&'static str> {
     }
 }
 
-/// Draws the panel as it stood at an instant; a quarter is continued by its mirror images.
+/// Draws the panel as it stood at an instant, with the verdict of the run; a quarter is continued by its mirror images.
 ///
 /// # Errors
 /// A file cannot be written.
 pub fn write(
     svg: &Path,
     png: &Path,
-    scene: &Scene,
-    case: &Case,
+    (scene, case, verdict): (&Scene, &Case, &str),
     panel: &Model,
     snapshot: &Snapshot,
 ) -> Result<(), Error> {
     let unit = unit(&scene.units, ENERGY_DENSITY);
-    let drawing = Drawing::new(scene, case, panel, snapshot, &unit);
+    let drawing = Drawing { verdict, ..Drawing::new(scene, case, panel, snapshot, &unit) };
     page::write(svg, png, [WIDTH as u32, drawing.height() as u32], |root| drawing.draw(root))
 }
 
@@ -99,6 +99,8 @@ struct Drawing<'a> {
     scene: &'a Scene,
     case: &'a Case,
     snapshot: &'a Snapshot,
+    /// Of the run.
+    verdict: &'a str,
     /// The first over the whole width, the second below it, the others beside that one.
     views: Vec<Seen<'a>>,
 }
@@ -134,7 +136,7 @@ impl<'a> Drawing<'a> {
         // What flies ahead of the sphere is out of the views.
         let lowest = snapshot.projectile.map_or(f64::NEG_INFINITY, |(height, radius)| height - FLYING * radius);
         let seen = |mode: usize, name: &str, [turned, raised]: [f64; 2], reach: [f64; 2], cut: bool| {
-            let near = |[x, y]: [f64; 2]| x.abs() <= reach[0] && y.abs() <= reach[1] && (!cut || quarter || y >= 0.0);
+            let near = |at: [f64; 2]| within(at, reach) && (!cut || quarter || at[1] >= 0.0);
             let shown: Vec<bool> = middles.iter().zip(&snapshot.intact).map(|(&at, &is)| is && near(at)).collect();
             let mut sides = surface::visible(panel, &snapshot.positions, |element| shown[element]);
             sides.retain(|side| side.corners.iter().all(|corner| corner[2] > lowest));
@@ -151,9 +153,12 @@ impl<'a> Drawing<'a> {
             for corner in sphere.iter_mut().flat_map(|face| &mut face.0) {
                 (corner[0], corner[1]) = (corner[0] + aim[0], corner[1] + aim[1]);
             }
-            let (scale, most) = scale(mode, modes[mode], snapshot, &shown, unit);
+            // By all that is as near, so that views of one mode have one scale.
+            let standing: Vec<bool> =
+                middles.iter().zip(&snapshot.intact).map(|(&at, &is)| is && within(at, reach)).collect();
+            let (scale, most) = scale(mode, modes[mode], snapshot, &standing, unit);
             let name = if most > scale.largest {
-                format!("{name}; the largest is {}", number(most))
+                format!("{name}; {BEYOND} exceed the scale, up to {}", number(most))
             } else {
                 name.to_string()
             };
@@ -167,7 +172,7 @@ impl<'a> Drawing<'a> {
         // The linear law has no more to show at the blow than its work.
         let close = if modes.len() == 1 { 0..1 } else { 1..modes.len() };
         views.extend(close.map(|mode| seen(mode, "at the blow, cut along the warp", BLOW, blow, true)));
-        Drawing { scene, case, snapshot, views }
+        Drawing { scene, case, snapshot, verdict: "", views }
     }
 
     /// The place and the width of each view, and the height of all.
@@ -195,7 +200,7 @@ impl<'a> Drawing<'a> {
         let units = &self.scene.units;
         let laws = if matches!(self.case.zones, Zones::Two(..)) { "; * work, where the law is linear" } else { "" };
         let scales = "energies per reference volume, colours by the square root";
-        let time = format!("at {}, {scales}{laws}", time(units, self.snapshot.time));
+        let time = format!("at {}, {scales}{laws}; verdict: {}", time(units, self.snapshot.time), self.verdict);
         root.draw_text(&time, &text(TEXT, &GREY), (fine(LEFT), fine(TIME_TOP)))?;
         let (places, _) = self.layout();
         self.views.iter().zip(places).try_for_each(|(view, (place, width))| self.draw_view(root, view, place, width))
@@ -280,6 +285,10 @@ fn two_digits(value: f64) -> f64 {
 fn middle(panel: &Model, element: usize) -> [f64; 2] {
     let corners = &panel.elements[element];
     [0, 1].map(|axis| corners.iter().map(|&node| panel.nodes[node as usize][axis]).sum::<f64>() / corners.len() as f64)
+}
+
+fn within(at: [f64; 2], reach: [f64; 2]) -> bool {
+    at.iter().zip(reach).all(|(at, reach)| at.abs() <= reach)
 }
 
 fn farthest([x, y]: &[f64; 2]) -> f64 {

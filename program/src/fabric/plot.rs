@@ -14,17 +14,25 @@ use toron::law::parameters::ENERGY_DENSITY;
 
 const MODES: [&str; 5] = ["elongation", "compaction", "distortion", "shear", "work of the linear law"];
 
-/// Speed, deflection, energies by kind and by mode, largest energy densities, front and force over time, as far as they change.
+/// Speed, deflection, energies by kind and by mode, largest energy densities, front and force over time, as far as they change, with the verdict of the run.
 ///
 /// # Errors
 /// A file cannot be written.
-pub fn write(svg: &Path, png: &Path, scene: &Scene, case: &Case, outcome: &Outcome) -> Result<(), Error> {
+pub fn write(
+    svg: &Path,
+    png: &Path,
+    scene: &Scene,
+    case: &Case,
+    outcome: &Outcome,
+    verdict: &str,
+) -> Result<(), Error> {
     let abscissa = Abscissa {
         label: format!("time ({})", unit(&scene.units, TIME)),
         values: outcome.history.iter().map(|sample| sample.time).collect(),
         failure: outcome.failed,
     };
-    history::write(svg, png, [&scene.title, &case.name], panels(scene, outcome), &abscissa)
+    let subtitle = format!("{}; verdict: {verdict}", case.name);
+    history::write(svg, png, [&scene.title, &subtitle], panels(scene, outcome), &abscissa)
 }
 
 fn panels(scene: &Scene, outcome: &Outcome) -> [Panel; 11] {

@@ -8,7 +8,7 @@ use std::sync::Arc;
 use toml::Spanned;
 
 use super::file::{CaseFile, Rim, SceneFile, ShapeName};
-use super::scene::{Case, Scene};
+use super::scene::{Case, Scene, Striker};
 use crate::common::error::Error;
 use crate::common::toml_file::{self, Numbers, Source, over};
 use crate::common::units::number;
@@ -27,8 +27,6 @@ use crate::weave::layup::Ply;
 use crate::weave::panel::Part;
 use toron::law::parameters::DENSITY;
 
-/// Between a case's name and the number of a picture.
-pub const PICTURES: &str = "-panel-";
 /// Samples of a history where the file does not say otherwise.
 const SAMPLES: f64 = 400.0;
 /// Friction of the sphere and of the yarns, where the file gives none: the thesis's.
@@ -38,6 +36,8 @@ const MARGIN: f64 = 0.8;
 const DEEPEST: f64 = 0.5;
 /// What solids have in kg/m³: balsa from 100, osmium 22 600.
 const DENSITIES: RangeInclusive<f64> = 100.0..=23e3;
+/// A mass and a density that differ by less than this part are the same.
+const SAME_MASS: f64 = 0.02;
 
 impl Scene {
     /// Reads the file.
@@ -70,7 +70,7 @@ impl Scene {
         let cases = keys::cases(
             (&source, &units),
             (&file.scene, &file.case),
-            (&["summary"], PICTURES),
+            &["summary"],
             CaseFile::unused,
             |reader, [file_of_case, _], name| {
                 let (cloth, threads) = reader.cloth_of_case(&file, file_of_case, &cloth)?;
@@ -130,6 +130,7 @@ impl Reader<'_> {
         let material = |own: &Option<Box<Material>>| own.as_deref().unwrap_or(zones.inner()).name();
         let materials: Vec<[String; 2]> = threads.iter().map(|ply| ply.each_ref().map(material)).collect();
         let strength = self.panel_strength(&cloth, &materials)?;
+        let (mass, striker) = self.mass_and_striker(file)?;
         Ok(Case {
             sphere: Rigid {
                 shape: shape(file),
@@ -143,7 +144,8 @@ impl Reader<'_> {
             zones,
             threads,
             strength,
-            mass: self.mass(file)?,
+            mass,
+            striker,
             held: file.rim != Some(Rim::Free),
             mutual: Parameters {
                 stiffness,
@@ -200,31 +202,71 @@ impl Reader<'_> {
         self.material(law, &Some(file)).map(|material| Some(Box::new(material)))
     }
 
-    /// The mass of what strikes: the file's, which must be one that its volume can have, or its volume's.
-    fn mass(&self, file: &CaseFile) -> Result<f64, Error> {
+    /// The mass of what strikes, and its density: from the file's mass, which must be one that its volume can have, or from the file's
+    /// density.
+    fn mass_and_striker(&self, file: &CaseFile) -> Result<(f64, Striker), Error> {
         let keys = self.keys;
         let volume = self.volume(file)?;
-        if keys.mass.is_none() && file.striker_density.is_some() {
-            let density = self.positive("striker-density", &file.striker_density)?;
-            let wanted = "mass is missing; allowed: a finite number > 0, or length beside striker-density";
-            return volume.map(|volume| density * volume).ok_or_else(|| self.source.error(self.span.clone(), wanted));
+        let in_si = |density: f64| density / self.units.from_si(1.0, DENSITY);
+        let Some(given) = &file.striker_density else {
+            let mass = self.positive("mass", &keys.mass)?;
+            let density = volume.map(|volume| in_si(mass / volume));
+            if let (Some(given), Some(volume), Some(density)) = (&keys.mass, volume, density) {
+                self.check_density(file, density, volume, given)?;
+            }
+            return Ok((mass, Striker { density, is_told: false }));
+        };
+        let density = self.positive("striker-density", &file.striker_density)?;
+        if !DENSITIES.contains(&in_si(density)) {
+            let [least, most] =
+                [DENSITIES.start(), DENSITIES.end()].map(|density| number(density * self.units.from_si(1.0, DENSITY)));
+            let message = format!("striker-density is {density}; allowed: what solids have, {least} to {most}");
+            return Err(self.source.error(given.span(), &message));
         }
-        let mass = self.positive("mass", &keys.mass)?;
-        let (Some(given), Some(volume)) = (&keys.mass, volume) else { return Ok(mass) };
-        let density = mass / volume / self.units.from_si(1.0, DENSITY);
+        let striker = Striker { density: Some(in_si(density)), is_told: true };
+        let of_volume = volume.map(|volume| density * volume);
+        match (&keys.mass, of_volume) {
+            (None, Some(mass)) => Ok((mass, striker)),
+            (None, None) => {
+                let wanted = "mass is missing; allowed: a finite number > 0, or length beside striker-density";
+                Err(self.source.error(self.span.clone(), wanted))
+            }
+            (Some(_), None) => {
+                let mass = self.positive("mass", &keys.mass)?;
+                Ok((mass, striker))
+            }
+            (Some(place), Some(of_volume)) => {
+                let mass = self.positive("mass", &keys.mass)?;
+                if (mass - of_volume).abs() <= SAME_MASS * of_volume {
+                    return Ok((mass, striker));
+                }
+                let message = format!(
+                    "mass is {mass}, and striker-density {} with the sizes of the {} makes {}; allowed: one of the two, or both the same",
+                    given.get_ref(),
+                    shape(file).name(),
+                    number(of_volume)
+                );
+                Err(self.source.error(place.span(), &message))
+            }
+        }
+    }
+
+    /// That a density in kg/m³, of this volume, is one that solids have.
+    fn check_density(&self, file: &CaseFile, density: f64, volume: f64, given: &Spanned<f64>) -> Result<(), Error> {
         if DENSITIES.contains(&density) {
-            return Ok(mass);
+            return Ok(());
         }
         let (radius, name, units) = (
-            number(keys.radius.as_ref().map_or(0.0, |radius| *radius.get_ref())),
+            number(self.keys.radius.as_ref().map_or(0.0, |radius| *radius.get_ref())),
             shape(file).name(),
             self.units.names().join("-"),
         );
         let [least, most] = [DENSITIES.start(), DENSITIES.end()]
             .map(|density| number(density * volume * self.units.from_si(1.0, DENSITY)));
         let message = format!(
-            "mass is {mass}, of a {name} with radius {radius}: {} kg/m³; allowed: {least} to {most}, of {} to {} kg/m³;\n\
+            "mass is {}, of a {name} with radius {radius}: {} kg/m³; allowed: {least} to {most}, of {} to {} kg/m³;\n\
              mass or a length is most likely not in the units of the file, {units}",
+            given.get_ref(),
             number(density),
             DENSITIES.start(),
             DENSITIES.end(),

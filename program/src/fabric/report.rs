@@ -5,11 +5,10 @@ use std::path::Path;
 use super::run::Outcome;
 use super::scene::{Case, Scene};
 use super::summary::{Figures, ending, residual_speed};
-use crate::common::text_table::{Column, NONE, files, folded, or_dash, shortened, table, yarns_of_cases};
+use crate::common::text_table::{Column, NONE, files, folded, of_cases, or_dash, shortened, table};
 use crate::common::units::{LENGTH, SPEED, TIME, number, one_digit, unit};
-use crate::explicit::judgement::warnings;
+use crate::explicit::judgement::{verdict, warnings};
 use crate::strength::scatter;
-use crate::struck::report::after_failure;
 
 /// Columns of a terminal.
 const WIDTH: usize = 129;
@@ -23,9 +22,11 @@ pub fn report(scene: &Scene, results: &Results, output: &Path) -> String {
     let table = table(columns(scene, results), WIDTH);
     let warnings = warnings(results.iter().map(|(case, _, figures)| (case.name.as_str(), &figures.findings[..])));
     let yarns: Vec<_> = results.iter().map(|(case, ..)| (case.name.as_str(), case.material_names())).collect();
-    let (yarns, sliding) = (yarns_of_cases(&yarns, WIDTH), strength(scene, results) + &sliding(results));
-    let failed = after_failure(results.iter().map(|(case, outcome, _)| (case.name.as_str(), outcome)), WIDTH);
-    format!("{}\n\n{table}\n{yarns}{sliding}{failed}{warnings}\n{}", scene.title, list_files(results, output))
+    let weights: Vec<_> =
+        results.iter().map(|(case, _, figures)| (case.name.as_str(), figures.weights.clone())).collect();
+    let yarns = of_cases("Yarns", &yarns, WIDTH) + &of_cases("Weights", &weights, WIDTH);
+    let sliding = strength(scene, results) + &sliding(results);
+    format!("{}\n\n{table}\n{yarns}{sliding}{warnings}\n{}", scene.title, list_files(results, output))
 }
 
 /// The cases whose strength scatters.
@@ -65,6 +66,7 @@ fn columns(scene: &Scene, results: &Results) -> Vec<Column> {
     vec![
         column("case", "", &|case, _, _| shortened(&case.name, LONGEST_NAME)),
         column("how it ended", "", &|case, outcome, _| ending(case, outcome)),
+        column("verdict", "", &|_, _, figures| verdict(&figures.findings)),
         column("at", &time, &|_, _, figures| number(figures.last.time)),
         column("residual", &speed, &|_, outcome, figures| or_dash(residual_speed(outcome, figures), number)),
         column("at end", &speed, &|_, outcome, figures| at_end(outcome, figures)),
@@ -78,7 +80,6 @@ fn columns(scene: &Scene, results: &Results) -> Vec<Column> {
         column("torn", "yarns", &|_, _, figures| figures.last.own.torn.to_string()),
         column("elements", "deleted", &|_, _, figures| figures.last.deleted.to_string()),
         column("run", "s", &|_, outcome, _| format!("{:.1}", outcome.wall.as_secs_f64())),
-        column("zone cycle", "ns", &|_, outcome, _| format!("{:.0}", outcome.ns_per_zone_cycle())),
     ]
 }
 

@@ -37,6 +37,7 @@ pub struct Case {
     /// The sphere, and the whole of its mass.
     pub sphere: Rigid,
     pub mass: f64,
+    pub striker: Striker,
     pub speed: f64,
     /// Where it scatters, in place of the materials'.
     pub strength: Option<Strength>,
@@ -47,6 +48,15 @@ pub struct Case {
     pub control: Control,
     pub plan: Plan,
     pub single_precision: bool,
+}
+
+/// What is known of the material of what strikes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Striker {
+    /// In kg/m³; none of a cylinder whose length is not given.
+    pub density: Option<f64>,
+    /// Whether the file gives it, and not only a mass and sizes.
+    pub is_told: bool,
 }
 
 impl Case {
@@ -75,6 +85,11 @@ impl Case {
     /// What the yarns of a ply's family are made of in the middle.
     pub fn material(&self, ply: usize, family: Family) -> &Material {
         self.threads[ply][family as usize].as_deref().unwrap_or(self.zones.inner())
+    }
+
+    /// What the yarns of warp and weft of each ply are made of in the middle.
+    pub fn of_plies(&self) -> Vec<[Material; 2]> {
+        (0..self.threads.len()).map(|ply| Family::BOTH.map(|family| self.material(ply, family).clone())).collect()
     }
 
     /// The names of the materials: of the zones from the centre outwards, or of the plies' warp and weft.

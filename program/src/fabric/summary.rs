@@ -7,6 +7,7 @@ use super::measure::{OfPanel, Sample};
 use super::run::{End, Outcome};
 use super::scene::{Case, Zones};
 use super::strength::PanelStrength;
+use super::weights;
 use crate::common::text_table::NONE;
 use crate::common::units::{LENGTH, SPEED, TIME, number};
 use crate::explicit::judgement::{Finding, verdict};
@@ -31,16 +32,17 @@ pub struct Figures {
     pub deflection: (f64, f64),
     /// When the front of the transverse wave has reached the rim.
     pub front_at_rim: Option<f64>,
-    /// The largest hourglass energy over the largest internal energy.
-    pub hourglass: f64,
-    /// The least volume of an element over that at rest, and the least scaled Jacobian, of all times.
-    pub worst: [f64; 2],
+    /// The least volume of an element over that at rest, of all times.
+    pub least_volume_ratio: f64,
     /// The largest energy densities of all times.
     pub densities: [f64; 5],
     /// The least strength of all elements, where it scatters.
     pub weakest: Option<String>,
-    /// Up to the first failure, and what is wrong with the run.
+    /// What panel and striker weigh, in words.
+    pub weights: String,
+    /// Up to the first failure, of the whole run, and what is wrong with it.
     pub measures: Measures,
+    pub whole: Measures,
     pub findings: Vec<Finding>,
 }
 
@@ -52,20 +54,20 @@ impl Figures {
         let deflection = most(|sample| sample.own.deflection);
         let deepest = samples.iter().find(|sample| sample.own.deflection == deflection);
         let rim = AT_RIM * rim(panel);
-        let internal = most(|sample| sample.energies.internal);
         let front_at_rim = samples.iter().find(|sample| sample.own.front >= rim).map(|sample| sample.time);
-        let measures = Measures::of(outcome);
+        let [measures, whole] = [Measures::to_failure(outcome), Measures::whole(outcome)];
         Figures {
             last: outcome.last(),
             deflection: (deflection, deepest.map_or(0.0, |sample| sample.time)),
             front_at_rim,
-            hourglass: if internal == 0.0 { 0.0 } else { most(|sample| sample.energies.hourglass) / internal },
-            worst: [least(|sample| sample.own.least_volume_ratio), least(|sample| sample.own.least_scaled_jacobian)],
+            least_volume_ratio: least(|sample| sample.own.least_volume_ratio),
             densities: std::array::from_fn(|mode| samples.iter().map(|s| s.largest[mode]).fold(0.0, largest)),
             weakest: PanelStrength::of(case)
                 .map(|strength| scatter::text(case.zones.inner(), strength.least(panel), units)),
-            findings: judge(units, case, panel, outcome, &measures, front_at_rim),
+            weights: weights::text(units, case, panel),
+            findings: judge(units, case, panel, outcome, [&measures, &whole], front_at_rim),
             measures,
+            whole,
         }
     }
 }
@@ -108,7 +110,7 @@ fn law(case: &Case) -> String {
 
 /// A case's line in the summary.
 pub fn line(units: &UnitSystem, case: &Case, outcome: &Outcome, figures: &Figures) -> Cells {
-    let Figures { last, deflection: (deflection, deepest_at), measures, .. } = figures;
+    let Figures { last, deflection: (deflection, deepest_at), measures, whole, .. } = figures;
     let seconds = |time: Duration| time.as_secs_f64();
     let total = seconds(outcome.cost.total()).max(f64::MIN_POSITIVE);
     let mut line = Line::new(units);
@@ -134,15 +136,17 @@ pub fn line(units: &UnitSystem, case: &Case, outcome: &Outcome, figures: &Figure
     line.add("deleted", last.deleted);
     line.add("collapsed", last.collapsed);
     line.add("imbalance", format_args!("{:.1e}", outcome.balance.imbalance()));
-    line.decimals("hourglass_share", figures.hourglass, 4);
+    line.decimals("hourglass_share", whole.hourglass, 4);
+    line.decimals("viscosity_share", whole.viscosity, 4);
     line.add(&title("tilt_at_end", DEGREES, units), format_args!("{:.1}", last.own.tilt));
     line.quantity("slip_at_end", LENGTH, last.own.slip);
-    line.add("least_volume_ratio", number(figures.worst[0]));
-    line.add("least_scaled_jacobian", number(figures.worst[1]));
+    line.add("least_volume_ratio", number(figures.least_volume_ratio));
+    line.add("least_scaled_jacobian", number(whole.least_scaled_jacobian));
     line.decimals("hourglass_to_failure", measures.hourglass, 4);
     line.decimals("w_ld_to_failure", measures.shear, 4);
     line.add("scaled_jacobian_to_failure", number(measures.least_scaled_jacobian));
     line.decimals("contact_to_failure", measures.contact, 4);
+    line.decimals("viscosity_to_failure", measures.viscosity, 4);
     for (name, density) in
         ["w_el_max", "w_tc_max", "w_td_max", "w_ld_max", "work_max"].into_iter().zip(figures.densities)
     {

@@ -4,8 +4,8 @@ use std::collections::HashMap;
 use std::path::Path;
 
 use crate::common::error::Error;
+use crate::common::file_names::STRAINS;
 use crate::common::run_directory::{file_error, is_file};
-use crate::impact::summary::STRAINS;
 
 const TIME: &str = "time";
 /// The columns that are drawn.

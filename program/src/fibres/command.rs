@@ -10,16 +10,17 @@ use super::lammps::Lammps;
 use super::model::Model;
 use super::outcome::Outcome;
 use super::pressed::outcome::Pressed;
-use super::reader::PICTURES;
+use super::reader::COMMON;
 use super::run::Folder;
 use super::scene::{Case, Scene};
 use super::{picture, plot, pressed, report, summary};
 use crate::common::console::{print, print_error, print_note};
 use crate::common::error::Error;
+use crate::common::file_names::{FIBRES, STRAIN, STRAINS};
 use crate::common::kept_file;
 use crate::common::progress::{self, Lines};
-use crate::common::run_directory::RunDirectory;
-use crate::impact::summary::{STRAINS, write_strains};
+use crate::common::run_directory::{RunDirectory, Writes};
+use crate::impact::summary::write_strains;
 
 const SUMMARY: &str = "summary.csv";
 /// The file for the identification.
@@ -60,7 +61,9 @@ pub fn run(arguments: &Arguments) -> Result<Option<PathBuf>, Error> {
     // One that cannot be read is said before hours of computation.
     scene.cases.iter().filter_map(|case| case.law.as_deref()).try_for_each(|file| Beside::read(file).map(drop))?;
     let output = &arguments.output;
-    let directory = RunDirectory::open(output)?;
+    let names = COMMON.into_iter().chain(scene.cases.iter().map(|case| case.name.as_str())).map(String::from).collect();
+    let writes = Writes { command: "fibres", scene: Some(&arguments.scene), names, restart: false };
+    let directory = RunDirectory::open(output, writes)?;
     let folders: Vec<Folder> =
         scene.cases.iter().zip(&models).map(|(case, model)| Folder::new(output.join(&case.name), model)).collect();
     // Those that are there already need no LAMMPS. Where it is missing, nothing is removed.
@@ -80,7 +83,7 @@ pub fn run(arguments: &Arguments) -> Result<Option<PathBuf>, Error> {
     let fit = output.join(FIT);
     kept_file::set_aside_if_there(&fit)?;
     for case in &scene.cases {
-        directory.remove_files_of(&case.name, PICTURES, Some(STRAINS), 0)?;
+        directory.remove_files_of(&case.name, 0)?;
     }
     let bar = progress::bar(
         TICKS as u64 * scene.cases.len() as u64,
@@ -168,7 +171,7 @@ fn write_pressed(scene: &Scene, case: &Case, result: &Pressed, output: &Path) ->
     pressed::output::write_history(&file(".csv"), scene, result)?;
     pressed::plot::write(&file(".svg"), &file(".png"), scene, case, result)?;
     for (number, frame) in (1..).zip(&result.frames) {
-        let [svg, png] = ["svg", "png"].map(|ending| file(&format!("{PICTURES}{number}.{ending}")));
+        let [svg, png] = ["svg", "png"].map(|ending| file(&format!("{FIBRES}{number}.{ending}")));
         pressed::picture::write(&svg, &png, scene, case, result, frame)?;
     }
     Ok(())
@@ -180,10 +183,11 @@ fn write_case(scene: &Scene, case: &Case, result: &Outcome, output: &Path) -> Re
     let law = case.law.as_deref().map(Beside::read).transpose()?;
     plot::write_history(&file(".svg"), &file(".png"), scene, case, result, law.as_ref())?;
     for (number, frame) in (1..).zip(&result.frames) {
-        let [svg, png] = ["svg", "png"].map(|ending| file(&format!("{PICTURES}{number}.{ending}")));
+        let [svg, png] = ["svg", "png"].map(|ending| file(&format!("{FIBRES}{number}.{ending}")));
         picture::write(&svg, &png, scene, case, result, frame)?;
         write_strains(&file(&format!("{STRAINS}{number}.csv")), result.strains(&scene.units, frame))?;
     }
-    plot::write_strains(&file("-strain.svg"), &file("-strain.png"), scene, case, result)?;
+    let [svg, png] = ["svg", "png"].map(|ending| file(&format!("{STRAIN}.{ending}")));
+    plot::write_strains(&svg, &png, scene, case, result)?;
     Ok(())
 }

@@ -8,7 +8,7 @@ use toml::Spanned;
 use super::file::{CaseFile, FibreFile, PackingName, SceneFile, SectionName, StrikerName};
 use super::scene::{Case, Contact, Fibre, Outline, Packing, Scene, SectionLaw, Striker, Walls};
 use crate::common::error::Error;
-use crate::common::toml_file::{self, Source, same_files};
+use crate::common::toml_file::{self, Source};
 use crate::common::units::SPEED;
 use crate::material::laws::Laws;
 use crate::material::preset::Preset;
@@ -28,8 +28,8 @@ const RAMP: f64 = 64.0;
 const DAMPING: f64 = 0.05;
 /// Speeds of the wave along a fibre, in m/s.
 const WAVES: Range<f64> = 1e2..1e5;
-/// Between the name of a case and the number of a picture.
-pub const PICTURES: &str = "-fibres-";
+/// The files that cases have in common, by their names without the ending: the fit's too.
+pub const COMMON: [&str; 3] = ["summary", "fit", "parameters"];
 
 impl Scene {
     /// Reads the file.
@@ -65,9 +65,13 @@ impl Scene {
             source.refuse_unused(base.unused(&tables.iter().collect::<Vec<_>>()))?;
         }
         for (case, table) in file.case.iter().zip(&tables) {
-            let taken =
-                |text: &str| text == "summary" || cases.iter().any(|other| same_files(&other.name, text, PICTURES));
-            let name = source.name_of_case(case.get_ref().name.as_ref(), case.span(), taken)?;
+            let taken = COMMON.into_iter().chain(cases.iter().map(|other| other.name.as_str()));
+            let given = case.get_ref().name.as_ref();
+            let name = source.name_of("case", given, case.span(), taken)?;
+            if name.to_ascii_lowercase().starts_with("fit-") {
+                let message = format!("case \"{name}\", as tables of the fit are called; allowed: another beginning");
+                return Err(source.error(given.map_or(case.span(), Spanned::span), &message));
+            }
             source.refuse_unused(case.get_ref().unused(&[table]))?;
             cases.push(Reader { source: &source, units: &units, file: table, span: case.span() }.case(name)?);
         }

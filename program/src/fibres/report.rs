@@ -9,6 +9,7 @@ use super::scene::{Case, Scene};
 use super::summary::{cost, outcome};
 use crate::common::text_table::{Column, files, or_dash, shortened, table};
 use crate::common::units::{ENERGY, SPEED, TIME, number, one_digit, unit};
+use crate::material::linear_density::LinearDensity;
 
 /// Columns of a terminal.
 const WIDTH: usize = 100;
@@ -103,10 +104,12 @@ fn sections(scene: &Scene, models: &[(&Case, &Model)]) -> String {
     for (case, model) in models {
         let [width, height] = model.section.size.map(|size| number(size * case.fibre.diameter));
         let beads = model.all_beads();
+        let (area, fraction) = (case.fibres as f64 * case.fibre.area(), model.section.fraction());
+        let yarn = LinearDensity::of(area / fraction, case.fibre.density * fraction, &scene.units);
         let line = format!(
-            "{} fibres, {beads} beads; the section is {width} × {height} {length}, filled to {:.3}\n",
+            "{} fibres, {beads} beads; the section is {width} × {height} {length}, filled to {fraction:.3}: {}\n",
             case.fibres,
-            model.section.fraction()
+            yarn.text()
         );
         if !lines.contains(&line) {
             lines.push(line);

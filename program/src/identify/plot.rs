@@ -10,6 +10,7 @@ use super::fit::{Fit, SetFit};
 use super::parameter::Parameter;
 use crate::common::error::Error;
 use crate::common::units::unit;
+use crate::picture::legend::{self, Mark};
 use crate::picture::page::{self, Area, Drawn};
 use crate::picture::panel::{bounds, chart, tick};
 use crate::picture::style::{COLOURS, GREY, HEADING, INK, TEXT, TITLE, fine, stroke, text};
@@ -17,6 +18,8 @@ use crate::picture::style::{COLOURS, GREY, HEADING, INK, TEXT, TITLE, fine, stro
 const WIDTH: u32 = 1280;
 /// A row of panels.
 const ROW: u32 = 330;
+/// More pairs of panels than this stand in two columns.
+const MOST_IN_A_COLUMN: usize = 4;
 const HEAD: u32 = 84;
 /// The height of a panel's title and legend.
 const PANEL_HEAD: i32 = 62;
@@ -30,23 +33,35 @@ const POINT: i32 = 3;
 /// # Errors
 /// A file cannot be written.
 pub fn write(svg: &Path, png: &Path, job: &Job, fit: &Fit, border: Option<&[[f64; 2]]>) -> Result<(), Error> {
-    let rows = job.problem.sets.len() as u32 + u32::from(border.is_some());
-    page::write(svg, png, [WIDTH, HEAD + ROW * rows], |root| draw(root, job, fit, border))
+    let [rows, columns] = grid(job, border);
+    page::write(svg, png, [WIDTH * columns as u32, HEAD + ROW * rows as u32], |root| draw(root, job, fit, border))
+}
+
+/// Rows and columns of pairs of panels: a pair for each set, and the joint region in place of another.
+fn grid(job: &Job, border: Option<&[[f64; 2]]>) -> [usize; 2] {
+    let pairs = job.problem.sets.len() + usize::from(border.is_some());
+    let columns = if pairs > MOST_IN_A_COLUMN { 2 } else { 1 };
+    [pairs.div_ceil(columns), columns]
 }
 
 fn draw(root: &Area, job: &Job, fit: &Fit, border: Option<&[[f64; 2]]>) -> Drawn<()> {
     root.draw_text(&job.title, &text(TITLE, &INK), (fine(24), fine(16)))?;
-    root.draw_text("Data, fit and residuals, measured less fitted", &text(TEXT, &GREY), (fine(24), fine(50)))?;
+    root.draw_text(
+        "Data, fit and residuals, which are the data less the fit",
+        &text(TEXT, &GREY),
+        (fine(24), fine(50)),
+    )?;
     let (_, body) = root.split_vertically(fine(HEAD as i32));
-    let rows = body.split_evenly((job.problem.sets.len() + usize::from(border.is_some()), 1));
-    for ((set, fitted), row) in job.problem.sets.iter().zip(&fit.sets).zip(&rows) {
-        let (left, right) = row.split_horizontally(fine(WIDTH as i32 / 2));
+    let [rows, columns] = grid(job, border);
+    let places = body.split_evenly((rows, columns));
+    for ((set, fitted), place) in job.problem.sets.iter().zip(&fit.sets).zip(&places) {
+        let (left, right) = place.split_horizontally(fine(WIDTH as i32 / 2));
         let over = abscissa(set, fit);
         draw_set(&left, set, fitted, &over)?;
         draw_residuals(&right, set, fitted, &over)?;
     }
-    if let (Some(border), Some(row)) = (border, rows.last()) {
-        let (left, _) = row.split_horizontally(fine(WIDTH as i32 / 2));
+    if let (Some(border), Some(place)) = (border, places.get(job.problem.sets.len())) {
+        let (left, _) = place.split_horizontally(fine(WIDTH as i32 / 2));
         draw_region(&left, job, fit, border)?;
     }
     Ok(())
@@ -55,8 +70,7 @@ fn draw(root: &Area, job: &Job, fit: &Fit, border: Option<&[[f64; 2]]>) -> Drawn
 /// A panel's title, and axes for these values below it.
 struct Frame<'a> {
     title: String,
-    /// Marks and names of the legend.
-    legend: &'a [(RGBColor, &'a str)],
+    legend: &'a [(Mark, &'a str)],
     x: (f64, f64),
     y: (f64, f64),
     x_name: String,
@@ -72,13 +86,7 @@ impl Frame<'_> {
     fn draw<'a>(&self, area: &Area<'a>) -> Drawn<Plane<'a>> {
         let (head, body) = area.split_vertically(fine(PANEL_HEAD));
         head.draw_text(&self.title, &text(HEADING, &INK), (fine(MARGIN), fine(8)))?;
-        let style = text(TEXT, &INK);
-        let mut x = fine(MARGIN);
-        for (colour, name) in self.legend {
-            head.draw(&Circle::new((x + fine(6), fine(45)), fine(4), colour.filled()))?;
-            head.draw_text(name, &style, (x + fine(16), fine(38)))?;
-            x += head.estimate_text_size(name, &style)?.0 as i32 + fine(16 + 24);
-        }
+        legend::draw(&head, [MARGIN, 38], self.legend)?;
         let [(left, right), (low, high)] = [self.x, self.y].map(|(low, high)| {
             let air = AIR * (high - low);
             (low - air, high + air)
@@ -121,7 +129,7 @@ fn draw_set(area: &Area, set: &DataSet, fitted: &SetFit, over: &Axis) -> Drawn<(
     let all: Vec<f64> = y.iter().copied().chain((0..set.len()).map(fit)).chain([0.0]).collect();
     let frame = Frame {
         title: format!("{}: {}", set.name, named(&set.ordinate)),
-        legend: &[(COLOURS[0], "measured"), (COLOURS[1], "fit")],
+        legend: &[(Mark::Point(COLOURS[0]), "data"), (Mark::Line(COLOURS[1]), "fit")],
         x: bounds(&x.iter().copied().chain([set.rest]).collect::<Vec<_>>()),
         y: bounds(&all),
         x_name: named(over),
@@ -159,7 +167,11 @@ fn draw_region(area: &Area, job: &Job, fit: &Fit, border: &[[f64; 2]]) -> Drawn<
     let axis = |i: usize, more: [f64; 2]| bounds(&border.iter().map(|pair| pair[i]).chain(more).collect::<Vec<_>>());
     let frame = Frame {
         title: format!("k_tc ({}) over p", unit(&job.units, Parameter::KTc.property().dimension)),
-        legend: &[(COLOURS[1], "joint 95 % region"), (GREY, "each one's 95 % interval")],
+        legend: &[
+            (Mark::Line(COLOURS[1]), "joint 95 % region"),
+            (Mark::Line(GREY), "each one's 95 % interval"),
+            (Mark::Point(COLOURS[1]), "fit"),
+        ],
         x: axis(1, [p.low, p.high]),
         y: axis(0, [k_tc.low, k_tc.high]),
         x_name: "p".to_string(),

@@ -3,12 +3,12 @@
 use std::path::Path;
 
 use super::outcome::{Course, OfYarn, Outcome};
-use super::reader::PICTURES;
 use super::run::StruckYarn;
 use super::scene::{Case, Scene};
 use super::{judgement, plot, report, summary, yarn_picture};
 use crate::common::error::Error;
-use crate::explicit::judgement::Finding;
+use crate::common::file_names::{STRAINS, YARN};
+use crate::explicit::judgement::{Finding, verdict};
 use crate::struck::command;
 use crate::struck::history::Column;
 use crate::struck::run;
@@ -29,8 +29,6 @@ pub fn run(path: &Path, output: &Path, restart: bool) -> Result<(), Error> {
 
 impl command::Scene for Scene {
     const COMMAND: &'static str = "impact";
-    const PICTURES: &'static str = PICTURES;
-    const TABLES: Option<&'static str> = Some(summary::STRAINS);
     const COMMON: &'static [&'static str] = &COMPARISON;
     const PARALLEL: bool = true;
 
@@ -67,11 +65,12 @@ impl command::Scene for Scene {
     ) -> Result<(&'a Case, Outcome), Error> {
         let (case, result) = (yarn.case, yarn.outcome(outcome));
         let file = |ending: &str| output.join(format!("{}{ending}", case.name));
-        plot::write_history(&file(".svg"), &file(".png"), self, case, &result)?;
+        let verdict = verdict(&judgement::judge(&self.units, case, &result));
+        plot::write_history(&file(".svg"), &file(".png"), self, case, &result, &verdict)?;
         for (number, snapshot) in result.snapshots.iter().enumerate() {
-            let [svg, png] = ["svg", "png"].map(|ending| file(&format!("{PICTURES}{}.{ending}", number + 1)));
-            yarn_picture::write(&svg, &png, self, case, &result, snapshot)?;
-            let strains = file(&format!("{}{}.csv", summary::STRAINS, number + 1));
+            let [svg, png] = ["svg", "png"].map(|ending| file(&format!("{YARN}{}.{ending}", number + 1)));
+            yarn_picture::write(&svg, &png, (self, case, &verdict), &result, snapshot)?;
+            let strains = file(&format!("{STRAINS}{}.csv", number + 1));
             summary::write_strains(&strains, result.strains(snapshot))?;
         }
         Ok((case, result))

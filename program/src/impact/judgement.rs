@@ -2,7 +2,9 @@
 
 use super::outcome::Outcome;
 use super::scene::{Case, Striker};
+use crate::common::units::{TIME, number, unit};
 use crate::explicit::judgement::{self, Finding};
+use crate::material::linear_density::LinearDensity;
 use toron::host::units::UnitSystem;
 
 /// All that is wrong with a run.
@@ -11,12 +13,39 @@ pub fn judge(units: &UnitSystem, case: &Case, result: &Outcome) -> Vec<Finding> 
     findings.extend(hourglass(case, result));
     findings.extend(contact(case, result));
     findings.extend(judgement::balance(result.balance.imbalance()));
+    if let Some((time, _)) = result.course.broken {
+        let broken = format!("the break, at {} {}", number(time), unit(units, TIME));
+        judgement::add_after_failure(&mut findings, &broken, after_break(case, result));
+    }
     findings
+}
+
+/// What is wrong with what followed when the yarn had broken.
+fn after_break(case: &Case, result: &Outcome) -> Vec<Finding> {
+    let viscosity = judgement::viscosity(
+        result.viscosity_share(),
+        "a finer mesh, and see how far what is left to the projectile moves",
+    );
+    let hourglass = judgement::hourglass(result.whole_hourglass_share(), &hourglass_remedy(case));
+    viscosity.into_iter().chain(hourglass).collect()
+}
+
+fn hourglass_remedy(case: &Case) -> String {
+    format!("a finer mesh, or another hourglass than {}", case.control.hourglass)
 }
 
 /// What is wrong before the first step.
 pub fn before(units: &UnitSystem, case: &Case) -> Vec<Finding> {
-    judgement::units(case.zones.materials(), units)
+    let mut findings = judgement::units(case.zones.materials(), units);
+    let weight = yarn(units, case).and_then(|yarn| yarn.warning(units));
+    findings.extend(weight.map(|text| Finding::new("units", text)));
+    findings
+}
+
+/// What the yarn weighs, of the material in the middle.
+pub fn yarn(units: &UnitSystem, case: &Case) -> Option<LinearDensity> {
+    let density = case.zones.inner().density?;
+    Some(LinearDensity::of(case.yarn.area(), density, units))
 }
 
 /// Where the contact stores too much energy.
@@ -31,6 +60,5 @@ pub fn contact(case: &Case, result: &Outcome) -> Option<Finding> {
 pub fn hourglass(case: &Case, result: &Outcome) -> Option<Finding> {
     let measured_to = result.course.broken.map_or(result.last().time, |(time, _)| time);
     let at_clamp = case.yarn.length / result.smith.fastest;
-    let remedy = format!("a finer mesh, or another hourglass than {}", case.control.hourglass);
-    judgement::hourglass(result.hourglass_share(), &remedy).filter(|_| measured_to >= 2.0 * at_clamp)
+    judgement::hourglass(result.hourglass_share(), &hourglass_remedy(case)).filter(|_| measured_to >= 2.0 * at_clamp)
 }

@@ -137,6 +137,19 @@ impl Outcome {
         if contact == 0.0 { 0.0 } else { contact / self.balance.scale }
     }
 
+    /// The largest hourglass energy of the whole run, over the largest internal energy.
+    pub fn whole_hourglass_share(&self) -> f64 {
+        let most = |of: fn(&Sample) -> f64| self.measured.iter().map(of).fold(0.0, largest);
+        let internal = most(|sample| sample.energies.internal);
+        if internal == 0.0 { 0.0 } else { most(|sample| sample.energies.hourglass) / internal }
+    }
+
+    /// The part that artificial viscosity has taken in the end of what the blow has given away.
+    pub fn viscosity_share(&self) -> f64 {
+        let first = self.measured.first().map(|sample| sample.energies).unwrap_or_default();
+        self.last().energies.viscosity_share(&first).unwrap_or(0.0)
+    }
+
     /// The largest energy densities of elongation, compaction and distortion up to the break.
     pub fn largest_densities(&self) -> [f64; 3] {
         [0, 1, 2].map(|mode| self.largest_before_break(|sample| sample.largest[mode]))

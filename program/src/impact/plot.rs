@@ -16,17 +16,25 @@ use toron::law::parameters::ENERGY_DENSITY;
 
 const COMPARISON: [u32; 2] = [760, 480];
 
-/// Speed, energies, largest energy densities and widths of a case over time, as far as they change.
+/// Speed, energies, largest energy densities and widths of a case over time, as far as they change, with the verdict of the run.
 ///
 /// # Errors
 /// A file cannot be written.
-pub fn write_history(svg: &Path, png: &Path, scene: &Scene, case: &Case, result: &Outcome) -> Result<(), Error> {
+pub fn write_history(
+    svg: &Path,
+    png: &Path,
+    scene: &Scene,
+    case: &Case,
+    result: &Outcome,
+    verdict: &str,
+) -> Result<(), Error> {
     let abscissa = panel::Abscissa {
         label: format!("time ({})", unit(&scene.units, TIME)),
         values: result.history.iter().map(|sample| sample.time).collect(),
         failure: result.course.broken.map(|(time, _)| time),
     };
-    history::write(svg, png, [&scene.title, &case.name], panels(scene, case, result), &abscissa)
+    let subtitle = format!("{}; verdict: {verdict}", case.name);
+    history::write(svg, png, [&scene.title, &subtitle], panels(scene, case, result), &abscissa)
 }
 
 fn panels(scene: &Scene, case: &Case, result: &Outcome) -> [Panel; 4] {

@@ -15,10 +15,8 @@ use crate::struck::keys::{self, Reader};
 
 /// An element takes some 700 bytes: more do not fit most memories.
 const MOST_ELEMENTS: usize = 10_000_000;
-/// The files that cases have in common, by their names without the ending, and what stands between a case's name and the number of a
-/// picture.
+/// The files that cases have in common, by their names without the ending.
 const COMMON: [&str; 2] = ["summary", "residual-speed"];
-pub const PICTURES: &str = "-yarn-";
 /// Lengths closer than this part of themselves are the same.
 const ROUNDING: f64 = 1e-9;
 /// Samples of a history where the file does not say otherwise.
@@ -45,7 +43,7 @@ impl Scene {
         let cases = keys::cases(
             (&source, &units),
             (&file.scene, &file.case),
-            (&COMMON, PICTURES),
+            &COMMON,
             CaseFile::unused,
             |reader, [file, _], name| reader.yarn_case(file, name),
         )?;

@@ -2,16 +2,15 @@
 
 use std::path::Path;
 
-use super::judgement::judge;
+use super::judgement::{self, judge};
 use super::outcome::Outcome;
 use super::scene::{Case, LEFT_OUT, Scene, Striker};
 use super::summary::outcome;
-use crate::common::text_table::{Column, NONE, files, or_dash, shortened, table, yarns_of_cases};
+use crate::common::text_table::{Column, NONE, files, of_cases, or_dash, shortened, table};
 use crate::common::units::{SPEED, TIME, number, one_digit, unit};
-use crate::explicit::judgement::warnings;
+use crate::explicit::judgement::{verdict, warnings};
 use crate::material::fibre_wave::FibreWave;
 use crate::strength::scatter;
-use crate::struck::report::after_failure;
 
 /// Columns of a terminal.
 const WIDTH: usize = 100;
@@ -24,13 +23,18 @@ type Results<'a> = [(&'a Case, Outcome)];
 pub fn report(scene: &Scene, results: &Results, output: &Path) -> String {
     let waves = waves(scene, results);
     let yarns: Vec<_> = results.iter().map(|(case, _)| (case.name.as_str(), case.zones.names())).collect();
+    let weight = |case: &Case| judgement::yarn(&scene.units, case).map_or(NONE.to_string(), |yarn| yarn.text());
+    let weights: Vec<_> = results.iter().map(|(case, _)| (case.name.as_str(), weight(case))).collect();
     let findings: Vec<_> = results.iter().map(|(case, result)| (case, judge(&scene.units, case, result))).collect();
     let warnings = warnings(findings.iter().map(|(case, findings)| (case.name.as_str(), &findings[..])));
     let parts = [
         table(struck(scene, results), WIDTH),
         table(driven(scene, results), WIDTH),
-        yarns_of_cases(&yarns, WIDTH) + &strength(scene, results) + &wave_line(&waves),
-        after_failure(results.iter().map(|(case, result)| (case.name.as_str(), &result.run)), WIDTH) + &warnings,
+        of_cases("Yarns", &yarns, WIDTH)
+            + &of_cases("Weights", &weights, WIDTH)
+            + &strength(scene, results)
+            + &wave_line(&waves),
+        warnings,
         list_files(scene, results, output),
     ];
     let parts: Vec<String> = parts.into_iter().filter(|part| !part.is_empty()).collect();
@@ -100,6 +104,7 @@ fn struck(scene: &Scene, results: &Results) -> Vec<Column> {
     let mut columns = vec![
         column(&cases, ["case", ""], |case, _| shortened(&case.name, LONGEST_NAME)),
         column(&cases, ["how it ended", ""], |_, result| outcome(result).to_string()),
+        verdicts(scene, &cases),
         column(&cases, ["broken at", &time], broken_at),
         column(&cases, ["residual", &speed], |_, result| or_dash(result.residual_speed(), number)),
         column(&cases, ["at end", &speed], |_, result| or_dash(at_end(result), number)),
@@ -123,6 +128,7 @@ fn driven(scene: &Scene, results: &Results) -> Vec<Column> {
     let waves = |result: &Outcome| format!("{}-{}", number(result.smith.fastest), number(result.smith.slowest));
     let mut columns = vec![
         column(&cases, ["case", ""], |case, _| shortened(&case.name, LONGEST_NAME)),
+        verdicts(scene, &cases),
         column(&cases, ["longitudinal", &speed], |case, result| or_dash(wave(case, result), number)),
         column(&cases, ["theory", &speed], |case, result| beside(wave(case, result), waves(result))),
         column(&cases, ["strain", "%"], |case, result| or_dash(strain(case, result), percent)),
@@ -133,6 +139,10 @@ fn driven(scene: &Scene, results: &Results) -> Vec<Column> {
     ];
     columns.extend(costs(&cases));
     columns
+}
+
+fn verdicts(scene: &Scene, cases: &[&(&Case, Outcome)]) -> Column {
+    column(cases, ["verdict", ""], |case, result| verdict(&judge(&scene.units, case, result)))
 }
 
 /// The error of the energy balance, and the time that a run took.

@@ -15,9 +15,6 @@ use crate::struck::summary::{Cells, Line};
 use toron::host::units::UnitSystem;
 use toron::law::parameters::{ENERGY_DENSITY, NUMBER};
 
-/// Between a case's name and the number of a table of strains.
-pub const STRAINS: &str = "-strain-";
-
 /// Writes mean and largest strain along the yarn: their place in the middle of a layer at rest, and they.
 ///
 /// # Errors
@@ -110,6 +107,7 @@ fn add_strike(line: &mut Line, case: &Case, result: &Outcome, stiffness: f64) {
     line.quantity("speed_at_break", SPEED, result.course.broken.map(|(_, speed)| speed));
     line.decimals("hourglass_share", result.hourglass_share(), 3);
     line.decimals("contact_share", result.contact_share(), 3);
+    line.decimals("viscosity_share", result.viscosity_share(), 3);
     line.decimals("failure_index_max", result.largest_index(), 3);
     for (name, mode) in [("w_el_at_end", 0), ("w_tc_at_end", 1), ("w_td_at_end", 2), ("work_at_end", 4)] {
         line.quantity(name, ENERGY_DENSITY, last.largest[mode]);

@@ -69,15 +69,14 @@ fn rows(case: &Case) -> Vec<&'static str> {
     }
 }
 
-/// Draws the yarn as it stood at an instant.
+/// Draws the yarn as it stood at an instant, with the verdict of the run.
 ///
 /// # Errors
 /// A file cannot be written.
 pub fn write(
     svg: &Path,
     png: &Path,
-    scene: &Scene,
-    case: &Case,
+    (scene, case, verdict): (&Scene, &Case, &str),
     result: &Outcome,
     snapshot: &Snapshot,
 ) -> Result<(), Error> {
@@ -88,7 +87,8 @@ pub fn write(
         let title = format!("{}: {}", scene.title, case.name);
         root.draw_text(&title, &text(TITLE, &INK), (fine(LEFT), fine(TITLE_TOP)))?;
         let laws = if matches!(case.zones, Zones::Two(..)) { "; * work, where the law is linear" } else { "" };
-        let time = format!("at {}{laws}", time(&scene.units, snapshot.time));
+        let time =
+            format!("at {}, colours by the square root{laws}; verdict: {verdict}", time(&scene.units, snapshot.time));
         root.draw_text(&time, &text(TEXT, &GREY), (fine(LEFT), fine(TIME_TOP)))?;
         for (mode, name) in names.into_iter().enumerate() {
             let top = TOP + mode as i32 * drawing.row_height();
@@ -163,8 +163,8 @@ impl<'a> Drawing<'a> {
             width: SCALE_WIDTH,
             largest,
             unit,
-            colours: Colours::Viridis,
-            root: false,
+            colours: Colours::GreyToRed,
+            root: true,
         };
         scale.draw(area, [LEFT, SCALE_MIDDLE])?;
         let shade = |element: usize| scale.colour(density(&self.snapshot.densities[element]));

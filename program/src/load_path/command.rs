@@ -7,13 +7,13 @@ use std::time::{Duration, Instant};
 use clap::Args;
 use indicatif::ProgressDrawTarget;
 
-use super::path::LoadPath;
+use super::path::{LoadPath, Point};
 use super::run::{self, End, History};
 use super::{plot, report, table};
 use crate::common::console::{is_quiet, print};
 use crate::common::error::Error;
-use crate::common::folder;
 use crate::common::progress;
+use crate::common::run_directory::{RunDirectory, Writes};
 use crate::common::text_table::value_line;
 use crate::material::laws::Laws;
 
@@ -37,15 +37,19 @@ pub struct Arguments {
 /// The input, a file that cannot be written, or the evaluation of a point; what was computed before is written all the
 /// same.
 pub fn run(laws: Laws, Arguments { path, output }: &Arguments) -> Result<(), Error> {
-    let path = match path {
+    let file = path.as_deref();
+    let path = match file {
         Some(path) => LoadPath::read(laws, path)?,
         None => LoadPath::parse(Laws::Toron, "demonstration", DEMONSTRATION)?,
     };
-    folder::create(output)?;
+    let names =
+        path.points.iter().flat_map(|point| ["increments", "plot"].map(|of| format!("{of}{}", behind(&path, point))));
+    let writes = Writes { command: "run", scene: file, names: names.collect(), restart: false };
+    let _directory = RunDirectory::open(output, writes)?;
     let histories = run_with_progress(&path);
     print(&format!("{}\n", path.title));
     for history in &histories {
-        let name = if path.points.len() > 1 { format!("-{}", history.point.name) } else { String::new() };
+        let name = behind(&path, history.point);
         let mut text = report::summary(&path, history);
         if path.points.len() > 1 {
             text = format!("\n{}\n{text}", history.point.name);
@@ -61,6 +65,11 @@ pub fn run(laws: Laws, Arguments { path, output }: &Arguments) -> Result<(), Err
         print(&value_line("written", report::NAMES, &files));
     }
     first_failure(&histories)
+}
+
+/// What stands behind the names of a point's files, where there are several.
+fn behind(path: &LoadPath, point: &Point) -> String {
+    if path.points.len() > 1 { format!("-{}", point.name) } else { String::new() }
 }
 
 /// Runs the path; a progress bar shows up where that takes long and someone is looking.

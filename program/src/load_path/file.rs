@@ -46,7 +46,7 @@ struct PlotFile {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct PointFile {
-    name: String,
+    name: Spanned<String>,
     #[serde(default)]
     material: MaterialFile,
 }
@@ -153,13 +153,10 @@ impl Source<'_> {
         let mut points: Vec<Point> = Vec::new();
         for point in &file.point {
             let (name, span) = (&point.get_ref().name, point.span());
-            let plain = |c: char| c.is_ascii_alphanumeric() || "-_.".contains(c);
-            if name.is_empty() || !name.chars().all(plain) || points.iter().any(|other| other.name == *name) {
-                let wanted = "a name of its own out of letters, digits and - _ ., since files are named by it";
-                return Err(self.error(span, &format!("point \"{name}\"; allowed: {wanted}")));
-            }
+            let name =
+                self.name_of("point", Some(name), name.span(), points.iter().map(|other| other.name.as_str()))?;
             let material = self.material(laws, &point.get_ref().material.over(&base), units, span)?;
-            points.push(Point { name: name.clone(), material });
+            points.push(Point { name, material });
         }
         Ok(points)
     }

@@ -3,6 +3,7 @@
 pub mod fibre_wave;
 pub mod file;
 pub mod laws;
+pub mod linear_density;
 pub mod model;
 pub mod of_law;
 pub mod own_law;

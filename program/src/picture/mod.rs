@@ -6,6 +6,7 @@
 pub mod colour_scale;
 mod font;
 pub mod history;
+pub mod legend;
 pub mod page;
 pub mod panel;
 pub mod raster;

@@ -86,7 +86,7 @@ pub fn impact(path: &Path, output: &Path, host: Host, arguments: &Arguments) -> 
 pub fn weave(path: &Path, output: &Path, host: Host, arguments: &Arguments) -> Result<(), Error> {
     let scene = weave::reader::Scene::read(path)?;
     let conversion = arguments.conversion(scene.units)?;
-    let material = scene.material.as_ref().ok_or_else(|| {
+    let material = scene.materials.first().map(|[warp, _]| warp).ok_or_else(|| {
         Error::Input(format!(
             "{}: [material] is missing, which a deck needs; allowed: a table with a preset",
             path.display()

@@ -20,7 +20,7 @@ use crate::common::folder;
 use crate::common::interrupt::Interrupt;
 use crate::common::kept_file;
 use crate::common::progress::{self, Lines};
-use crate::common::run_directory::{RunDirectory, file_error, is_file};
+use crate::common::run_directory::{RunDirectory, Writes, file_error, is_file};
 use crate::common::shell;
 use crate::common::text_table::write_csv;
 use crate::common::units::{SPEED, TIME, number, one_digit, unit};
@@ -36,10 +36,6 @@ pub const SUMMARY: &str = "summary.csv";
 pub trait Scene: Sync {
     /// What the command is called.
     const COMMAND: &'static str;
-    /// Between a case's name and the number of a picture.
-    const PICTURES: &'static str;
-    /// Between a case's name and the number of a table that belongs to a picture.
-    const TABLES: Option<&'static str> = None;
     /// The files besides the summary that cases have in common.
     const COMMON: &'static [&'static str] = &[];
     /// Whether cases are run side by side, since one by itself keeps no more than one processor busy.
@@ -122,7 +118,11 @@ pub fn run<S: Scene>(scene: &S, path: &Path, output: &Path, restart: bool) -> Re
         let allowed = "allowed: the directory of the run that was stopped";
         return Err(Error::Input(format!("no case has a checkpoint in {}; {allowed}", output.display())));
     }
-    let directory = RunDirectory::open(output)?;
+    let stem = |name: &&str| name.rsplit_once('.').map_or(*name, |(stem, _)| stem).to_string();
+    let common = [SUMMARY].iter().chain(S::COMMON).map(stem);
+    let files = names.iter().cloned().chain(common).collect();
+    let writes = Writes { command: S::COMMAND, scene: Some(path), names: files, restart };
+    let directory = RunDirectory::open(output, writes)?;
     print_error(&clear(scene, &names, output, &directory, restart)?);
     let interrupt = Interrupt::listen()?;
     print_note("Ctrl-C ends the run with a checkpoint, from which --restart goes on\n");
@@ -191,7 +191,7 @@ fn clear<S: Scene>(
         if restart && found.is_some() {
             continue;
         }
-        removed += directory.remove_files_of(name, S::PICTURES, S::TABLES, 0)?;
+        removed += directory.remove_files_of(name, 0)?;
         let Some(bytes) = found else { continue };
         // One of a case that has ended is nothing without the files that go.
         if checkpoint::check(&scene.case(number)?, &bytes).is_ok_and(|(head, _)| head.ended.is_some()) {
@@ -259,7 +259,6 @@ impl<'a, S: Scene> Cases<'a, S> {
         print_error(&warnings([(case.name(), &self.scene.before(case)[..])]));
         let mut observer = CaseObserver {
             name: case.name(),
-            pictures: (S::PICTURES, S::TABLES),
             units: self.scene.units(),
             columns: self.columns,
             directory: self.directory,
@@ -329,8 +328,6 @@ impl History {
 /// Moves the bar, and writes the history, ParaView's files and the checkpoints as they come.
 struct CaseObserver<'a, E> {
     name: &'a str,
-    /// What stands between its name and the number of a picture or a table.
-    pictures: (&'static str, Option<&'static str>),
     units: &'a UnitSystem,
     columns: &'a [Column<E>],
     directory: &'a RunDirectory,
@@ -394,8 +391,7 @@ impl<E> Observer<E> for CaseObserver<'_, E> {
         self.lines = Lines::from(fraction);
         self.tick(fraction);
         // What the run has written after the checkpoint.
-        let (pictures, tables) = self.pictures;
-        self.directory.remove_files_of(self.name, pictures, tables, frames.len())?;
+        self.directory.remove_files_of(self.name, frames.len())?;
         self.begin(samples)?;
         self.frames.resume(frames)
     }

@@ -8,7 +8,7 @@ use toml::Spanned;
 use super::plan::Plan;
 use super::zones::Zones;
 use crate::common::error::Error;
-use crate::common::toml_file::{Source, Unused, over, same_files};
+use crate::common::toml_file::{Source, Unused, over};
 use crate::explicit::medium::Control;
 use crate::material::file::MaterialFile;
 use crate::material::model::Material;
@@ -182,14 +182,14 @@ pub trait Table: Clone {
 }
 
 /// Reads the cases of a scene, or the scene as the only one: `read` gets the reader of the common keys, the case's keys over the
-/// scene's, its own ones alone and its name. Cases may not be called as the files that they have in common, nor as another's pictures.
+/// scene's, its own ones alone and its name. The files that cases have in common are called as `common` says, without their endings.
 ///
 /// # Errors
 /// A key that no case reads, as `unused` finds it; a name that cannot be; what `read` refuses.
 pub fn cases<F: Table, C>(
     (source, units): (&Source, &UnitSystem),
     (scene, cases): (&Spanned<F>, &[Spanned<F>]),
-    (common, pictures): (&[&str], &str),
+    common: &[&str],
     unused: impl Fn(&F, &[&F]) -> Unused,
     read: impl Fn(&Reader, [&F; 2], String) -> Result<C, Error>,
 ) -> Result<Vec<C>, Error> {
@@ -212,8 +212,8 @@ pub fn cases<F: Table, C>(
     let (mut names, mut found): (Vec<String>, _) = (Vec::new(), Vec::new());
     for (case, table) in cases.iter().zip(&tables) {
         let own = case.get_ref();
-        let taken = |text: &str| common.contains(&text) || names.iter().any(|other| same_files(other, text, pictures));
-        let name = source.name_of_case(own.keys().name.as_ref(), case.span(), taken)?;
+        let taken = common.iter().copied().chain(names.iter().map(String::as_str));
+        let name = source.name_of("case", own.keys().name.as_ref(), case.span(), taken)?;
         source.refuse_unused(unused(own, &[table]))?;
         found.push(reader(table, own, case.span(), name.clone())?);
         names.push(name);

@@ -7,7 +7,6 @@ pub mod history;
 pub mod keys;
 pub mod pace;
 pub mod plan;
-pub mod report;
 pub mod run;
 pub mod sample;
 pub mod shots;

@@ -16,7 +16,7 @@ use super::{limit, plot, report, shot};
 use crate::common::console::{print, print_error, print_note};
 use crate::common::error::Error;
 use crate::common::interrupt::Interrupt;
-use crate::common::run_directory::{RunDirectory, is_file};
+use crate::common::run_directory::{RunDirectory, Writes, is_file};
 use crate::common::shell;
 use crate::explicit::judgement::warnings;
 use crate::struck::shots::Shots;
@@ -86,7 +86,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Error> {
     let findings = shot::before(&scene)?;
     let place = arguments.output.join(if arguments.limit { LIMIT } else { SHOTS });
     check_restart(&place, arguments.restart)?;
-    let directory = RunDirectory::open(&arguments.output)?;
+    let directory = open_directory(arguments, arguments.restart)?;
     print_error(&warnings([(scene.target.name(), &findings[..])]));
     let records = open(&scene, &place)?;
     print_note("Ctrl-C ends the run: shots under way are lost, and --restart goes on with the others\n");
@@ -165,6 +165,13 @@ fn check_restart(place: &Path, restart: bool) -> Result<(), Error> {
     }
 }
 
+/// The directory of the tables and the picture, where shots of another scene are not overwritten.
+fn open_directory(arguments: &Arguments, restart: bool) -> Result<RunDirectory, Error> {
+    let names = ["shots", "limit", "v50"].map(String::from).to_vec();
+    let writes = Writes { command: "v50", scene: Some(&arguments.scene), names, restart };
+    RunDirectory::open(&arguments.output, writes)
+}
+
 /// The table that the shots go to, with those that are there.
 fn open(scene: &Scene, place: &Path) -> Result<Records, Error> {
     let mut records = Records::new(scene, place);
@@ -206,7 +213,7 @@ fn collect(scene: &Scene, arguments: &Arguments) -> Result<(), Error> {
         }
         records.read(&table)?;
     }
-    let directory = RunDirectory::open(&arguments.output)?;
+    let directory = open_directory(arguments, false)?;
     if is_file(&place)? {
         records.read(&place)?;
     }

@@ -11,6 +11,8 @@ use super::series::Series;
 use super::shot::{Ended, Ending};
 use crate::common::error::Error;
 use crate::common::units::{SPEED, unit};
+use crate::explicit::judgement::SOUND;
+use crate::picture::legend::{self, BAND, Mark};
 use crate::picture::page::{self, Area, Drawn};
 use crate::picture::panel::{bounds, chart, tick};
 use crate::picture::style::{COLOURS, GREY, HEADING, INK, TEXT, TITLE, fine, stroke, text};
@@ -29,20 +31,12 @@ const CHANCES: std::ops::Range<f64> = -0.08..1.08;
 /// The chances at which a band is found: every fiftieth, but for 0 and 1, and nearer to these.
 const STEPS: usize = 50;
 const EXTREMES: [f64; 2] = [0.002, 0.008];
-const BAND: f64 = 0.16;
 const SHOT: f64 = 0.75;
 /// Points of a line.
 const POINTS: usize = 300;
 /// The colours of stops and perforations, and of the two curves.
 const FATES: [RGBColor; 2] = [COLOURS[0], COLOURS[1]];
 const CURVES: [RGBColor; 2] = [COLOURS[2], COLOURS[3]];
-
-/// A mark of the legend: a point, or a line.
-enum Mark {
-    Point(RGBColor),
-    Ring,
-    Line(RGBColor),
-}
 
 /// Writes the picture.
 ///
@@ -52,8 +46,9 @@ pub fn write(svg: &Path, png: &Path, scene: &Scene, series: &Series) -> Result<(
     page::write(svg, png, [WIDTH as u32, (HEAD + PANEL) as u32], |root| {
         root.draw_text(&scene.title, &text(TITLE, &INK), (fine(24), fine(16)))?;
         let [stopped, through, undecided, errors] = series.counts();
+        let unsound = series.verdicts().filter(|(ended, ..)| ended.verdict != SOUND).count();
         let counts = format!(
-            "design {}: {stopped} stopped, {through} through, {undecided} undecided, {errors} errors",
+            "design {}: {stopped} stopped, {through} through, {undecided} undecided, {errors} errors; verdict of {unsound} other than {SOUND}",
             scene.design().name()
         );
         root.draw_text(&counts, &text(TEXT, &GREY), (fine(24), fine(50)))?;
@@ -75,26 +70,7 @@ fn speeds(series: &Series) -> (f64, f64) {
 fn head<'a>(area: &Area<'a>, title: &str, legend: &[(Mark, String)]) -> Drawn<Area<'a>> {
     let (head, body) = area.split_vertically(fine(PANEL_HEAD));
     head.draw_text(title, &text(HEADING, &INK), (fine(MARGIN), fine(8)))?;
-    let style = text(TEXT, &INK);
-    let mut x = fine(MARGIN);
-    for (mark, name) in legend {
-        let width = match mark {
-            Mark::Point(colour) => {
-                head.draw(&Circle::new((x + fine(6), fine(45)), fine(4), colour.filled()))?;
-                16
-            }
-            Mark::Ring => {
-                head.draw(&Circle::new((x + fine(6), fine(45)), fine(4), stroke(GREY, 2)))?;
-                16
-            }
-            Mark::Line(colour) => {
-                head.draw(&PathElement::new([(x, fine(45)), (x + fine(22), fine(45))], stroke(*colour, 3)))?;
-                29
-            }
-        };
-        head.draw_text(name, &style, (x + fine(width), fine(38)))?;
-        x += head.estimate_text_size(name, &style)?.0 as i32 + fine(width + 18);
-    }
+    legend::draw(&head, [MARGIN, 38], legend)?;
     Ok(body)
 }
 
@@ -109,18 +85,27 @@ fn height(ended: &Ended) -> f64 {
 
 fn draw_curves(area: &Area, scene: &Scene, series: &Series) -> Drawn<()> {
     let speed = unit(&scene.units, SPEED);
+    let (low, high) = speeds(series);
     let drawn: Vec<&Curve> = Link::BOTH.into_iter().filter_map(|link| series.drawn(link)).collect();
     let mut legend =
         vec![(Mark::Point(FATES[0]), "stopped".to_string()), (Mark::Point(FATES[1]), "through".to_string())];
-    if series.shots.iter().any(|ended| ended.fate().is_none()) {
-        legend.push((Mark::Ring, "no fate".to_string()));
+    let [_, _, undecided, errors] = series.counts();
+    let without_fate: Vec<&str> = [(undecided, "undecided"), (errors, "error")]
+        .into_iter()
+        .filter(|(count, _)| *count > 0)
+        .map(|it| it.1)
+        .collect();
+    if !without_fate.is_empty() {
+        legend.push((Mark::Ring, without_fate.join(", ")));
     }
     for curve in &drawn {
         let firth = if curve.firth { ", Firth" } else { "" };
-        legend.push((Mark::Line(CURVES[curve.link as usize]), format!("{}{firth}, 95 %", curve.link.name())));
+        let (colour, name) = (CURVES[curve.link as usize], format!("{}{firth}", curve.link.name()));
+        // Shots that are separated have no line, but a band of what they do not refuse.
+        let is_line = !points(curve, low, high).is_empty();
+        legend.push((if is_line { Mark::Line(colour) } else { Mark::Band(colour) }, format!("{name}, 95 %")));
     }
     let body = head(area, "Chance of a perforation", &legend)?;
-    let (low, high) = speeds(series);
     let x_label = |x: &f64| tick(*x, high - low);
     let y_label = |y: &f64| tick(*y, 1.0);
     let mut chart = chart(&body, low..high, CHANCES, &format!("striking speed ({speed})"), [&x_label, &y_label])?;
@@ -130,9 +115,7 @@ fn draw_curves(area: &Area, scene: &Scene, series: &Series) -> Drawn<()> {
     }
     for curve in &drawn {
         let colour = CURVES[curve.link as usize];
-        let points = (0..=POINTS).map(|i| low + (high - low) * i as f64 / POINTS as f64);
-        let points: Vec<(f64, f64)> = points.filter_map(|speed| Some((speed, curve.chance(speed)?))).collect();
-        chart.draw_series(LineSeries::new(points, stroke(colour, 3)))?;
+        chart.draw_series(LineSeries::new(points(curve, low, high), stroke(colour, 3)))?;
     }
     chart.draw_series(series.shots.iter().map(|ended| {
         let style = match ended.fate() {
@@ -142,6 +125,12 @@ fn draw_curves(area: &Area, scene: &Scene, series: &Series) -> Drawn<()> {
         Circle::new((ended.shot.speed, height(ended)), fine(POINT), style)
     }))?;
     Ok(())
+}
+
+/// The line of a curve; none where it has no chances.
+fn points(curve: &Curve, low: f64, high: f64) -> Vec<(f64, f64)> {
+    let speeds = (0..=POINTS).map(|i| low + (high - low) * i as f64 / POINTS as f64);
+    speeds.filter_map(|speed| Some((speed, curve.chance(speed)?))).collect()
 }
 
 /// The outline of what the shots do not refuse: from below to above along the slow ends, and back along the fast ones.

@@ -6,12 +6,13 @@ use super::curve::{Curve, Estimate, Interval, Mix};
 use super::lambert_jonas::{Degenerate, MOST_EXPONENT};
 use super::scene::Scene;
 use super::series::Series;
-use super::shot::Ending;
+use super::shot::{self, Ending};
 use super::simulation::Coverage;
 use super::test_houses::Mean;
 use crate::common::error::Error;
 use crate::common::text_table::{Column, NONE, files, folded, grouped, or_dash, table, write_csv};
 use crate::common::units::{SPEED, TIME, number, unit};
+use crate::explicit::judgement::SOUND;
 use crate::strength::scatter::{self, Strength};
 use crate::struck::history::title;
 
@@ -66,7 +67,7 @@ pub fn report(scene: &Scene, series: &Series, [missing, beside]: [usize; 2], out
         counts += &format!("; {beside} more in the table are not of this series, and left out");
     }
     let parts = [
-        folded(&counts, WIDTH) + "\n" + &strength(scene) + &of_undecided(scene, undecided),
+        folded(&counts, WIDTH) + "\n" + &weights(scene) + &strength(scene) + &of_undecided(scene, undecided),
         curves(scene, series),
         said(scene, series),
         means(scene, series),
@@ -256,10 +257,19 @@ fn reason(why: &Degenerate, speed: &str) -> String {
     }
 }
 
-/// The shots whose runs are not sound.
+/// What target and striker weigh.
+fn weights(scene: &Scene) -> String {
+    let weights = shot::weights(scene).unwrap_or_default();
+    if weights.is_empty() { weights } else { folded(&format!("Weights: {weights}"), WIDTH) + "\n" }
+}
+
+/// The shots whose runs are not sound, and those that are so up to their first failure only.
 fn unsound(series: &Series) -> String {
-    let verdicts = series.unsound().map(|ended| (ended.shot.number, ended.verdict.clone()));
-    of_shots("warning: ", verdicts, " (docs/guides/fabric.md says what to do)")
+    let behind = " (docs/guides/fabric.md says what to do)";
+    let before = series.verdicts().filter(|(_, before, _)| *before != SOUND);
+    let after = series.verdicts().filter_map(|(ended, _, after)| Some((ended.shot.number, after?.to_string())));
+    of_shots("warning: ", before.map(|(ended, before, _)| (ended.shot.number, before.to_string())), behind)
+        + &of_shots("after the first failure of ", after, behind)
 }
 
 /// What the errors of shots say.

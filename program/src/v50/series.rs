@@ -5,7 +5,7 @@ use super::lambert_jonas::{Degenerate, LambertJonas};
 use super::link::Link;
 use super::shot::{Ended, Ending};
 use super::test_houses::{self, Mean};
-use crate::explicit::judgement::SOUND;
+use crate::explicit::judgement::parts_of_verdict;
 
 /// As many stops and as many perforations as test houses take: of four, six and ten shots.
 const EACH: [usize; 3] = [2, 3, 5];
@@ -56,9 +56,13 @@ impl Series {
         ]
     }
 
-    /// The shots with which something is wrong.
-    pub fn unsound(&self) -> impl Iterator<Item = &Ended> {
-        self.shots.iter().filter(|ended| ended.verdict != SOUND && !matches!(ended.ending, Ending::Error(_)))
+    /// The shots that have a verdict, with what it says of them up to their first failure and of what followed.
+    pub fn verdicts(&self) -> impl Iterator<Item = (&Ended, &str, Option<&str>)> {
+        let judged = self.shots.iter().filter(|ended| !matches!(ended.ending, Ending::Error(_)));
+        judged.map(|ended| {
+            let (before, after) = parts_of_verdict(&ended.verdict);
+            (ended, before, after)
+        })
     }
 
     /// The curve that is drawn: with Firth's correction, where it is asked for.

@@ -95,6 +95,19 @@ pub fn before(scene: &Scene) -> Result<Vec<Finding>, Error> {
     }
 }
 
+/// What target and striker weigh, in words; nothing of a yarn without a density.
+///
+/// # Errors
+/// It cannot be shot at.
+pub fn weights(scene: &Scene) -> Result<String, Error> {
+    match scene.target.at(&scene.plain_shot(1, scene.shots.speeds[0]), scene.last()) {
+        Target::Panel(case) => Ok(fabric::weights::text(&scene.units, &case, &StruckPanel::new(&case)?.panel)),
+        Target::Yarn(case) => {
+            Ok(impact::judgement::yarn(&scene.units, &case).map_or(String::new(), |yarn| yarn.text()))
+        }
+    }
+}
+
 /// Fires a shot, in the threads of the pool that this is called in; none where it was interrupted. A shot that ends with an error, or in
 /// which the program fails, has ended too.
 pub fn fire(scene: &Scene, shot: &Shot, watch: &dyn Watch) -> Option<Ended> {

@@ -126,6 +126,17 @@ impl Cloth {
         Err(format!("within the panel's outline, x from {x} and y from {y}"))
     }
 
+    /// The pitches of warp and weft of each ply.
+    pub fn pitches(&self) -> Vec<[f64; 2]> {
+        match self {
+            Cloth::Woven(layup) => {
+                let pitches = |ply: &Ply| ply.woven.geometry.weave.threads.map(|thread| thread.pitch);
+                layup.plies.iter().map(pitches).collect()
+            }
+            Cloth::Foreign(foreign) => vec![foreign.pitch],
+        }
+    }
+
     /// The largest pitch.
     pub fn pitch(&self) -> f64 {
         match self {

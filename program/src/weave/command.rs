@@ -7,22 +7,23 @@ use super::reader::Scene;
 use super::{picture, report, vtu};
 use crate::common::console::print;
 use crate::common::error::Error;
-use crate::common::folder;
+use crate::common::run_directory::{RunDirectory, Writes, file_error};
 
-/// Meshes the panel of a scene, prints its figures, and writes the mesh and a picture of it to the directory `output`.
+/// What the files are called.
+const NAME: &str = "weave";
+
+/// Meshes the panel of a scene, which was read from `path`, prints its figures, and writes the mesh and a picture of it to the directory `output`.
 ///
 /// # Errors
 /// The input, or a file that cannot be written.
-pub fn run(path: &Path, output: &Path) -> Result<(), Error> {
-    let scene = Scene::read(path)?;
+pub fn run(scene: &Scene, path: &Path, output: &Path) -> Result<(), Error> {
     let model = scene.cloth.model();
-    let file_error = |file: &Path, error: &dyn std::fmt::Display| Error::Input(format!("{}: {error}", file.display()));
-    folder::check(output)?;
-    std::fs::create_dir_all(output).map_err(|error| file_error(output, &error))?;
-    let mut text = report::report(&scene, &model);
-    let [mesh, svg, png] = ["vtu", "svg", "png"].map(|ending| output.join(format!("weave.{ending}")));
+    let writes = Writes { command: "weave", scene: Some(path), names: vec![NAME.to_string()], restart: false };
+    let _directory = RunDirectory::open(output, writes)?;
+    let mut text = report::report(scene, &model);
+    let [mesh, svg, png] = ["vtu", "svg", "png"].map(|ending| output.join(format!("{NAME}.{ending}")));
     std::fs::write(&mesh, vtu::unstructured_grid(&model)).map_err(|error| file_error(&mesh, &error))?;
-    picture::write(&svg, &png, &scene, &model)?;
+    picture::write(&svg, &png, scene, &model)?;
     let _ =
         writeln!(text, "\nFiles in {}: weave.vtu for ParaView, the picture weave.svg and weave.png", output.display());
     print(&text);

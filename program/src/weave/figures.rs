@@ -67,6 +67,11 @@ impl Figures {
         figures
     }
 
+    /// The mean section of a yarn of warp and of weft, which lie this far apart.
+    pub fn sections(&self, pitches: [f64; 2]) -> [f64; 2] {
+        [0, 1].map(|family| self.volumes_by_area[family] * pitches[family] / (1.0 + self.crimp[family]))
+    }
+
     pub fn volume_by_area(&self) -> f64 {
         self.volumes_by_area.iter().sum()
     }

@@ -24,8 +24,7 @@ pub struct SceneFile {
     pub mesh: Option<Spanned<MeshFile>>,
     pub material: Option<Spanned<MaterialFile>>,
     /// How the panel is struck, which is nothing to its mesh.
-    #[serde(rename = "scene")]
-    _scene: Option<IgnoredAny>,
+    pub scene: Option<IgnoredAny>,
     #[serde(rename = "case")]
     _case: Option<IgnoredAny>,
     #[serde(rename = "shots")]

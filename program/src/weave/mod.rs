@@ -31,3 +31,4 @@ pub mod surface;
 mod tests;
 pub mod torn;
 pub mod vtu;
+pub mod weights;

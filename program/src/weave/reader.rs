@@ -56,8 +56,10 @@ pub struct Scene {
     pub title: String,
     pub units: UnitSystem,
     pub cloth: Cloth,
-    /// Of the yarns, where the scene names one.
-    pub material: Option<Material>,
+    /// Whether it is the scene of a strike.
+    pub is_struck: bool,
+    /// Of the yarns of warp and weft of each ply; empty where the scene names none.
+    pub materials: Vec<[Material; 2]>,
 }
 
 impl Scene {
@@ -81,10 +83,14 @@ impl Scene {
         let material = file.material.as_ref();
         let material =
             material.map(|table| source.material(Laws::Toron, table.get_ref(), &units, table.span())).transpose()?;
+        let cloth = source.cloth(file.weave.as_ref(), &file.ply, file.mesh.as_ref(), &units)?;
+        let of_all = |material: Material| vec![[material.clone(), material]; cloth.pitches().len()];
+        let materials = material.map_or(Vec::new(), of_all);
         Ok(Scene {
             title: file.title.unwrap_or_else(|| name.to_string()),
-            cloth: source.cloth(file.weave.as_ref(), &file.ply, file.mesh.as_ref(), &units)?,
-            material,
+            is_struck: file.scene.is_some(),
+            cloth,
+            materials,
             units,
         })
     }

@@ -1,7 +1,6 @@
 //! The figures of a panel for the terminal.
 
 use std::fmt::Write;
-use std::ops::RangeInclusive;
 
 use super::cloth::Cloth;
 use super::figures::Figures;
@@ -9,50 +8,39 @@ use super::foreign::reader::Foreign;
 use super::layup::Ply;
 use super::model::Model;
 use super::reader::Scene;
+use super::weights::PlyWeight;
 use crate::common::text_table::value_line;
 use crate::common::units::number;
 use crate::material::fibre_wave::FibreWave;
-use toron::host::units::UnitSystem;
-use toron::law::parameters::Dimension;
+use toron::law::parameters::DENSITY;
 
-const AREAL_DENSITY: Dimension = Dimension { mass: 1, length: -2, time: 0, name: "areal density" };
+/// What a yarn without a material is taken to have in kg/m³, to see whether its section can be a yarn's.
+const ASSUMED_DENSITY: f64 = 1400.0;
 
 /// The width of the names of figures, with a blank.
 const NAMES: usize = 31;
 
-/// What woven fabrics weigh, in kg/m², with a margin on both sides: sailcloth and parachutes from 0.03, heavy rovings 2.
-const KNOWN: RangeInclusive<f64> = 0.01..=10.0;
-
-/// In kg/m².
-fn areal_density(volume_by_area: f64, density: f64, units: &UnitSystem) -> f64 {
-    volume_by_area * density / units.from_si(1.0, AREAL_DENSITY)
-}
-
-/// What to say where no fabric weighs that: the units are likely wrong.
-pub fn areal_density_warning(volume_by_area: f64, density: f64, units: &UnitSystem) -> Option<String> {
-    let found = areal_density(volume_by_area, density, units);
-    (!KNOWN.contains(&found)).then(|| {
-        format!(
-            "the panel weighs {} kg/m², and woven fabrics {} to {}:\n\
-             density or a length of the weave is most likely not in the units of the file, {}",
-            number(found),
-            KNOWN.start(),
-            KNOWN.end(),
-            units.names().join("-")
-        )
-    })
-}
+/// A figure's name, and its value with the unit.
+type Row = (&'static str, String);
 
 /// The figures of each ply, those of all where there are several, and what looks wrong.
 pub fn report(scene: &Scene, model: &Model) -> String {
     let length = scene.units.names()[0];
-    let density = scene.material.as_ref().and_then(|material| material.density);
-    let areal_density = |volume_by_area: f64| {
-        density.map_or("no material that has a density".to_string(), |density| {
-            format!("{} kg/m²", number(areal_density(volume_by_area, density, &scene.units)))
-        })
-    };
     let figures = scene.cloth.figures(model);
+    let weights: Vec<Option<PlyWeight>> = (0..figures.len())
+        .map(|ply| {
+            let densities = scene.materials.get(ply)?.each_ref().map(|material| material.density);
+            let [warp, weft] = densities;
+            Some(PlyWeight::of(&figures[ply], scene.cloth.pitches()[ply], [warp?, weft?], &scene.units))
+        })
+        .collect();
+    let in_kg = |areal: Option<f64>| {
+        areal.map_or("no material that has a density".to_string(), |areal| format!("{} kg/m²", number(areal)))
+    };
+    let of_weight = |weight: Option<PlyWeight>| {
+        let yarns = weight.map(|weight| ("linear densities", weight.yarns()));
+        [Some(("areal density", in_kg(weight.map(|weight| weight.areal_density)))), yarns]
+    };
     let plies = scene.cloth.plies();
     let mut text = format!("{}\n\n", scene.title);
     let mut add = |rows: &[(&str, String)]| {
@@ -65,32 +53,46 @@ pub fn report(scene: &Scene, model: &Model) -> String {
             let turned = format!("{}°, in the middle at {} {length}", number(ply.angle), number(ply.height));
             add(&[(&format!("ply {}", place + 1), turned)]);
         }
-        add(&of_ply(ply, figures, length, areal_density(figures.volume_by_area())));
+        add(&of_ply(ply, figures, length, of_weight(weights[place])));
         if plies.len() > 1 {
             add(&[("", String::new())]);
         }
     }
     let mut of_mesh = Vec::new();
     if let Cloth::Foreign(foreign) = &scene.cloth {
-        add(&of_mesh_file(foreign, length, areal_density(foreign.figures.volume_by_area())));
+        add(&of_mesh_file(foreign, length, of_weight(weights[0])));
         of_mesh = foreign.checks.warnings();
     }
     if plies.len() > 1 {
         let [lowest, highest] = model.heights();
-        let volume: f64 = figures.iter().map(Figures::volume_by_area).sum();
+        let all = weights.iter().map(|weight| weight.map(|weight| weight.areal_density)).sum::<Option<f64>>();
         add(&[
             ("all plies", plies.len().to_string()),
             ("elements, nodes", format!("{}, {}", model.elements.len(), model.nodes.len())),
             ("least distance of yarns", format!("{} {length}", number(scene.cloth.clearance()))),
             ("thickness", format!("{} {length}", number(highest - lowest))),
-            ("areal density", areal_density(volume)),
+            ("areal density", in_kg(all)),
         ]);
     }
-    let wave = scene.material.as_ref().and_then(|material| FibreWave::of(material, &scene.units));
-    let of_wave = wave.and_then(|wave| wave.unit_warning(&scene.units));
-    let of_area =
-        figures.iter().filter_map(|figures| areal_density_warning(figures.volume_by_area(), density?, &scene.units));
-    let warnings: Vec<String> = of_mesh.into_iter().chain(of_wave).chain(of_area.take(1)).collect();
+    let waves = scene.materials.iter().flatten().filter_map(|material| FibreWave::of(material, &scene.units));
+    let of_waves = waves.filter_map(|wave| wave.unit_warning(&scene.units));
+    // Where no material is named, its sections alone show a mesh in other units.
+    let assumed = [scene.units.from_si(ASSUMED_DENSITY, DENSITY); 2];
+    let of_sections = |ply: usize| {
+        let weight = PlyWeight::of(&figures[ply], scene.cloth.pitches()[ply], assumed, &scene.units);
+        let warnings = weight.yarns.iter().filter_map(|yarn| yarn.warning(&scene.units));
+        warnings.map(|text| format!("taken to have {ASSUMED_DENSITY} kg/m³, {text}")).collect()
+    };
+    let of_weights = weights.iter().enumerate().flat_map(|(ply, weight)| match weight {
+        Some(weight) => weight.warnings(&scene.units),
+        None => of_sections(ply),
+    });
+    let mut warnings: Vec<String> = Vec::new();
+    for warning in of_mesh.into_iter().chain(of_waves).chain(of_weights) {
+        if !warnings.contains(&warning) {
+            warnings.push(warning);
+        }
+    }
     for (number, warning) in warnings.iter().enumerate() {
         let before = if number == 0 { "\n" } else { "" };
         let _ = writeln!(text, "{before}warning: {}", warning.replace('\n', "\n  "));
@@ -98,25 +100,19 @@ pub fn report(scene: &Scene, model: &Model) -> String {
     text
 }
 
-fn of_ply(ply: &Ply, figures: &Figures, length: &str, areal_density: String) -> Vec<(&'static str, String)> {
+fn of_ply(ply: &Ply, figures: &Figures, length: &str, weight: [Option<Row>; 2]) -> Vec<Row> {
     let geometry = &ply.woven.geometry;
     let amplitude = ("amplitude of the centre lines", format!("{} {length}", number(geometry.amplitude)));
-    rows(figures, Some(amplitude), geometry.weave.clearance, length, areal_density)
+    rows(figures, Some(amplitude), geometry.weave.clearance, length, weight)
 }
 
-fn of_mesh_file(foreign: &Foreign, length: &str, areal_density: String) -> Vec<(&'static str, String)> {
-    let mut rows = rows(&foreign.figures, None, foreign.clearance, length, areal_density);
+fn of_mesh_file(foreign: &Foreign, length: &str, weight: [Option<Row>; 2]) -> Vec<Row> {
+    let mut rows = rows(&foreign.figures, None, foreign.clearance, length, weight);
     rows.extend(foreign.rows(length));
     rows
 }
 
-fn rows(
-    figures: &Figures,
-    amplitude: Option<(&'static str, String)>,
-    clearance: f64,
-    length: &str,
-    areal_density: String,
-) -> Vec<(&'static str, String)> {
+fn rows(figures: &Figures, amplitude: Option<Row>, clearance: f64, length: &str, weight: [Option<Row>; 2]) -> Vec<Row> {
     let percent = figures.crimp.map(|crimp| number(100.0 * crimp));
     let [warps, wefts] = figures.yarns;
     let mut rows = vec![
@@ -129,7 +125,9 @@ fn rows(
         ("least distance of yarns", format!("{} {length}", number(clearance))),
         ("thickness", format!("{} {length}", number(figures.thickness))),
         ("volume over area", format!("{} {length}", number(figures.volume_by_area()))),
-        ("areal density", areal_density),
+    ]);
+    rows.extend(weight.into_iter().flatten());
+    rows.extend([
         (
             "least Jacobian",
             format!("{} {length}³, scaled {}", number(figures.least_jacobian), number(figures.least_scaled_jacobian)),

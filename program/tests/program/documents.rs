@@ -636,7 +636,7 @@ fn follow_the_tutorial(name: &str, whole: bool) {
                     // From the name to the deleted elements; then comes the time that it took.
                     let row = |text: &str| {
                         let row = text.lines().find(|line| line.starts_with("scene ")).expect("a case");
-                        row.split_whitespace().take(13).map(String::from).collect::<Vec<_>>()
+                        row.split_whitespace().take(14).map(String::from).collect::<Vec<_>>()
                     };
                     assert_eq!(row(&printed), row(&output));
                     // What follows the table: yarns, warnings, files.

@@ -22,7 +22,7 @@ part = "quarter"
 
 [scene]
 speed = 60.0
-mass = 0.7
+mass = 0.26
 radius = 2.0
 contact-stiffness = 1e5
 end = 0.001
@@ -131,7 +131,7 @@ fn wrong_keys_are_named() {
         (
             "name = \"linear\"",
             "name = \"yarns-panel-2\"",
-            "scene.toml:31: case \"yarns-panel-2\"; allowed: a name of its own",
+            "scene.toml:31: case \"yarns-panel-2\", with files that would be called as some of \"yarns\"; allowed: ",
         ),
     ]
     .into_iter()
@@ -160,6 +160,45 @@ fn a_directory_has_one_run_at_a_time() {
         let error = String::from_utf8_lossy(&answer.stderr).into_owned();
         assert!(answer.status.code() == Some(2) && error.contains("to which another run writes"), "{command}: {error}");
     }
+}
+
+/// What one command has written to a directory, neither another one nor another scene overwrites.
+#[test]
+fn a_directory_knows_whose_its_files_are() {
+    const YARN: &str = "units = \"mm-g-ms\"\n[scene]\nhalf-length = 1.0\nheight = 0.1\nwidth = 0.5\nlayers = 4\nrows = 1\n\
+                        columns = 2\nmass = 9.91e-3\nradius = 1.1\ncontact-stiffness = 1e6\nspeed = 120.0\nend = 1e-5\n";
+    let place = folder("owned");
+    let _ = std::fs::remove_dir_all(&place);
+    std::fs::create_dir_all(&place).expect("a folder");
+    let step = "units = \"si\"\n[material]\npreset = \"kevlar-km2-600\"\n[[step]]\nF = { 11 = 1.01 }\n";
+    for (name, text) in
+        [("yarn.toml", YARN), ("other.toml", YARN), ("panel.toml", SCENE), ("path.toml", step), ("paths.toml", step)]
+    {
+        std::fs::write(place.join(name), text).expect("a file");
+    }
+    let run = |words: &[&str]| {
+        let mut program = Command::new(env!("CARGO_BIN_EXE_toron"));
+        let answer = program.args(words).args(["-o", "out"]).current_dir(&place).output().expect("it starts");
+        (answer.status.code(), String::from_utf8_lossy(&answer.stderr).into_owned())
+    };
+    assert_eq!(run(&["impact", "yarn.toml"]).0, Some(0));
+    let summary = || std::fs::read_to_string(place.join("out/summary.csv")).expect("a file");
+    let first = summary();
+    for words in [["fabric", "panel.toml"], ["impact", "other.toml"]] {
+        let (code, error) = run(&words);
+        let said =
+            format!(" are of toron impact ../yarn.toml, and toron {} ../{} would overwrite them", words[0], words[1]);
+        assert!(code == Some(2) && error.contains(&said) && error.contains("allowed: another directory"), "{error}");
+    }
+    assert_eq!(summary(), first);
+    // What has other files may write beside it, and the same scene again.
+    for words in [&["run", "path.toml"][..], &["weave", "panel.toml"], &["impact", "yarn.toml"], &["run", "path.toml"]]
+    {
+        assert_eq!(run(words).0, Some(0), "{words:?}");
+    }
+    let (code, error) = run(&["run", "paths.toml"]);
+    let said = "files called increments are of toron run ../path.toml";
+    assert!(code == Some(2) && error.contains(said), "{error}");
 }
 
 /// What an earlier run of the scene has left goes when a case begins, and nothing else.

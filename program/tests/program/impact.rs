@@ -510,10 +510,15 @@ fn errors_say_what_is_wrong() {
     let driven = scene("layers = 100\nstriker = \"driven\"");
     assert_eq!(driven, "scene.toml:8: mass belongs to a cylinder, and striker is driven; allowed: one of the two");
     let names = "a name of its own out of letters, digits and - _ ., since files are named by it";
-    let twice = scene("layers = 100\n[[case]]\nname = \"a\"\n[[case]]\nname = \"a-yarn-1\"");
-    assert_eq!(twice, format!("scene.toml:17: case \"a-yarn-1\"; allowed: {names}"));
-    let summary = scene("layers = 100\n[[case]]\nname = \"summary\"");
-    assert_eq!(summary, format!("scene.toml:15: case \"summary\"; allowed: {names}"));
+    for (one, other) in [("a", "a-yarn-1"), ("a", "a-strain-1"), ("b-strain-12", "b"), ("a", "A")] {
+        let twice = scene(&format!("layers = 100\n[[case]]\nname = \"{one}\"\n[[case]]\nname = \"{other}\""));
+        let said = format!("case \"{other}\", with files that would be called as some of \"{one}\"");
+        assert_eq!(twice, format!("scene.toml:17: {said}; allowed: {names}"));
+    }
+    for common in ["summary", "Residual-Speed"] {
+        let named = scene(&format!("layers = 100\n[[case]]\nname = \"{common}\""));
+        assert!(named.starts_with(&format!("scene.toml:15: case \"{common}\", with files that")), "{named}");
+    }
 }
 
 /// Ten lines of a scene that lacks what strikes, and the three of that.
@@ -635,7 +640,8 @@ fn the_program_writes_what_came_of_a_scene() {
     let said = String::from_utf8_lossy(&output.stdout).into_owned();
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     assert!(said.contains("\nYarns: kevlar-km2-600\n"), "{said}");
-    let heading = "case  how it ended        at end  elements  energy  run\n                           mm/ms   deleted  off by    s\n";
+    let heading = "case  how it ended        verdict  at end  elements  energy  run\n\
+                   \x20                                   mm/ms   deleted  off by    s\n";
     assert!(said.contains(heading), "{said}");
     assert!(said.contains("\na     unbroken, not over") && said.contains("\nb     unbroken, not over"), "{said}");
     assert!(said.contains("\nc-of-a-name-that-is-longer-th…  "), "{said}");

@@ -1,0 +1,210 @@
+//! What panel and striker weigh, in figures that are known of both: a slip in a size, a mass or a unit shows in them.
+
+use std::ops::RangeInclusive;
+
+use super::scene::Case;
+use crate::common::units::{CONTACT_STIFFNESS, LENGTH, SPEED, number, unit};
+use crate::explicit::contact::Shape;
+use crate::explicit::judgement::Finding;
+use crate::weave::figures::Figures;
+use crate::weave::geometry::Family;
+use crate::weave::model::Model;
+use crate::weave::weights::PlyWeight;
+use toron::host::units::UnitSystem;
+
+/// What steels have, in kg/m³.
+const STEEL: RangeInclusive<f64> = 7.6e3..=8.2e3;
+/// By how much a sphere is too light whose diameter was taken for its radius.
+const DIAMETER_FOR_RADIUS: f64 = 8.0;
+/// A striker's radius over what the panel reaches from its middle.
+const LARGEST_RADIUS: f64 = 2.0;
+/// Speeds at which panels are struck, in m/s, and stiffnesses of contact that yarns take, in MPa/mm, with a margin on both sides.
+const SPEEDS: RangeInclusive<f64> = 0.5..=3e3;
+const STIFFNESSES: RangeInclusive<f64> = 1e3..=1e7;
+const MPA_BY_MM: f64 = 1e9;
+
+/// What is said of the weights of a case.
+pub fn text(units: &UnitSystem, case: &Case, panel: &Model) -> String {
+    let plies = plies(units, case, panel);
+    let all: f64 = plies.iter().map(|ply| ply.areal_density).sum();
+    let mut yarns: Vec<String> = plies.iter().map(PlyWeight::yarns).collect();
+    if yarns.windows(2).all(|pair| pair[0] == pair[1]) {
+        yarns.truncate(1);
+    } else {
+        yarns = yarns.into_iter().zip(1..).map(|(text, ply)| format!("ply {ply} {text}")).collect();
+    }
+    let striker = case
+        .striker
+        .density
+        .map_or(String::new(), |density| format!("{} {} kg/m³; ", case.sphere.shape.name(), number(density)));
+    format!("{striker}panel {} kg/m²; {}", number(all), yarns.join("; "))
+}
+
+fn plies(units: &UnitSystem, case: &Case, panel: &Model) -> Vec<PlyWeight> {
+    let figures = case.cloth.figures(panel).into_iter().zip(case.cloth.pitches());
+    let weight = |(ply, (figures, pitches)): (usize, (Figures, [f64; 2]))| {
+        let densities = Family::BOTH.map(|family| case.material(ply, family).density.unwrap_or_default());
+        PlyWeight::of(&figures, pitches, densities, units)
+    };
+    figures.enumerate().map(weight).collect()
+}
+
+/// Weights and sizes that cannot be meant.
+pub fn findings(units: &UnitSystem, case: &Case, panel: &Model) -> Vec<Finding> {
+    let plies = plies(units, case, panel);
+    let weights = plies.iter().flat_map(|ply| ply.warnings(units));
+    let mut texts: Vec<String> = Vec::new();
+    for text in weights.chain(slow_or_fast(units, case)).chain(soft_or_hard(units, case)) {
+        if !texts.contains(&text) {
+            texts.push(text);
+        }
+    }
+    let units_of = texts.into_iter().map(|text| Finding::new("units", text));
+    let sizes = upright(units, case).into_iter().chain(large(units, case, panel));
+    let sizes = sizes.map(|text| Finding::new("sizes", text));
+    units_of.chain(sizes).chain(striker(case)).collect()
+}
+
+fn slow_or_fast(units: &UnitSystem, case: &Case) -> Option<String> {
+    let speed = case.speed / units.from_si(1.0, SPEED);
+    (!SPEEDS.contains(&speed)).then(|| {
+        format!(
+            "the speed of {} {} is {} m/s, and panels are struck at {} to {}:\n\
+             it is most likely not in the units of the file, {}",
+            number(case.speed),
+            unit(units, SPEED),
+            number(speed),
+            SPEEDS.start(),
+            SPEEDS.end(),
+            units.names().join("-")
+        )
+    })
+}
+
+fn soft_or_hard(units: &UnitSystem, case: &Case) -> Option<String> {
+    let stiffness = case.sphere.stiffness / units.from_si(MPA_BY_MM, CONTACT_STIFFNESS);
+    (!STIFFNESSES.contains(&stiffness)).then(|| {
+        format!(
+            "contact-stiffness is {:e} {}, {} MPa/mm, and yarns take {:e} to {:e}:\n\
+             it is most likely not in the units of the file, {}",
+            case.sphere.stiffness,
+            unit(units, CONTACT_STIFFNESS),
+            number(stiffness),
+            STIFFNESSES.start(),
+            STIFFNESSES.end(),
+            units.names().join("-")
+        )
+    })
+}
+
+/// Yarns that stand on their edges.
+fn upright(units: &UnitSystem, case: &Case) -> Option<String> {
+    let threads = case.cloth.plies().iter().flat_map(|ply| ply.woven.geometry.weave.threads);
+    let thread = threads.into_iter().find(|thread| thread.height > thread.width)?;
+    let ([height, width], unit) = ([thread.height, thread.width].map(number), unit(units, LENGTH));
+    Some(format!(
+        "a yarn of the weave is {height} {unit} high and {width} {unit} wide, and woven yarns are flat:\n\
+         width and height are most likely exchanged"
+    ))
+}
+
+/// A striker beside which the panel is small.
+fn large(units: &UnitSystem, case: &Case, panel: &Model) -> Option<String> {
+    let reach = panel.nodes.iter().map(|[x, y, _]| x.hypot(*y)).fold(0.0, f64::max);
+    let radius = case.sphere.radius;
+    (radius > LARGEST_RADIUS * reach).then(|| {
+        let ([radius, reach], unit) = ([radius, reach].map(number), unit(units, LENGTH));
+        format!(
+            "the {}'s radius of {radius} {unit} is more than {LARGEST_RADIUS} times what the panel reaches from the middle, {reach} {unit}:\n\
+             one of the two is most likely not in the units of the file, {}",
+            case.sphere.shape.name(),
+            units.names().join("-")
+        )
+    })
+}
+
+/// A density that is not steel's, where nothing says that it is meant.
+fn striker(case: &Case) -> Option<Finding> {
+    let density = case.striker.density.filter(|density| !case.striker.is_told && !STEEL.contains(density))?;
+    let name = case.sphere.shape.name();
+    let hint = if case.sphere.shape == Shape::Sphere && STEEL.contains(&(DIAMETER_FOR_RADIUS * density)) {
+        "is radius the diameter? With half of it that is steel"
+    } else {
+        "of another material give striker-density, and no warning is said"
+    };
+    let text = format!(
+        "the {name}'s mass and sizes make {} kg/m³, and steel has {} to {}:\n{hint}",
+        number(density),
+        STEEL.start(),
+        STEEL.end()
+    );
+    Some(Finding::new("striker", text))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fabric::scene::Scene;
+
+    /// A patch with a panel of this radius under a blow.
+    fn scene(panel: f64, weave: &str, blow: &str) -> String {
+        format!(
+            "units = \"mm-g-ms\"\n[weave]\nalong = 4\ncolumns = 4\n{weave}\n\
+             [weave.panel]\nshape = \"circle\"\nradius = {panel}\npart = \"quarter\"\n[scene]\nend = 1.0\n{blow}\n"
+        )
+    }
+
+    const PRESET: &str = "preset = \"kevlar-s706\"";
+    const BLOW: &str = "speed = 60.0\nmass = 0.692\nradius = 2.778\ncontact-stiffness = 1e5";
+
+    /// The words and texts of what is found, and what is said of the weights.
+    fn found(text: &str) -> (Vec<&'static str>, String, String) {
+        let scene = Scene::parse("patch.toml", text).expect("a scene");
+        let (case, panel) = (&scene.cases[0], scene.cases[0].cloth.model());
+        let findings = findings(&scene.units, case, &panel);
+        let texts: Vec<&str> = findings.iter().map(|finding| finding.text.as_str()).collect();
+        (
+            findings.iter().map(|finding| finding.name).collect(),
+            texts.join("\n"),
+            super::text(&scene.units, case, &panel),
+        )
+    }
+
+    #[test]
+    fn weights_are_said_and_what_cannot_be_meant_is_found() {
+        let (names, _, said) = found(&scene(3.0, PRESET, BLOW));
+        assert!(names.is_empty(), "{names:?}");
+        for part in ["sphere 7706 kg/m³; panel 0.17", " kg/m²; warp and weft 651.", " dtex of 1351 kg/m³"] {
+            assert!(said.contains(part), "{said}");
+        }
+        let thick = "[weave.warp]\npitch = 1.5\nwidth = 0.3\nheight = 0.35";
+        let inches = "[weave.warp]\npitch = 0.0294\nwidth = 0.021\nheight = 0.0045";
+        let tungsten = BLOW.replace("mass = 0.692", "striker-density = 19.2e-3");
+        for (text, word, part) in [
+            (scene(3.0, PRESET, &BLOW.replace("2.778", "5.556")), "striker", "is radius the diameter?"),
+            (scene(3.0, PRESET, &BLOW.replace("0.692", "0.346")), "striker", "give striker-density"),
+            (scene(3.0, PRESET, &BLOW.replace("60.0", "0.06")), "units", "is 0.06000 m/s, and panels are struck at"),
+            (scene(3.0, PRESET, &BLOW.replace("1e5", "1e2")), "units", "100.0 MPa/mm, and yarns take"),
+            (scene(3.0, thick, BLOW), "sizes", "0.3500 mm high and 0.3000 mm wide"),
+            (scene(2.0, PRESET, &tungsten.replace("2.778", "5.0")), "sizes", "more than 2 times what the panel"),
+            (scene(0.15, inches, BLOW), "units", "dtex, and yarns 10.00 to 60000"),
+        ] {
+            let (names, texts, _) = found(&text);
+            assert!(names.contains(&word) && texts.contains(part), "{word}: {names:?} {texts}");
+        }
+        assert!(found(&scene(3.0, PRESET, &tungsten)).0.is_empty(), "the file says what it is");
+    }
+
+    #[test]
+    fn a_mass_and_a_density_that_differ_are_refused() {
+        let with = |density: &str| {
+            let text = scene(3.0, PRESET, &format!("{BLOW}\nstriker-density = {density}"));
+            Scene::parse("patch.toml", &text).map(|scene| scene.cases[0].mass).map_err(|error| error.to_string())
+        };
+        assert_eq!(with("7.7e-3"), Ok(0.692));
+        let refused = "patch.toml:12: mass is 0.692, and striker-density 0.0027 with the sizes of the sphere makes 0.2425; allowed: one";
+        assert!(with("2.7e-3").is_err_and(|error| error.starts_with(refused)), "{:?}", with("2.7e-3"));
+        let wrong = "patch.toml:15: striker-density is 7.7; allowed: what solids have, 1.000e-4 to 0.02300";
+        assert!(with("7.7").is_err_and(|error| error.starts_with(wrong)), "{:?}", with("7.7"));
+    }
+}
