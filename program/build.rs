@@ -9,8 +9,8 @@ const OPTIONS: [&str; 2] = ["CARGO_ENCODED_RUSTFLAGS", "CARGO_CFG_TARGET_FEATURE
 
 fn main() {
     let root = Path::new("..");
-    for folder in SOURCES {
-        println!("cargo::rerun-if-changed={}", root.join(folder).display());
+    for folder in SOURCES.iter().map(|folder| root.join(folder)).filter(|folder| folder.is_dir()) {
+        println!("cargo::rerun-if-changed={}", folder.display());
     }
     println!("cargo::rerun-if-env-changed=RUSTFLAGS");
     let options: Vec<String> = OPTIONS.iter().map(|option| std::env::var(option).unwrap_or_default()).collect();
@@ -36,8 +36,11 @@ pub fn checksum(root: &Path, options: &[String]) -> u32 {
     sum.finalize()
 }
 
-/// The files of a folder and of those in it.
+/// The files of a folder and of those in it; none of one that is not there, as where packages were taken apart from each other.
 fn files(folder: &Path) -> Vec<PathBuf> {
+    if !folder.is_dir() {
+        return Vec::new();
+    }
     let entries = std::fs::read_dir(folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
     let paths = entries.map(|entry| entry.unwrap_or_else(|error| panic!("{}: {error}", folder.display())).path());
     paths.flat_map(|path| if path.is_dir() { files(&path) } else { vec![path] }).collect()

@@ -89,8 +89,9 @@ mod tests {
             write(&place, |file| file.write_all(text.as_bytes())).expect("it is written");
         }
         let read = |name: &str| std::fs::read_to_string(folder.join(name)).expect("it is there");
-        assert_eq!(["my-yarn.toml-old", "my-yarn.toml-old-2", "my-yarn.toml"].map(read), ["one", "two", "six"]);
-        assert_eq!(std::fs::read_dir(&folder).expect("a folder").count(), 3);
+        let names = ["my-yarn.toml-old", "my-yarn.toml-old-2", "my-yarn.toml-old-3", "my-yarn.toml"];
+        assert_eq!(names.map(read), ["one", "two", "six", "six"]);
+        assert_eq!(std::fs::read_dir(&folder).expect("a folder").count(), names.len());
         assert!(write(&folder, |_| Ok(())).expect_err("a directory").to_string().contains("is a directory"));
         std::fs::remove_dir_all(&folder).expect("it is removed");
     }

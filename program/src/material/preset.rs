@@ -177,7 +177,7 @@ impl Preset {
         } else {
             let known = || {
                 let known: Vec<&str> = table.iter().map(|property| property.name).collect();
-                let hint = nearest::hint(name, known.iter().copied());
+                let hint = nearest::hint(name, known.iter().copied().chain(["density"]));
                 format!("no property {name}{hint}; allowed: {} density", known.join(" "))
             };
             let index = table.iter().position(|property| property.name == name).ok_or_else(known)?;
@@ -446,7 +446,7 @@ mod tests {
                 6,
                 "(m_2, fibre direction in the reference placement, any length) is infinity; allowed: a finite",
             ),
-            (format!("{YARN}k_elast = 3\n"), 6, "property \"k_elast\"; allowed: k_el k_tc p k_td"),
+            (format!("{YARN}k_elast = 3\n"), 6, "property \"k_elast\", did you mean k_el?; allowed: k_el k_tc p k_td"),
             (format!("{YARN}p = \"2\"\n"), 6, "p is \"2\"; allowed: a number"),
             (format!("{YARN}k_el = 3\n"), 6, "duplicate key"),
             ("units = \"si\"\ncolour = 3".to_string(), 2, "unknown field `colour`, expected one of `name`, `source`"),

@@ -3,6 +3,7 @@
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use serde_json::Value;
 
@@ -55,7 +56,9 @@ fn column<'a>(table: &'a Value, heading: &str) -> Vec<&'a Value> {
 
 /// Writes a scene to start from, which may be changed before it runs; returns the folder, and the command that it says.
 fn started(name: &str, changes: &[(&str, &str)]) -> (PathBuf, Vec<String>) {
-    let folder = folder(&format!("init-{name}"));
+    // Tests that run side by side have folders of their own.
+    static NUMBER: AtomicUsize = AtomicUsize::new(0);
+    let folder = folder(&format!("init-{name}-{}", NUMBER.fetch_add(1, Ordering::Relaxed)));
     let [out, _] = said(&folder, &["init", name]);
     let command = out.lines().last().and_then(|line| line.trim().strip_prefix("toron ")).expect("a command");
     let file = folder.join(format!("{name}.toml"));

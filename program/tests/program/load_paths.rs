@@ -263,7 +263,7 @@ fn input_errors_name_file_line_and_what_was_expected() {
         (
             format!("units = \"si\"\n[material]\npreset = \"kevlar\"\n{step}"),
             3,
-            "preset \"kevlar\"; allowed: kevlar-km2-600",
+            "preset \"kevlar\", did you mean kevlar-km2-600?; allowed: kevlar-km2-600",
         ),
         (format!("units = \"si\"\n{step}"), 1, "needs a preset, or a law"),
         (

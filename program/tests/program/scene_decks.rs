@@ -234,12 +234,14 @@ fn the_patch_s_decks_are_current() {
         } else {
             folder(&format!("scene-decks-patch-{host}"))
         };
-        let mut toron = Command::new(env!("CARGO_BIN_EXE_toron"));
-        toron.args(["fabric", scene, "--deck", host, "--units", "mm-tonne-s", "-o"]).arg(&to).current_dir(ROOT);
-        run(&mut toron, "");
         let names = |folder: &Path| -> BTreeSet<_> {
             std::fs::read_dir(folder).expect("a folder").map(|file| file.expect("a file").file_name()).collect()
         };
+        // Decks that were there with other contents would be kept beside the new ones.
+        names(&to).iter().for_each(|name| std::fs::remove_file(to.join(name)).expect("an old deck"));
+        let mut toron = Command::new(env!("CARGO_BIN_EXE_toron"));
+        toron.args(["fabric", scene, "--deck", host, "--units", "mm-tonne-s", "-o"]).arg(&to).current_dir(ROOT);
+        run(&mut toron, "");
         assert_eq!(names(&committed), names(&to), "{host}");
         for name in names(&to) {
             let [old, new] = [&committed, &to].map(|folder| std::fs::read(folder.join(&name)).expect("a deck"));
