@@ -334,7 +334,8 @@ fn group(number: i32, values: &[f64], limits: Option<[f64; 3]>) -> (Result<(), i
     (Ok(()), uvar, off.to_vec())
 }
 
-/// `variables`: up to the limit; behind them are the three of the element's diagonal, which are 0 where the nodes are not known.
+/// `variables`: up to the limit; behind them are the three of the element's diagonal, which are 0 where the nodes are
+/// not known.
 fn openradioss<L: Limited>(number: i32, options: &[f64], variables: usize) {
     let with = |limit: f64, last: f64| -> Vec<f64> {
         let mut values = card::<L>(limit, None);

@@ -12,7 +12,7 @@ static const double stiffness = 82341;
 
 static const double identity[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
 
-/* ---- Nodes: those of a brick whose sections are apart along `axis`, which turns with the element, moved by the group's F. */
+/* ---- Nodes: of a brick whose sections are apart along `axis`, which turns with the element, moved by the group's F. */
 
 static _Thread_local int without_length;
 static _Thread_local double stretched = 1;
@@ -330,8 +330,8 @@ static void stopped(void)
     STOPPED_WITH("shells");
 }
 
-/* Elements that have been strained and then turn, of which F comes in axes that turn with them, on both sides as the solver has it for an
- * orthotropic property and for co-rotational elements. Nothing strains them while they turn. */
+/* Elements that have been strained and then turn, of which F comes in axes that turn with them, on both sides as the
+ * solver has it for an orthotropic property and for co-rotational elements. Nothing strains them while they turn. */
 static void other_axes(void)
 {
     material m = read_card(1, card_of(yarn, 12));

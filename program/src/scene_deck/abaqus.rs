@@ -16,8 +16,9 @@ use crate::deck::abaqus::{self, Solver, card};
 const PER_LINE: usize = 16;
 /// Restart files of a run.
 const RESTARTS: u32 = 20;
-/// What viscous hourglass control is taken to have as its factor where its scale is 1: the manual has scales and not this factor, which
-/// is 0.1 in OpenRadioss and LS-DYNA, and 0.05 to 0.15 in Flanagan and Belytschko's paper (Int. J. Numer. Meth. Eng. 17, 1981).
+/// What viscous hourglass control is taken to have as its factor where its scale is 1: the manual has scales and not
+/// this factor, which is 0.1 in OpenRadioss and LS-DYNA, and 0.05 to 0.15 in Flanagan and Belytschko's paper (Int. J.
+/// Numer. Meth. Eng. 17, 1981).
 const HOURGLASS_OF_SCALE_1: f64 = 0.1;
 
 /// What the names in a deck begin with, in capitals as the solver has them.

@@ -23,8 +23,9 @@ const DAMPING: f64 = 0.05;
 /// A node leaves a contact whose step is this fraction of the elements'. The contact stiffens without bound as its gap closes, and where
 /// two surfaces pinch a node the step of the whole model would follow.
 const CONTACT_STEP: f64 = 0.1;
-/// The error of the energy, over the energy, at which the run ends. What hourglass control and contact take is an error below 0, which is
-/// above −1. Long after a break free ends have gained energy without a bound, and the solver's own limit is 10²⁰.
+/// The error of the energy, over the energy, at which the run ends. What hourglass control and contact take is an error
+/// below 0, which is above −1. Long after a break free ends have gained energy without a bound, and the solver's own
+/// limit is 10²⁰.
 const ENERGY_ERROR: f64 = 1.0;
 /// What is no viscosity: 0 is the solver's own.
 const NONE: f64 = 1e-20;

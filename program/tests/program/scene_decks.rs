@@ -567,7 +567,8 @@ fn decks_control_hourglass_collapse_and_contact_alike() {
     let [(_, stop)] = &find(&engine, "/STOP")[..] else { panic!("one limit of the energy's error") };
     assert_eq!(stop[0], "1.0 0 0 1 1", "the energy has doubled; no limit of masses; a last line and a last picture");
 
-    // Viscous, of the same factor if a scale of 1 is the usual 0.1; and no element gets shorter than the part at which the others delete it.
+    // Viscous, of the same factor if a scale of 1 is the usual 0.1; and no element gets shorter than the part at which
+    // the others delete it.
     let deck = blocks(&output.join("abaqus-explicit/scene.inp"), "**", '*');
     let [(controls, scale)] = &find(&deck, "*SECTION CONTROLS")[..] else { panic!("one set of controls") };
     let wanted =

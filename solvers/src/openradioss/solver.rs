@@ -44,13 +44,15 @@ pub fn stop(message: &str) {
     }
 }
 
-/// The coordinates of the nodes of the engine's current group, (`elements`, 8, 3); empty if the engine has no routine for them.
+/// The coordinates of the nodes of the engine's current group, (`elements`, 8, 3); empty if the engine has no routine
+/// for them.
 pub fn coordinates_of_nodes<T: Real>(elements: usize) -> Vec<T> {
     let Some(get) = routine(c"mat_solid_get_nod_x_") else { return Vec::new() };
     // Room for numbers of double precision too: a library for the other precision is refused, but not before it has asked.
     let room = elements * 8 * 3;
     let mut coordinates = vec![T::splat(0.0); room * size_of::<f64>() / size_of::<T>()];
-    // SAFETY: `MAT_SOLID_GET_NOD_X(USER_X)` of the engine writes 24 numbers for each element of the group that calls it.
+    // SAFETY: `MAT_SOLID_GET_NOD_X(USER_X)` of the engine writes 24 numbers for each element of the group that calls
+    // it.
     unsafe {
         let get: unsafe extern "C" fn(*mut T) = std::mem::transmute(get);
         get(coordinates.as_mut_ptr());

@@ -1,4 +1,5 @@
-//! A brick of eight nodes as the solver has it, whose diagonal tells whether a deformation gradient is in the axes of the coordinates.
+//! A brick of eight nodes as the solver has it, whose diagonal tells whether a deformation gradient is in the axes of
+//! the coordinates.
 
 use crate::law::number::vector::{Matrix, cross, dot};
 
@@ -46,8 +47,8 @@ impl Brick {
         whole > 0.0 && libm::fabs(volume - whole) <= 1e-3 * whole
     }
 
-    /// From the first node to the seventh, and at once between the other opposite ones: the image of (1, 1, 1) at the centre. None of a brick
-    /// with an edge that has no length: of such elements the solver may have another gradient.
+    /// From the first node to the seventh, and at once between the other opposite ones: the image of (1, 1, 1) at the
+    /// centre. None of a brick with an edge that has no length: of such elements the solver may have another gradient.
     pub fn diagonal(&self) -> Option<[f64; 3]> {
         let [n1, n2, n3, n4, n5, n6, n7, n8] = self.0;
         let (faces, between) = ([n1, n2, n3, n4, n1, n5, n6, n7, n8, n5], [[n2, n6], [n3, n7], [n4, n8]]);
@@ -60,8 +61,8 @@ impl Brick {
         [0, 1, 2].map(|i| a[i] + b[i] + c[i])
     }
 
-    /// Whether the diagonal of this element may be where F takes that of the undeformed one. Of one point, F is that of the centre; of
-    /// eight points it may differ from it by what the diagonal does from point to point.
+    /// Whether the diagonal of this element may be where F takes that of the undeformed one. Of one point, F is that of
+    /// the centre; of eight points it may differ from it by what the diagonal does from point to point.
     pub fn has_diagonal(&self, taken: [f64; 3], one_point: bool, rounding: f64) -> bool {
         let here = self.diagonal_at([0.0; 3]);
         let length = |[x, y, z]: [f64; 3]| libm::sqrt(x * x + y * y + z * z);

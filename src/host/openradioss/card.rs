@@ -168,7 +168,8 @@ impl<'a, T: Precision> Card<'a, T> {
         &self.material.layout
     }
 
-    /// The index into UVAR, from 0, of the element's diagonal as it is undeformed, by which F is checked: the last three variables.
+    /// The index into UVAR, from 0, of the element's diagonal as it is undeformed, by which F is checked: the last
+    /// three variables.
     pub fn diagonal(&self) -> usize {
         self.layout().limit() + usize::from(self.has_limits)
     }

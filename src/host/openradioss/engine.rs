@@ -46,15 +46,15 @@ pub struct Group<T> {
     pub uvar: *mut T,
     /// OFF, in and out.
     pub off: *mut T,
-    /// (NEL, 8, 3), what `MAT_SOLID_GET_NOD_X` gives, in the cycles of [`needs_nodes`], else null: needed at time 0 if fibre directions come
-    /// from the nodes.
+    /// (NEL, 8, 3), what `MAT_SOLID_GET_NOD_X` gives, in the cycles of [`needs_nodes`], else null: needed at time 0 if
+    /// fibre directions come from the nodes.
     pub nodes: *const T,
     /// VOLUME: of the integration point; null where it is not known, and then nodes are those of time 0 alone.
     pub volume: *const T,
 }
 
-/// Whether this cycle needs the nodes: the first one for the fibre's direction, and from it on, often at first and then now and then, for the
-/// comparison of F with them.
+/// Whether this cycle needs the nodes: the first one for the fibre's direction, and from it on, often at first and then
+/// now and then, for the comparison of F with them.
 pub fn needs_nodes(cycle: i32) -> bool {
     cycle % 64 == 0 || (cycle > 0 && cycle & (cycle - 1) == 0)
 }
