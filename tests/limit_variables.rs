@@ -8,7 +8,7 @@ use std::ptr::{null, null_mut};
 use nalgebra::Matrix3;
 use toron::host::abaqus::{self, ExplicitLaw, StandardLaw, Vumat};
 use toron::host::calculix::{Behaviour, CalculixLaw};
-use toron::host::openradioss::{Group, Motion, MyReal, evaluate, listing, read};
+use toron::host::openradioss::{Group, MyReal, evaluate, listing, read};
 use toron::law::interface::Law;
 use toron::law::status;
 use toron::{Hyperelastic, LinearElastic};
@@ -295,7 +295,8 @@ fn group(number: i32, values: &[f64], limits: Option<[f64; 3]>) -> (Result<(), i
     let (parameters, variables) = (material.parameters, material.variables);
     let mut uvar = vec![0.0; variables * N];
     if let Some(limits) = limits {
-        uvar[(variables - 1) * N..].copy_from_slice(&limits);
+        let limit = variables - 1 - 3; // before the diagonal
+        uvar[limit * N..][..N].copy_from_slice(&limits);
     }
     let mut off = [1.0; N];
     for (step, &part) in PATH.iter().enumerate() {
@@ -323,7 +324,7 @@ fn group(number: i32, values: &[f64], limits: Option<[f64; 3]>) -> (Result<(), i
             uvar: uvar.as_mut_ptr(),
             off: off.as_mut_ptr(),
             nodes: null(),
-            motion: Motion::unknown(),
+            volume: null(),
         };
         // SAFETY: the arrays have the sizes that the structure tells.
         if let Err(error) = unsafe { evaluate(laws, &group) } {
@@ -333,19 +334,21 @@ fn group(number: i32, values: &[f64], limits: Option<[f64; 3]>) -> (Result<(), i
     (Ok(()), uvar, off.to_vec())
 }
 
+/// `variables`: up to the limit; behind them are the three of the element's diagonal, which are 0 where the nodes are
+/// not known.
 fn openradioss<L: Limited>(number: i32, options: &[f64], variables: usize) {
     let with = |limit: f64, last: f64| -> Vec<f64> {
         let mut values = card::<L>(limit, None);
-        values.extend(options.iter().chain(&[0.0, last]));
+        values.extend(options.iter().chain(&[last]));
         values
     };
     let own = EPS_LIM.map(|eps_lim| L::limits(eps_lim)[1]);
     let (answer, uvar, off) = group(number, &with(L::limits(0.5)[0], 1.0), Some(own));
-    assert_eq!((answer, uvar.len()), (Ok(()), 3 * variables));
-    assert_eq!((&off[..], &uvar[uvar.len() - 3..]), (&[0.0, 1.0, 0.0][..], &own[..]));
+    assert_eq!((answer, uvar.len()), (Ok(()), 3 * (variables + 3)));
+    assert_eq!((&off[..], &uvar[3 * (variables - 1)..3 * variables]), (&[0.0, 1.0, 0.0][..], &own[..]));
     for (element, eps_lim) in EPS_LIM.into_iter().enumerate() {
         let (answer, wanted, _) = group(number, &with(L::limits(eps_lim)[0], 0.0), None);
-        assert_eq!((answer, wanted.len()), (Ok(()), 3 * (variables - 1)));
+        assert_eq!((answer, wanted.len()), (Ok(()), 3 * (variables + 2)));
         let of =
             |uvar: &[f64]| -> Vec<f64> { uvar[element..].iter().step_by(3).take(variables - 1).copied().collect() };
         near(&of(&uvar), &of(&wanted), "OpenRadioss");
@@ -353,7 +356,8 @@ fn openradioss<L: Limited>(number: i32, options: &[f64], variables: usize) {
     // 0 is that of the card, and what means nothing stops the run.
     let (answer, zero, _) = group(number, &with(L::limits(0.045)[0], 1.0), Some([0.0; 3]));
     let (_, wanted, _) = group(number, &with(L::limits(0.045)[0], 0.0), None);
-    assert_eq!((answer, &zero[..zero.len() - 3]), (Ok(()), &wanted[..]));
+    let before = 3 * (variables - 1);
+    assert_eq!((answer, &zero[..before]), (Ok(()), &wanted[..before]));
     assert_eq!(group(number, &with(0.5, 1.0), Some([0.0, -1.0, 0.0])).0, Err(status::LIMIT));
     // The listing names it.
     let laws = &<f64 as MyReal>::TORON;

@@ -1,7 +1,9 @@
 //! OpenRadioss: user materials of solids, for the solver's SDK.
 
+use core::ptr::null;
+
 use libc::{c_char, size_t};
-use toron::host::openradioss::{Group, ListingLine, MaterialCard, Motion, group_f32, group_f64};
+use toron::host::openradioss::{Group, ListingLine, MaterialCard, group_f32, group_f64};
 use toron::host::openradioss::{read_card_f32, read_card_f64, write_line_f32, write_line_f64};
 
 /// The starter's routine of a user material of OpenRadioss, `LECMUSERnn`, in double precision.
@@ -117,8 +119,8 @@ pub unsafe extern "C" fn toron_openradioss_luser_f64(
         viscosity: viscmax,
         uvar,
         off,
-        nodes, // shims set it in the first cycle alone; without what moves it is not read in others
-        motion: Motion::unknown(),
+        nodes, // shims set it in the first cycle alone; without the volume it is not read in others
+        volume: null(),
     };
     // SAFETY: the caller's arguments, as lib.rs says.
     unsafe { group_f64(&group, message, capacity) }
@@ -213,8 +215,8 @@ pub unsafe extern "C" fn toron_openradioss_luser_f32(
         viscosity: viscmax,
         uvar,
         off,
-        nodes, // shims set it in the first cycle alone; without what moves it is not read in others
-        motion: Motion::unknown(),
+        nodes, // shims set it in the first cycle alone; without the volume it is not read in others
+        volume: null(),
     };
     // SAFETY: the caller's arguments, as lib.rs says.
     unsafe { group_f32(&group, message, capacity) }

@@ -255,7 +255,7 @@ static void openradioss_luser(void)
     for (int law = 1; law < 3; law++)
         for (size_t next = 0; next_block(&next, law == 1 ? GOOD_YARNS : GOOD_LINEAR_YARNS,
                                          law == 1 ? COUNT(yarns) : COUNT(linear_yarns), &b);) {
-            const int32_t n = (int32_t)b.size, variables = law == 1 ? 15 : 23;
+            const int32_t n = (int32_t)b.size, variables = law == 1 ? 18 : 26;
             const size_t rows = b.points == 0 ? (law == 1 ? COUNT(states) : COUNT(linear_states)) : 3;
             real *f[9], *all = by_component(deformations[0], 9, points_of[b.points], next, b.size), *density = filled(2, 1);
             real *s = reals(6 * b.size), *v = reals(7 * b.size), *sound = reals(b.size), *off = filled(1, b.size);

@@ -43,7 +43,7 @@ program openradioss_test
 
   real(my_real), parameter :: mark = -7.25
   logical, parameter :: single = my_real == c_float
-  integer, parameter :: nuvar = 15, room = 40
+  integer, parameter :: nuvar = 18, room = 40
   character(len=20), parameter :: full(5) = [character(len=20) :: '8.2341000000000D+04', '1.055000000000000e03', '2.2', &
     '649.74', '']
   type(ulawintbuf) :: userbuf
@@ -94,17 +94,17 @@ contains
     write (lines(1), '(5a20)') full
     write (lines(2), '(5a20)') '0.0458', '1.8', '', '1', ''
     lines(3) = ''
-    call check(read_material(1, lines) == nuvar .and. nuparam == 15, 'the hyperelastic card', 1)
-    call check(all(abs(uparam(1:15) - real([1., 82341., 1055., 2.2, 649.74, 0., 0.0458, 1.8, &
-      0., 1., 0., 0., 0., 0., 0.], my_real)) &
+    call check(read_material(1, lines) == nuvar .and. nuparam == 14, 'the hyperelastic card', 1)
+    call check(all(abs(uparam(1:14) - real([1., 82341., 1055., 2.2, 649.74, 0., 0.0458, 1.8, &
+      0., 1., 0., 0., 0., 0.], my_real)) &
       < 1e-3), 'UPARAM', 1)
-    call check(all(uparam(16:) == mark), 'behind UPARAM', 1)
+    call check(all(uparam(15:) == mark), 'behind UPARAM', 1)
     call check(abs(parmat(1) - 82341) < 0.1 .and. all(parmat(2:) == mark), 'PARMAT', 1)
     call check_written(31, 'hyperelastic yarn law')
     call check_written(31, '/PROP/TYPE14 (/PROP/SOLID) with Isolid = 1, Ismstr = 10, Iframe = 1')
     call check_written(31, '15 deleted')
     write (lines(1), '(5a20)') '79414', '794', '126', '3637', '1'
-    call check(read_material(2, lines(:2)) == 23 .and. nuparam == 16, 'the linear elastic card', 2)
+    call check(read_material(2, lines(:2)) == 26 .and. nuparam == 15, 'the linear elastic card', 2)
     call check_written(31, '23 F33_old')
     call check(stops == 0, 'no stop', 1)
     write (lines(1), '(5a20)') full
@@ -190,7 +190,7 @@ contains
     do i = 1, n
       associate (t => table(first + i - 1))
         call check_answer(t, stress_of(i), real(uvar(i, 1:11), c_double), single)
-        call check(off(i) == uvar(i, 11) .and. uvar(i, nuvar) == uvar(i, 10), 'OFF and deleted', t%id)
+        call check(off(i) == uvar(i, 11) .and. uvar(i, 15) == uvar(i, 10), 'OFF and deleted', t%id)
         call check(soundsp(i) > 0, 'sound speed', t%id)
       end associate
     end do
@@ -215,11 +215,11 @@ contains
 
   ! The fibre from the nodes, along y, and a stretch of 2 % along it in the second cycle, in both laws.
   subroutine from_nodes
-    real(my_real) :: uvar(3, 23), soundsp(3), off(3)
+    real(my_real) :: uvar(3, 26), soundsp(3), off(3)
     real(c_double) :: f(9), expected, stress(6)
     integer :: i, number, variables, cycle
     do number = 1, 2
-      variables = merge(nuvar, 23, number == 1)
+      variables = merge(nuvar, 26, number == 1)
       uparam(:14) = merge([1., 82341., 1055., 2.2, 649.74, 0., 0., 0., 0., 1., 0., 0., 1., 0.], &
         [2., 79414., 794., 126., 0., 1., 0., 0., 0., 0., 0., 1., 0., 0.], number == 1)
       uparam(15) = 0

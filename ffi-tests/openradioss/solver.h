@@ -142,8 +142,8 @@ static inline real *at_page_end(size_t count, double value)
 typedef struct {
     const material *m;
     int number, nel, cycle, *ngl;
-    real time, step, *rho0, *f[9], *sign[6], *sigv[6], *ssp, *vis, *uvar, *off, *unread;
-    real *volume, *rate[6]; /* no numbers, where nothing is to be concluded from them */
+    real time, *rho0, *f[9], *sign[6], *sigv[6], *ssp, *vis, *uvar, *off, *unread;
+    real *volume; /* no numbers, where nothing is to be concluded from them */
 } group;
 
 /* The group in whose cycle a routine of the engine is called. */
@@ -172,8 +172,6 @@ static inline group new_group(const material *m, int number, int nel, size_t len
     g.uvar = at_page_end((size_t)nel * (size_t)m->nuvar, 0);
     g.unread = at_page_end(MVSIZ, NAN);
     g.volume = at_page_end(nel, NAN);
-    for (int c = 0; c < 6; c++)
-        g.rate[c] = at_page_end(length, NAN);
     g.ngl = malloc(sizeof(int) * (size_t)nel);
     for (int i = 0; i < nel; i++)
         g.ngl[i] = 5000 + i;
@@ -215,18 +213,18 @@ static inline void others(void)
 static inline void cycle(group *g)
 {
     const int id = 7, one = 1, size = MVSIZ, none = 0, nfunc = 0, npf[1] = {0};
-    real *const u = g->unread, **f = g->f, **s = g->sign, **v = g->sigv, **r = g->rate;
+    real *const u = g->unread, **f = g->f, **s = g->sign, **v = g->sigv;
     current = g;
     feclearexcept(FE_ALL_EXCEPT);
     feenableexcept(FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW);
-    routine("eng_get_law_user_var_")(&g->cycle, &id, &one, &one, &one, u, u, u, U6, U6, r[0], r[1], r[2], r[3], r[4], r[5], U6,
+    routine("eng_get_law_user_var_")(&g->cycle, &id, &one, &one, &one, u, u, u, U6, U6, U6, U6,
                                      U6, g->rho0, s[0], s[1], s[2], s[3], s[4], s[5], v[0], v[1], v[2], v[3], v[4], v[5]);
     others();
     routine("eng_get_law_user_var_2_")(f[0], &size, f[1], &size, f[2], &size, f[3], &size, f[4], &size, f[5], &size, f[6], &size, f[7],
                                        &size, f[8], &size, u, &size, u, &size, u, &size, u, &size, u, &size, u, &size, u, &g->nel, u,
                                        &size, V8, V8, V8, V8, V8, V8, V8, V8, V8, V8, u, &none);
     others();
-    routine("eng_sigeps99_")(&g->nel, &g->m->nuparam, &g->m->nuvar, &g->number, &nfunc, npf, npf, u, &g->time, &g->step, g->m->uparam, u,
+    routine("eng_sigeps99_")(&g->nel, &g->m->nuparam, &g->m->nuvar, &g->number, &nfunc, npf, npf, u, &g->time, u, g->m->uparam, u,
                              g->volume, u, g->ngl, g->ssp, g->vis, g->uvar, g->off, u, u);
     others();
     routine("eng_set_law_user_var_")(s[0], s[1], s[2], s[3], s[4], s[5], v[0], v[1], v[2], v[3], v[4], v[5], u);

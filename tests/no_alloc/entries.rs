@@ -9,7 +9,7 @@ use toron::host::c::*;
 use toron::host::calculix::{Behaviour, CalculixLaw};
 use toron::host::lsdyna::{Umat, UmatVector, UserRoutines, Utan, UtanVector};
 use toron::host::mgis::{BehaviourDataView, MgisLaw, StateView};
-use toron::host::openradioss::{Group, ListingLine, MaterialCard, Motion};
+use toron::host::openradioss::{Group, ListingLine, MaterialCard};
 use toron::host::{abaqus, c, calculix, mgis, openradioss};
 use toron::{Hyperelastic, LinearElastic};
 
@@ -742,7 +742,7 @@ macro_rules! openradioss {
                 }
                 for f in deformations().into_iter().chain([[0.0; 9]]) {
                     let f = f.map(|x| x as $t);
-                    let (mut s, mut v, mut uvar) = ([0.0 as $t; 6], [0.0 as $t; 8], [0.0 as $t; 23]);
+                    let (mut s, mut v, mut uvar) = ([0.0 as $t; 6], [0.0 as $t; 8], [0.0 as $t; 26]);
                     let (mut off, number, density) = (1.0 as $t, 7, 1.0 as $t);
                     let group = Group {
                         elements: 1,
@@ -760,7 +760,7 @@ macro_rules! openradioss {
                         uvar: uvar.as_mut_ptr(),
                         off: &raw mut off,
                         nodes: null(),
-                        motion: Motion::unknown(),
+                        volume: null(),
                     };
                     for (time, nodes) in [(0.0, nodes.as_ptr()), (1e-6, null()), (2e-6, null()), (0.0, null())] {
                         quiet!($group, &Group { time, nodes, ..group }, t, ROOM);

@@ -23,8 +23,8 @@ const FIGURE: [&str; 2] = ["compare.svg", "compare.png"];
 
 #[derive(Args, Debug)]
 pub struct Arguments {
-    /// NAME.csv of toron; NAMET01.csv, which OpenRadioss's th_to_csv makes; the folder of a run of LS-DYNA; the table that the script
-    /// beside an Abaqus deck makes. The first one is what the others are compared with.
+    /// NAME.csv of toron; NAMET01.csv, which th_to_csv of OpenRadioss/Tools makes; the folder of a run of LS-DYNA; the
+    /// table that the script beside an Abaqus deck makes. The first one is what the others are compared with.
     #[arg(required = true)]
     histories: Vec<PathBuf>,
     /// What the histories are called, in their order: A,B,…; without it, as their files, with as much of their folders as tells them apart.

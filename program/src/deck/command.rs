@@ -9,7 +9,7 @@ use toron::{Criterion, Rotation};
 use super::abaqus::{self, Solver};
 use super::ls_dyna::{self, Fibre, NUMBERS};
 use super::material::Material;
-use super::openradioss::{Choice, FibreFrom};
+use super::openradioss::FibreFrom;
 use super::{calculix, mtest, openradioss};
 use crate::common::console::{print, print_error};
 use crate::common::error::Error;
@@ -72,9 +72,6 @@ pub struct Arguments {
     /// OpenRadioss, linear elastic law: failure by the largest principal stress, as without it, or by that along the fibre.
     #[arg(long, value_enum)]
     criterion: Option<Limit>,
-    /// OpenRadioss: the time step follows from waves by their direction.
-    #[arg(long)]
-    step: bool,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -132,7 +129,6 @@ pub fn card(laws: Laws, arguments: &Arguments) -> Result<(String, Option<String>
         only_for("openradioss", "--fibre-from", arguments.fibre_from.is_some())?;
         only_for("openradioss", "--frame", arguments.frame.is_some())?;
         only_for("openradioss", "--criterion", arguments.criterion.is_some())?;
-        only_for("openradioss", "--step", arguments.step)?;
     }
     let id = id(arguments)?;
     let card = match arguments.host {
@@ -145,7 +141,7 @@ pub fn card(laws: Laws, arguments: &Arguments) -> Result<(String, Option<String>
         Host::AbaqusExplicit => abaqus::card(&material, Solver::Explicit),
         Host::Openradioss => {
             let fibre_from = arguments.fibre_from.unwrap_or(FibreFrom::Card);
-            openradioss::card(&material, id, Choice { fibre_from, step: arguments.step })
+            openradioss::card(&material, id, fibre_from)
         }
         Host::Calculix => Ok(calculix::card(&material)),
         Host::Mtest => Ok(mtest::card(&material)),

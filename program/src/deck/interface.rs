@@ -17,10 +17,9 @@ pub struct Interface {
     /// MGIS's and MTest's library, and name of the behaviour.
     pub library: &'static str,
     pub behaviour: &'static str,
-    /// OpenRadioss: nn of `/MAT/USERnn`, how many options stand behind the properties, and whether that of the step follows them.
+    /// OpenRadioss: nn of `/MAT/USERnn`, and how many options stand behind the properties.
     pub openradioss: i32,
     pub options: usize,
-    pub has_own_options: bool,
 }
 
 impl Interface {
@@ -33,7 +32,6 @@ impl Interface {
             behaviour,
             openradioss: layout.number,
             options: layout.options,
-            has_own_options: layout.has_own_options,
         };
         match law {
             LawName::Hyperelastic => ours(41, "HYPERELASTIC", "ToronHyperelastic", &card::HYPERELASTIC),
@@ -47,7 +45,6 @@ impl Interface {
                 openradioss: law.number,
                 // Where the fibre direction comes from.
                 options: usize::from(law.description.fibre.is_some()),
-                has_own_options: false,
             },
         }
     }

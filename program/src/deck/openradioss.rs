@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use toron::host::openradioss::card::{OPTIONS, OWN_OPTIONS};
+use toron::host::openradioss::card::OPTIONS;
 use toron::{Criterion, Rotation};
 
 use super::interface::Interface;
@@ -24,14 +24,6 @@ pub enum FibreFrom {
     InitialValues,
 }
 
-/// What a card of this solver chooses besides the material.
-#[derive(Clone, Copy, Debug)]
-pub struct Choice {
-    pub fibre_from: FibreFrom,
-    /// Whether the time step follows from waves by their direction.
-    pub step: bool,
-}
-
 /// Bulk viscosity, quadratic and linear, and the viscosity of hourglass control; 0 is the solver's own.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Control {
@@ -44,21 +36,17 @@ pub struct Control {
 ///
 /// # Errors
 /// As for [`material_card`].
-pub fn card(material: &Material, id: u32, choice: Choice) -> Result<String, Error> {
-    Ok(material_card(material, id, choice)? + &property_card(&material.name, id, Control::default()))
+pub fn card(material: &Material, id: u32, fibre_from: FibreFrom) -> Result<String, Error> {
+    Ok(material_card(material, id, fibre_from)? + &property_card(&material.name, id, Control::default()))
 }
 
 /// # Errors
 /// The material has no density, or its law has no such option.
-pub fn material_card(material: &Material, id: u32, choice: Choice) -> Result<String, Error> {
-    let (Interface { openradioss: number, options, has_own_options, .. }, name) =
-        (material.interface(), &material.name);
+pub fn material_card(material: &Material, id: u32, fibre_from: FibreFrom) -> Result<String, Error> {
+    let (Interface { openradioss: number, options, .. }, name) = (material.interface(), &material.name);
     let lacks =
         |option: &str| Error::Input(format!("{option} is for a law that has this option; {name} is of another"));
-    if choice.step && !has_own_options {
-        return Err(lacks("--step"));
-    }
-    if choice.fibre_from != FibreFrom::Card && options == 0 {
+    if fibre_from != FibreFrom::Card && options == 0 {
         return Err(lacks("--fibre-from"));
     }
     if !material.has_default_options() && options < OPTIONS.len() {
@@ -69,14 +57,12 @@ pub fn material_card(material: &Material, id: u32, choice: Choice) -> Result<Str
         let _ = writeln!(card, "# {comment}");
     }
     card += &lines(&["RHO_I"], &[short(material.density()?, WIDE)]);
-    let options: Vec<_> = OPTIONS[..options].iter().chain(choice.step.then_some(&OWN_OPTIONS[0])).collect();
+    let options = &OPTIONS[..options];
     let names = material.table().iter().map(|property| property.name).chain(options.iter().map(|option| option.name));
     let chosen = options.iter().map(|option| match option.name {
-        "fibre_from" => (choice.fibre_from as usize).to_string(),
+        "fibre_from" => (fibre_from as usize).to_string(),
         "frame" => usize::from(material.frame == Rotation::Polar).to_string(),
-        "criterion" => usize::from(material.criterion == Criterion::FibreStress).to_string(),
-        // What is left out is 0.
-        _ => "1".to_string(),
+        _ => usize::from(material.criterion == Criterion::FibreStress).to_string(),
     });
     let values: Vec<String> = material.values.iter().map(|&value| short(value, WIDE)).chain(chosen).collect();
     let names: Vec<&str> = names.collect();

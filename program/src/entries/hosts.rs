@@ -453,7 +453,7 @@ impl<T: BlockPrecision> OpenradiossGroup<T> {
             uvar: self.uvar.as_mut_ptr(),
             off: self.off.as_mut_ptr(),
             nodes: null(),
-            motion: openradioss::Motion::unknown(),
+            volume: null(),
         };
         // SAFETY: the arrays have the sizes that the structure tells.
         unsafe { T::OPENRADIOSS(&group, null_mut(), 0) }

@@ -6,7 +6,7 @@ use std::io::{self, Write};
 use std::path::Path;
 
 use super::command::{Naming, file};
-use super::model::{Contact, Mesh, Model, STEP_FACTOR, Strike};
+use super::model::{COLLAPSED, Contact, HOURGLASS, Mesh, Model, STEP_FACTOR, Strike};
 use super::striker::{Striker, Surface};
 use crate::common::error::Error;
 use crate::common::short_number::short;
@@ -16,6 +16,10 @@ use crate::deck::abaqus::{self, Solver, card};
 const PER_LINE: usize = 16;
 /// Restart files of a run.
 const RESTARTS: u32 = 20;
+/// What viscous hourglass control is taken to have as its factor where its scale is 1: the manual has scales and not
+/// this factor, which is 0.1 in OpenRadioss and LS-DYNA, and 0.05 to 0.15 in Flanagan and Belytschko's paper (Int. J.
+/// Numer. Meth. Eng. 17, 1981).
+const HOURGLASS_OF_SCALE_1: f64 = 0.1;
 
 /// What the names in a deck begin with, in capitals as the solver has them.
 struct Names<'a> {
@@ -99,7 +103,8 @@ fn header(model: &Model) -> String {
 ** - hourglass control is viscous, there elastic;
 ** - the step follows from the fastest wave in any direction, there from each direction's own;
 ** - the contact's penalty is the solver's own, there it is contact-stiffness;
-** - no element is deleted because it has collapsed;
+** - no element is deleted because it has collapsed, there it is: distortion control resists that an element gets shorter than LENGTH
+**   RATIO of its length, and what it takes is ALLDC;
 ** - the run goes on to its end when the striker has stopped or is through.
 ";
     text += if model.strike.is_some() { differences } else { panel_alone };
@@ -126,11 +131,17 @@ fn cards(names: &Names<'_>) -> Result<String, Error> {
     text += &format!(
         "** the fibre is the first axis of each element\n*ORIENTATION, NAME={0}, SYSTEM=RECTANGULAR, DEFINITION=COORDINATES\n\
          {1}\n1, 0.0\n\
-         ** failed elements are deleted; hourglass control is viscous, with the solver's own factor\n\
-         *SECTION CONTROLS, NAME={2}, ELEMENT DELETION=YES, HOURGLASS=VISCOUS\n",
+         ** failed elements are deleted; an element that has collapsed is not, and would end the run when it is inverted: distortion control\n\
+         ** keeps it from that (the cutoff of the deformation speed check is not for user materials)\n\
+         ** hourglass control is viscous, with a factor of {3}: assumed to be {4} where the scale, here in the line of data, is 1\n\
+         *SECTION CONTROLS, NAME={2}, ELEMENT DELETION=YES, HOURGLASS=VISCOUS, DISTORTION CONTROL=YES, LENGTH RATIO={5}\n{6},\n",
         names.of("FIBRE-AXES"),
         names.of("FIBRES"),
-        names.of("CONTROLS")
+        names.of("CONTROLS"),
+        wide(HOURGLASS),
+        wide(HOURGLASS_OF_SCALE_1),
+        wide(COLLAPSED),
+        wide(HOURGLASS / HOURGLASS_OF_SCALE_1)
     );
     for part in &model.parts {
         text += &format!(
@@ -341,7 +352,7 @@ fn step(strike: &Strike, names: &Names<'_>, out: &mut impl Write) -> io::Result<
         out,
         "** sample: what {HISTORY} writes\n*OUTPUT, HISTORY, TIME INTERVAL={}\n\
          *NODE OUTPUT, NSET={reference}\nU, V, A\n*NODE OUTPUT, NSET={deflection}\nU\n\
-         *ENERGY OUTPUT\nALLKE, ALLIE, ALLSE, ALLVD, ALLAE, ALLFD, ALLPW, ALLWK, ETOTAL",
+         *ENERGY OUTPUT\nALLKE, ALLIE, ALLSE, ALLVD, ALLAE, ALLDC, ALLFD, ALLPW, ALLWK, ETOTAL",
         wide(strike.sample)
     )?;
     if strike.fails {

@@ -41,9 +41,6 @@ pub struct Arguments {
     /// OpenRadioss: where each element's fibre direction comes from; without it, from its nodes, or of a straight yarn from the card.
     #[arg(long, requires = "host", value_enum)]
     fibre_from: Option<FibreFrom>,
-    /// OpenRadioss: the time step follows from waves by their direction.
-    #[arg(long, requires = "host")]
-    step: bool,
 }
 
 /// What the writers take besides the model.
@@ -54,7 +51,6 @@ pub struct Naming {
     pub prefix: String,
     /// Of OpenRadioss.
     pub fibre_from: Option<FibreFrom>,
-    pub step: bool,
 }
 
 /// The decks of a scene of `toron fabric`.
@@ -119,12 +115,12 @@ impl Arguments {
         if !self.prefix.chars().all(plain) {
             return Err(Error::Input(format!("--prefix {}; allowed: letters, digits and - _", self.prefix)));
         }
-        if host != Host::Openradioss && (self.fibre_from.is_some() || self.step) {
-            return Err(Error::Input("--fibre-from and --step are for --deck openradioss only".to_string()));
+        if host != Host::Openradioss && self.fibre_from.is_some() {
+            return Err(Error::Input("--fibre-from is for --deck openradioss only".to_string()));
         }
         folder::create(output)?;
-        let Arguments { first_id, fibre_from, step, .. } = *self;
-        let naming = Naming { first: first_id, prefix: self.prefix.clone(), fibre_from, step };
+        let Arguments { first_id, fibre_from, .. } = *self;
+        let naming = Naming { first: first_id, prefix: self.prefix.clone(), fibre_from };
         for model in models {
             let model = model?;
             let model = Model {

@@ -32,6 +32,7 @@ const NU: f64 = 0.3;
 #[derive(Clone, Copy)]
 enum Block {
     Yarns,
+    Nodes,
     Watched,
 }
 
@@ -194,8 +195,9 @@ fn control(strike: &Strike, out: &mut impl Write) -> io::Result<()> {
     )?;
     write!(
         out,
-        "$ wedges are sorted to elements of their own\n*CONTROL_SOLID\n{}",
-        row("esort fmatrx niptets swlocl", &[Whole(1), Whole(0), Whole(4), Whole(1)])
+        "$ wedges become pentahedra of one point (ELFORM 115), as the section has it; ESORT = 1 would give them two (ELFORM 15)\n\
+         *CONTROL_SOLID\n{}",
+        row("esort fmatrx niptets swlocl", &[Whole(2), Whole(0), Whole(4), Whole(1)])
     )
 }
 
@@ -346,6 +348,10 @@ fn write_mesh(
     }
     let parts = (0..model.parts.len()).map(|part| ids.part(part));
     set("PART_LIST", ids.set(Block::Yarns), &format!("{}yarns", naming.prefix), parts, out)?;
+    let last = ids.node(mesh.nodes.len() as u32 - 1);
+    let range = [ids.first, last].into_iter();
+    writeln!(out, "$ all nodes of the yarns, those inside too")?;
+    set("NODE_LIST_GENERATE", ids.set(Block::Nodes), &format!("{}nodes of yarns", naming.prefix), range, out)?;
     if let Some(strike) = model.strike.as_ref().filter(|strike| strike.fails) {
         let watched = strike.watched.iter().map(|&element| ids.node(element));
         set("SOLID", ids.set(Block::Watched), &format!("{}watched", naming.prefix), watched, out)?;
@@ -446,14 +452,18 @@ fn write_striker(
 
 fn contacts(strike: &Strike, naming: &Naming, ids: &Ids<'_>, out: &mut impl Write) -> io::Result<()> {
     let (yarns, striker) = (ids.set(Block::Yarns), ids.striker_part());
-    writeln!(out, "$ friction: the yarns' nodes on the striker; what a deletion bares stays in contact")?;
+    writeln!(
+        out,
+        "$ friction: the yarns' nodes on the striker, those within them too, for when the elements above them are gone\n\
+         $ IGNORE = 1: assumed to keep every node of a contact in its place, also where a clearance is near rounding"
+    )?;
     write!(
         out,
         "{}",
         contact(
             "ERODING_NODES_TO_SURFACE",
             (ids.first, &format!("{}striker", naming.prefix)),
-            [yarns, striker, 2, 3],
+            [ids.set(Block::Nodes), striker, 4, 3],
             strike.striker.friction
         )
     )?;
@@ -471,7 +481,7 @@ fn contact(
 ) -> String {
     let zero = || Real(0.0);
     format!(
-        "*CONTACT_{kind}_ID\n{id:>10}{name}\n{}{}{}{}{}",
+        "*CONTACT_{kind}_ID\n{id:>10}{name}\n{}{}{}{}{}{}{}",
         row(
             "ssid msid sstyp mstyp sboxid mboxid spr mpr",
             &[Whole(slave), Whole(master), Whole(of_slave), Whole(of_master), Whole(0), Whole(0), Whole(1), Whole(1)]
@@ -488,7 +498,12 @@ fn contact(
         row(
             "soft sofscl lcidab maxpar sbopt depth bsort frcfrq",
             &[Text(SOFT), Real(SOFT_FACTOR), Whole(0), Text("1.025"), Whole(2), Whole(2), Whole(0), Whole(1),]
-        )
+        ),
+        row(
+            "penmax thkopt shlthk snlog isym i2d3d sldthk sldstf",
+            &[zero(), Whole(0), Whole(0), Whole(0), Whole(0), Whole(0), zero(), zero()]
+        ),
+        row("igap ignore", &[Whole(1), Whole(1)])
     )
 }
 

@@ -7,11 +7,11 @@ use std::path::Path;
 
 use super::command::{Naming, file};
 use super::fields::number;
-use super::model::{COLLAPSED, Contact, Model, Part, STEP_FACTOR, Strike};
+use super::model::{COLLAPSED, Contact, HOURGLASS, Model, Part, STEP_FACTOR, Strike};
 use super::striker::{Striker, Surface};
 use crate::common::error::Error;
 use crate::common::short_number::short;
-use crate::deck::openradioss::{Choice, Control, FibreFrom, lines, material_card, property_card};
+use crate::deck::openradioss::{Control, FibreFrom, lines, material_card, property_card};
 use toron::host::units::UnitSystem;
 use toron::law::parameters::STRESS;
 
@@ -23,12 +23,12 @@ const DAMPING: f64 = 0.05;
 /// A node leaves a contact whose step is this fraction of the elements'. The contact stiffens without bound as its gap closes, and where
 /// two surfaces pinch a node the step of the whole model would follow.
 const CONTACT_STEP: f64 = 0.1;
+/// The error of the energy, over the energy, at which the run ends. What hourglass control and contact take is an error
+/// below 0, which is above −1. Long after a break free ends have gained energy without a bound, and the solver's own
+/// limit is 10²⁰.
+const ENERGY_ERROR: f64 = 1.0;
 /// What is no viscosity: 0 is the solver's own.
 const NONE: f64 = 1e-20;
-/// Viscosity of hourglass control. The solver's own is 0.1; with it free ends behind a break have gone unstable, with 0.03 later.
-/// A part of its force grows with h² and the square of the velocity, and the stable step does not know it. With 0.01 a yarn that is about
-/// to break breaks earlier.
-const HOURGLASS: f64 = 0.03;
 /// How far inside the striker's surface its shells lie, where the contact begins, over a yarn's height. A touch more, and nothing
 /// penetrates at the start.
 const GAP: f64 = 0.25;
@@ -162,7 +162,7 @@ fn header(model: &Model, strike: &Strike) -> String {
 #   starter_linux64_gf -i {name}_0000.rad -np P -dylib .../libtoron_openradioss.so
 #   mpirun -np P engine_linux64_gf_ompi -i {name}_0001.rad -dylib .../libtoron_openradioss.so
 # On from the last restart file, {name}_0001_....rst: {name}_0002.rad, a copy of {name}_0001.rad with /RUN/{name}/2.
-# Histories: th_to_csv {name}T01; then toron compare NAME.csv {name}T01.csv.
+# Histories, of a run that has ended: th_to_csv {name}T01 (of OpenRadioss/Tools); then toron compare NAME.csv {name}T01.csv.
 #
 # What differs from toron's own solver:
 # - bulk viscosity resists a change of volume with the fastest wave's speed, there along and across the fibre each with its own;
@@ -196,8 +196,8 @@ fn units(units: &UnitSystem) -> [String; 3] {
 
 /// Materials, the property of all elements, and the parts.
 fn cards(model: &Model, naming: &Naming, ids: &Ids) -> Result<String, Error> {
-    let choice = choice(model, naming);
-    let mut text = match choice.fibre_from {
+    let fibre_from = fibre_from(model, naming);
+    let mut text = match fibre_from {
         FibreFrom::Card => "# Materials: the fibre is along x in all elements (fibre_from = 0).\n",
         FibreFrom::Nodes => {
             "# Materials: the fibre goes from nodes 1 to 4 of each element to nodes 5 to 8 (fibre_from = 1).\n"
@@ -208,7 +208,7 @@ fn cards(model: &Model, naming: &Naming, ids: &Ids) -> Result<String, Error> {
     }
     .to_string();
     for (i, material) in model.materials.iter().enumerate() {
-        text += &material_card(material, ids.first + i as u32, choice)?;
+        text += &material_card(material, ids.first + i as u32, fibre_from)?;
     }
     let control = model.strike.as_ref().map_or(Control::default(), |strike| Control {
         // The solver squares it.
@@ -231,9 +231,9 @@ fn part_card(id: u32, name: &str, property: u32, material: u32) -> String {
 }
 
 /// What the model or the user says of the cards.
-fn choice(model: &Model, naming: &Naming) -> Choice {
+fn fibre_from(model: &Model, naming: &Naming) -> FibreFrom {
     let of_mesh = if model.mesh.straight { FibreFrom::Card } else { FibreFrom::Nodes };
-    Choice { fibre_from: naming.fibre_from.unwrap_or(of_mesh), step: naming.step }
+    naming.fibre_from.unwrap_or(of_mesh)
 }
 
 /// Nodes and elements of yarns and striker, groups and surfaces: all that is long.
@@ -267,7 +267,7 @@ fn write_mesh(
             writeln!(out)?;
         }
     }
-    if choice(model, naming).fibre_from == FibreFrom::InitialValues {
+    if fibre_from(model, naming) == FibreFrom::InitialValues {
         write_fibres(model, ids, out)?;
     }
     for (i, support) in model.supports.iter().enumerate() {
@@ -508,6 +508,9 @@ fn write_engine(model: &Model, strike: &Strike, out: &mut impl Write) -> io::Res
     }
     writeln!(out, "# A node leaves a contact that would make the step shorter than this.")?;
     writeln!(out, "/DT/INTER/DEL\n{} {}", wide(STEP_FACTOR), wide(CONTACT_STEP * strike.step))?;
+    writeln!(out, "# The run ends, with a restart file, a last line of histories and a last picture, when the energy")?;
+    writeln!(out, "# has doubled with nothing put in: behind a break it may grow without a bound.")?;
+    writeln!(out, "/STOP\n{} 0 0 1 1", wide(ENERGY_ERROR))?;
     writeln!(out, "# sample\n/TFILE\n{}", wide(strike.sample))?;
     writeln!(out, "# frames\n/ANIM/DT\n0.0 {}", wide(strike.frame))?;
     writeln!(out, "/ANIM/VECT/DISP\n/ANIM/VECT/VEL")?;

@@ -195,14 +195,14 @@ fn openradioss_takes_the_fibre_as_initial_values() {
     let output = folder("scene-decks-fibres");
     let scene = output.join("scene.toml");
     std::fs::write(&scene, SCENE).expect("the scene can be written");
-    for (host, more) in [("abaqus-explicit", &[][..]), ("openradioss", &["--fibre-from", "initial-values", "--step"])] {
+    for (host, more) in [("abaqus-explicit", &[][..]), ("openradioss", &["--fibre-from", "initial-values"])] {
         let mut toron = Command::new(env!("CARGO_BIN_EXE_toron"));
         toron.arg("fabric").arg(&scene).args(["--deck", host]).args(more).arg("-o").arg(output.join(host));
         run(&mut toron, "");
     }
     let main = std::fs::read_to_string(output.join("openradioss/scene_0000.rad")).expect("a deck");
-    let values = main.lines().skip_while(|line| !line.ends_with("fibre_from                step")).nth(1);
-    assert_eq!(values.map(|line| numbers(&fields(line, 20))), Some(vec![0.0, 2.0, 1.0]));
+    let values = main.lines().skip_while(|line| !line.ends_with("          fibre_from")).nth(1);
+    assert_eq!(values.map(|line| numbers(&fields(line, 20))), Some(vec![0.0, 2.0]));
     let fibre = abaqus(&output.join("abaqus-explicit")).fibre;
     let blocks = blocks(&output.join("openradioss/scene_mesh.inc"), "#", '/');
     let (_, lines) = blocks.iter().find(|(keyword, _)| keyword == "/INIBRI/AUX").expect("initial values");
@@ -217,10 +217,10 @@ fn openradioss_takes_the_fibre_as_initial_values() {
         assert!((Vector3::from_column_slice(&values[11..]) - wanted).norm() < 1e-9, "{}: {wanted}", head[0]);
     }
     let mut toron = Command::new(env!("CARGO_BIN_EXE_toron"));
-    toron.arg("fabric").arg(&scene).args(["--deck", "ls-dyna", "--step", "-o"]).arg(&output);
+    toron.arg("fabric").arg(&scene).args(["--deck", "ls-dyna", "--fibre-from", "nodes", "-o"]).arg(&output);
     let refused = toron.output().expect("it runs");
     let said = String::from_utf8_lossy(&refused.stderr);
-    assert!(said.contains("--fibre-from and --step are for --deck openradioss only"), "{said}");
+    assert!(said.contains("--fibre-from is for --deck openradioss only"), "{said}");
 }
 
 /// The committed decks of a patch are what the command in their headers writes.
@@ -544,5 +544,58 @@ fn decks_of_plies_say_what_the_scene_says() {
         // The plies lie apart by the clearance.
         let below = |element: &[usize; 8]| element.iter().map(|node| mesh.nodes[node].z).sum::<f64>() < -0.9;
         assert_eq!(2 * mesh.elements.values().filter(|element| below(element)).count(), mesh.elements.len(), "{host}");
+    }
+}
+
+/// What keeps elements in shape and deletes them, and which nodes touch the striker.
+#[test]
+fn decks_control_hourglass_collapse_and_contact_alike() {
+    let output = folder("scene-decks-controls");
+    let scene = output.join("scene.toml");
+    std::fs::write(&scene, format!("{SCENE}failure = \"uniaxial\"\n")).expect("the scene can be written");
+    for host in ["openradioss", "ls-dyna", "abaqus-explicit"] {
+        let mut toron = Command::new(env!("CARGO_BIN_EXE_toron"));
+        toron.arg("fabric").arg(&scene).args(["--deck", host, "--first-id", &FIRST.to_string(), "-o"]);
+        run(toron.arg(output.join(host)), "");
+    }
+    let find = |blocks: &[(String, Vec<String>)], wanted: &str| -> Vec<(String, Vec<String>)> {
+        blocks.iter().filter(|(keyword, _)| keyword.starts_with(wanted)).cloned().collect()
+    };
+
+    let deck = blocks(&output.join("openradioss/scene_0000.rad"), "#", '/');
+    let [(_, property)] = &find(&deck, "/PROP/TYPE14/")[..] else { panic!("one property of solids") };
+    let hourglass = numbers(&fields(&property[2], 20))[2];
+    let engine = blocks(&output.join("openradioss/scene_0001.rad"), "#", '/');
+    let [(_, stop)] = &find(&engine, "/STOP")[..] else { panic!("one limit of the energy's error") };
+    assert_eq!(stop[0], "1.0 0 0 1 1", "the energy has doubled; no limit of masses; a last line and a last picture");
+
+    // Viscous, of the same factor if a scale of 1 is the usual 0.1; and no element gets shorter than the part at which
+    // the others delete it.
+    let deck = blocks(&output.join("abaqus-explicit/scene.inp"), "**", '*');
+    let [(controls, scale)] = &find(&deck, "*SECTION CONTROLS")[..] else { panic!("one set of controls") };
+    let wanted =
+        ["ELEMENT DELETION=YES", "HOURGLASS=VISCOUS", "DISTORTION CONTROL=YES", "LENGTH RATIO=0.1"].map(String::from);
+    let options: Vec<String> = controls.split(", ").skip(2).map(String::from).collect();
+    assert_eq!(options, wanted);
+    let scale: f64 = scale[0].trim_end_matches(',').parse().expect("a number");
+    assert!((0.1 * scale / hourglass - 1.0).abs() < 1e-9, "{scale} of 0.1, {hourglass}");
+
+    let deck = blocks(&output.join("ls-dyna/scene.k"), "$", '*');
+    let [(_, solids)] = &find(&deck, "*CONTROL_SOLID")[..] else { panic!("one control of solids") };
+    assert_eq!(numbers(&fields(&solids[0], 10))[0], 2.0, "ESORT: wedges of one point stay of one point");
+    let nodes = ls_dyna(&output.join("ls-dyna")).elements.into_values().flatten().collect::<BTreeSet<_>>();
+    let sets = blocks(&output.join("ls-dyna/scene-mesh.k"), "$", '*');
+    let [(_, range)] = &find(&sets, "*SET_NODE_LIST_GENERATE_TITLE")[..] else { panic!("one range of nodes") };
+    let [set, bounds] = [1, 2].map(|line| numbers(&fields(&range[line], 10)));
+    assert_eq!([Some(&(bounds[0] as usize)), Some(&(bounds[1] as usize))], [nodes.first(), nodes.last()]);
+    assert_eq!(nodes.len() as f64, bounds[1] - bounds[0] + 1.0, "the yarns' nodes and no others");
+    for (keyword, lines) in find(&deck, "*CONTACT_") {
+        let line = |i: usize| numbers(&fields(&lines[i], 10));
+        // Behind the identity: three lines, that of erosion, and options A, B and C.
+        assert_eq!(lines.len(), 8, "{keyword}");
+        assert_eq!((line(5)[0], line(7)[1]), (1.0, 1.0), "{keyword}: SOFT and IGNORE");
+        if keyword.contains("NODES_TO_SURFACE") {
+            assert_eq!((line(1)[0], line(1)[2]), (set[0], 4.0), "a set of nodes");
+        }
     }
 }

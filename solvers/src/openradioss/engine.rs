@@ -6,9 +6,9 @@ use std::ptr::{null, null_mut};
 use std::thread::LocalKey;
 
 use toron::host::c::TORON_MESSAGE_CAPACITY;
-use toron::host::openradioss::{Group, Laws, Motion, MyReal, compares_axes, group_of_f32, group_of_f64, needs_nodes};
+use toron::host::openradioss::{Group, Laws, MyReal, group_of_f32, group_of_f64, needs_nodes};
 
-use super::solver::{COORDINATES, VELOCITIES, of_nodes, stop};
+use super::solver::{coordinates_of_nodes, stop};
 
 /// What the first calls pass.
 #[derive(Clone, Copy)]
@@ -39,7 +39,7 @@ impl<T: MyReal> Remembered<T> {
             uvar: null_mut(),
             off: null_mut(),
             nodes: null(),
-            motion: Motion::unknown(),
+            volume: null(),
         };
         Remembered { group, material: 0, number: 0, cycle: 0 }
     }
@@ -81,9 +81,9 @@ fn remember<T: Engine>(change: impl FnOnce(&mut Remembered<T>)) {
 }
 
 /// The first call.
-pub fn begin<T: Engine>(cycle: i32, material: i32, density: *const T, strain_rate: [*const T; 6]) {
+pub fn begin<T: Engine>(cycle: i32, material: i32, density: *const T) {
     let nothing = Remembered::nothing();
-    let group = Group { density, motion: Motion { strain_rate, ..nothing.group.motion }, ..nothing.group };
+    let group = Group { density, ..nothing.group };
     T::remembered().set(Some(Remembered { cycle, material, group, ..nothing }));
 }
 
@@ -108,14 +108,9 @@ pub unsafe fn evaluate<T: Engine>(laws: &Laws<T>, stress: [*mut T; 6]) {
     let Remembered { group, material, number, cycle } = T::remembered().take().unwrap_or_else(Remembered::nothing);
     let group = Group { stress, ..group };
     let elements = usize::try_from(group.elements).unwrap_or(0);
-    let compares = compares_axes(cycle);
-    let ask = |name, needed: bool| if needed { of_nodes(name, elements) } else { Vec::new() };
-    // SAFETY: the group is made of the solver's arrays, as said above.
-    let coordinates = ask(COORDINATES, compares || unsafe { needs_nodes(laws, &group) });
-    let velocities = ask(VELOCITIES, compares);
-    let array = |values: &Vec<T>| if values.is_empty() { null() } else { values.as_ptr() };
-    let motion = Motion { velocities: array(&velocities), ..group.motion };
-    let group = Group { nodes: array(&coordinates), motion, ..group };
+    let coordinates = if needs_nodes(cycle) { coordinates_of_nodes::<T>(elements) } else { Vec::new() };
+    let nodes = if coordinates.is_empty() { null() } else { coordinates.as_ptr() };
+    let group = Group { nodes, ..group };
     let mut text = [0_u8; TORON_MESSAGE_CAPACITY];
     // SAFETY: the same; the text has the size passed.
     let status = unsafe { T::EVALUATE(laws, &group, text.as_mut_ptr().cast::<c_char>(), text.len()) };

@@ -44,24 +44,21 @@ pub fn stop(message: &str) {
     }
 }
 
-/// The engine's routines for what the nodes of its current group have.
-pub const COORDINATES: &CStr = c"mat_solid_get_nod_x_";
-pub const VELOCITIES: &CStr = c"mat_solid_get_nod_v_";
-
-/// The vectors of the nodes of the engine's current group, (`elements`, 8, 3); empty if the engine has no routine of this name.
-pub fn of_nodes<T: Real>(name: &CStr, elements: usize) -> Vec<T> {
-    let Some(get) = routine(name) else { return Vec::new() };
+/// The coordinates of the nodes of the engine's current group, (`elements`, 8, 3); empty if the engine has no routine
+/// for them.
+pub fn coordinates_of_nodes<T: Real>(elements: usize) -> Vec<T> {
+    let Some(get) = routine(c"mat_solid_get_nod_x_") else { return Vec::new() };
     // Room for numbers of double precision too: a library for the other precision is refused, but not before it has asked.
     let room = elements * 8 * 3;
-    let mut vectors = vec![T::splat(0.0); room * size_of::<f64>() / size_of::<T>()];
-    // SAFETY: `MAT_SOLID_GET_NOD_X(USER_X)` of the engine, and the one of velocities, write 24 numbers for each element of the group that
-    // calls it.
+    let mut coordinates = vec![T::splat(0.0); room * size_of::<f64>() / size_of::<T>()];
+    // SAFETY: `MAT_SOLID_GET_NOD_X(USER_X)` of the engine writes 24 numbers for each element of the group that calls
+    // it.
     unsafe {
         let get: unsafe extern "C" fn(*mut T) = std::mem::transmute(get);
-        get(vectors.as_mut_ptr());
+        get(coordinates.as_mut_ptr());
     }
-    vectors.truncate(room);
-    vectors
+    coordinates.truncate(room);
+    coordinates
 }
 
 /// Number and title of what the starter is reading; `None` if it has no such routine.

@@ -58,7 +58,7 @@ macro_rules! openradioss_symbols {
                 }
             }
 
-            /// The first call: the cycle, the material's number in the model, the strain rates and the density.
+            /// The first call: the cycle, the material's number in the model and the density.
             ///
             /// # Safety
             /// `cycle` and `material` are integers, and the arrays are valid until the fourth call.
@@ -85,12 +85,12 @@ macro_rules! openradioss_symbols {
                 _old_stress_xy: *const $t,
                 _old_stress_yz: *const $t,
                 _old_stress_zx: *const $t,
-                strain_rate_xx: *const $t,
-                strain_rate_yy: *const $t,
-                strain_rate_zz: *const $t,
-                strain_rate_xy: *const $t,
-                strain_rate_yz: *const $t,
-                strain_rate_zx: *const $t,
+                _strain_rate_xx: *const $t,
+                _strain_rate_yy: *const $t,
+                _strain_rate_zz: *const $t,
+                _strain_rate_xy: *const $t,
+                _strain_rate_yz: *const $t,
+                _strain_rate_zx: *const $t,
                 _strain_xx: *const $t,
                 _strain_yy: *const $t,
                 _strain_zz: *const $t,
@@ -105,11 +105,9 @@ macro_rules! openradioss_symbols {
                 _strain_increment_zx: *const $t,
                 density: *const $t,
             ) {
-                let strain_rate =
-                    [strain_rate_xx, strain_rate_yy, strain_rate_zz, strain_rate_xy, strain_rate_yz, strain_rate_zx];
                 // SAFETY: as just said.
                 let (cycle, material) = unsafe { (*cycle, *material) };
-                $crate::openradioss::engine::begin::<$t>(cycle, material, density, strain_rate);
+                $crate::openradioss::engine::begin::<$t>(cycle, material, density);
             }
 
             /// The second call: the deformation gradient. Each array is followed by its length, which is the solver's vector length.
@@ -160,7 +158,7 @@ macro_rules! openradioss_symbols {
                 _npf: *const i32,
                 _tf: *const $t,
                 time: *const $t,
-                time_step: *const $t,
+                _time_step: *const $t,
                 uparam: *const $t,
                 _rho: *const $t,
                 volume: *const $t,
@@ -174,12 +172,12 @@ macro_rules! openradioss_symbols {
                 // SAFETY: as just said.
                 let (nel, nuparam, nuvar, number) = unsafe { (*nel, *nuparam, *nuvar, *number) };
                 // SAFETY: the same.
-                let (time, time_step) = unsafe { (*time, *time_step) };
+                let time = unsafe { *time };
                 $crate::openradioss::engine::group::<$t>(number, |group| {
                     (group.elements, group.parameters, group.variables, group.time) = (nel, nuparam, nuvar, time);
                     (group.uparam, group.numbers, group.sound_speed) = (uparam, ngl, soundsp);
                     (group.uvar, group.off) = (uvar, off);
-                    (group.motion.time_step, group.motion.volume) = (time_step, volume);
+                    group.volume = volume;
                 });
             }
 

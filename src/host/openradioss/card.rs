@@ -43,19 +43,15 @@ pub static OPTIONS: [CardOption; 3] = [
     },
 ];
 
-/// The options that are those of toron's own laws.
-pub static OWN_OPTIONS: [CardOption; 2] = [
-    CardOption {
-        name: "step",
-        greatest: 1,
-        allowed: "0 (SOUNDSP from the fastest wave of any direction), 1 (from waves by their direction, where that is possible)",
-    },
-    CardOption {
-        name: "limit_from",
-        greatest: 1,
-        allowed: "0 (the failure limit of the card), 1 (of each element, from its last initial user variable; 0 there is that of the card)",
-    },
-];
+/// The option that is that of toron's own laws, behind the others.
+pub static OWN_OPTION: CardOption = CardOption {
+    name: "limit_from",
+    greatest: 1,
+    allowed: "0 (the failure limit of the card), 1 (of each element, from its last initial user variable; 0 there is that of the card)",
+};
+
+/// The names of the variables of an element's diagonal.
+const DIAGONAL: [&str; 3] = ["diagonal_1", "diagonal_2", "diagonal_3"];
 
 /// Where the fibre direction of a point comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -76,8 +72,8 @@ pub struct Layout {
     pub law: &'static Description,
     /// How many of [`OPTIONS`] it has.
     pub options: usize,
-    /// Whether [`OWN_OPTIONS`] follow them.
-    pub has_own_options: bool,
+    /// Whether [`OWN_OPTION`] follows them.
+    pub has_own_option: bool,
 }
 
 pub static HYPERELASTIC: Layout = Layout::of::<f64, Hyperelastic<f64>>(1);
@@ -87,17 +83,17 @@ pub static LINEAR_ELASTIC: Layout = Layout::of::<f64, LinearElastic<f64>>(2);
 impl Layout {
     /// The law as `/MAT/USERnn`.
     pub const fn of<T: Precision, L: SolidLaw<T>>(number: i32) -> Self {
-        Layout { number, law: const { &L::DESCRIPTION }, options: L::OPTIONS, has_own_options: L::HAS_OWN_OPTIONS }
+        Layout { number, law: const { &L::DESCRIPTION }, options: L::OPTIONS, has_own_option: L::HAS_OWN_OPTION }
     }
 
     /// NUPARAM.
     pub const fn parameters(&self) -> usize {
-        1 + self.law.properties.len() + self.options + if self.has_own_options { OWN_OPTIONS.len() } else { 0 }
+        1 + self.law.properties.len() + self.options + self.has_own_option as usize
     }
 
     /// The options of the card, in their order.
     pub fn options(&self) -> impl Iterator<Item = &'static CardOption> {
-        OPTIONS.iter().take(self.options).chain(OWN_OPTIONS.iter().filter(|_| self.has_own_options))
+        OPTIONS.iter().take(self.options).chain(self.has_own_option.then_some(&OWN_OPTION))
     }
 
     /// Indices into UVAR, from 0, behind the law's state: the fibre's three components of a law that has a fibre, `deleted`, and the
@@ -114,19 +110,24 @@ impl Layout {
         self.deleted() + 1
     }
 
-    /// NUVAR, but for the limit that stands behind them where the card says so.
-    pub fn variables(&self) -> usize {
+    /// Where the limit stands if the card asks for it.
+    pub fn limit(&self) -> usize {
         self.f_old() + self.law.kept()
     }
 
-    /// The names of the variables behind the state, in order.
+    /// NUVAR without the limit: the element's diagonal comes last.
+    pub fn variables(&self) -> usize {
+        self.limit() + DIAGONAL.len()
+    }
+
+    /// The names of the variables between the state and the limit, in order.
     fn other_variables(&self) -> &'static [&'static str] {
         const NAMES: [&str; 13] = [
             "fibre_1", "fibre_2", "fibre_3", "deleted", "F11_old", "F21_old", "F31_old", "F12_old", "F22_old",
             "F32_old", "F13_old", "F23_old", "F33_old",
         ];
         let first = 3 - self.law.fibre_components().len();
-        NAMES.get(first..first + self.variables() - self.law.state.len()).unwrap_or_default()
+        NAMES.get(first..first + self.limit() - self.law.state.len()).unwrap_or_default()
     }
 }
 
@@ -138,8 +139,6 @@ pub struct Card<'a, T: Precision> {
     pub fibre_from: FibreFrom,
     pub rotation: Rotation,
     pub criterion: Criterion,
-    /// Whether SOUNDSP is to be computed from waves by their direction.
-    pub by_direction: bool,
     /// Whether each element has a failure limit of its own.
     pub has_limits: bool,
 }
@@ -154,7 +153,7 @@ impl<'a, T: Precision> Card<'a, T> {
         let material = laws.material(i32::try_from(number).unwrap_or(0))?;
         let layout = &material.layout;
         // Without the last option, which is 0 then, as callers have it that know of no limits.
-        let least = layout.parameters() - usize::from(layout.has_own_options);
+        let least = layout.parameters() - usize::from(layout.has_own_option);
         if !(least..=layout.parameters()).contains(&uparam.len()) {
             let (found, wanted) = (uparam.len() as i64, layout.parameters() as i64);
             return Err(Error::Count { code: crate::law::status::PROPERTY_COUNT, what: "NUPARAM", found, wanted });
@@ -169,6 +168,12 @@ impl<'a, T: Precision> Card<'a, T> {
         &self.material.layout
     }
 
+    /// The index into UVAR, from 0, of the element's diagonal as it is undeformed, by which F is checked: the last
+    /// three variables.
+    pub fn diagonal(&self) -> usize {
+        self.layout().limit() + usize::from(self.has_limits)
+    }
+
     /// NUVAR.
     pub fn variables(&self) -> usize {
         self.layout().variables() + usize::from(self.has_limits)
@@ -178,7 +183,9 @@ impl<'a, T: Precision> Card<'a, T> {
     pub fn variable(&self, place: usize) -> &'static str {
         let layout = self.layout();
         let state = layout.law.state.iter().map(|row| row.name);
-        state.chain(layout.other_variables().iter().copied()).nth(place).unwrap_or("limit")
+        let limit = self.has_limits.then_some("limit");
+        let behind = layout.other_variables().iter().copied().chain(limit).chain(DIAGONAL);
+        state.chain(behind).nth(place).unwrap_or_default()
     }
 
     /// # Errors
@@ -191,9 +198,7 @@ impl<'a, T: Precision> Card<'a, T> {
             }
         }
         let chosen = |i: usize| if i < layout.options { options.get(i).map_or(0, |&value| whole(value)) } else { 0 };
-        let last = |i: usize| {
-            layout.has_own_options && options.get(layout.options + i).is_some_and(|&value| whole(value) == 1)
-        };
+        let own = options.get(layout.options).filter(|_| layout.has_own_option);
         let (fibre_from, frame, criterion) = (chosen(0), chosen(1), chosen(2));
         Ok(Card {
             material,
@@ -205,8 +210,7 @@ impl<'a, T: Precision> Card<'a, T> {
             },
             rotation: if frame == 0 { Rotation::Fibre } else { Rotation::Polar },
             criterion: if criterion == 0 { Criterion::LargestPrincipal } else { Criterion::FibreStress },
-            by_direction: last(0),
-            has_limits: last(1),
+            has_limits: own.is_some_and(|&value| whole(value) == 1),
         })
     }
 }

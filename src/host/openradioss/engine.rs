@@ -6,16 +6,14 @@ use crate::law::block::{Precision, components, components_mut};
 use crate::law::error::Error;
 use crate::law::failure::Failure;
 use crate::law::interface::Points;
-use crate::law::number::vector::{cross, dot, image, scale};
+use crate::law::number::vector::{Matrix, cross, dot, image};
 use crate::law::status;
-use crate::law::wave_bounds::{Deformed, WaveBounds};
 use crate::law::wave_speed::check_density;
 
 use super::brick::Brick;
 use super::card::{BY_FAILURE, BY_SOLVER, Card, FibreFrom, Layout};
 use super::laws::{Laws, SolidLaw};
 use crate::host::entry_points::{check_pointers, from_entry, start_at_rest};
-use crate::host::environment::in_default_environment;
 
 /// The solver's groups have no more elements; longer ones are evaluated in parts.
 const CHUNK: usize = 128;
@@ -50,36 +48,17 @@ pub struct Group<T> {
     pub uvar: *mut T,
     /// OFF, in and out.
     pub off: *mut T,
-    /// (NEL, 8, 3), what `MAT_SOLID_GET_NOD_X` gives: needed at time 0 if fibre directions come from the nodes, else null is allowed;
-    /// see [`needs_nodes`].
+    /// (NEL, 8, 3), what `MAT_SOLID_GET_NOD_X` gives, in the cycles of [`needs_nodes`], else null: needed at time 0 if
+    /// fibre directions come from the nodes.
     pub nodes: *const T,
-    /// What the nodes are compared with; null where it is not known.
-    pub motion: Motion<T>,
-}
-
-/// What the engine knows of the motion of a group's elements besides F, each null if it is not passed; as for [`Group`], NEL values
-/// without a number.
-#[derive(Clone, Copy, Debug)]
-pub struct Motion<T> {
-    /// TIMESTEP.
-    pub time_step: T,
-    /// VOLUME: of the integration point.
+    /// VOLUME: of the integration point; null where it is not known, and then nodes are those of time 0 alone.
     pub volume: *const T,
-    /// EPSPXX YY ZZ XY YZ ZX, with the rates of shear angles; of the solver's vector length.
-    pub strain_rate: [*const T; 6],
-    /// (NEL, 8, 3), what `MAT_SOLID_GET_NOD_V` gives, in the cycles of [`compares_axes`].
-    pub velocities: *const T,
 }
 
-impl<T: Precision> Motion<T> {
-    pub fn unknown() -> Self {
-        Motion { time_step: T::splat(0.0), volume: ptr::null(), strain_rate: [ptr::null(); 6], velocities: ptr::null() }
-    }
-}
-
-/// Whether in this cycle the strain rates are to be compared with the nodes' velocities: often at first, and now and then.
-pub fn compares_axes(cycle: i32) -> bool {
-    cycle > 0 && (cycle % 64 == 0 || cycle & (cycle - 1) == 0)
+/// Whether this cycle needs the nodes: the first one for the fibre's direction, and from it on, often at first and then
+/// now and then, for the comparison of F with them.
+pub fn needs_nodes(cycle: i32) -> bool {
+    cycle % 64 == 0 || (cycle > 0 && cycle & (cycle - 1) == 0)
 }
 
 /// Evaluates the material at a group.
@@ -116,28 +95,6 @@ pub unsafe fn evaluate<T: Precision>(laws: &Laws<T>, group: &Group<T>) -> Result
     }
 }
 
-/// Whether this call needs the coordinates of the nodes: the fibre's direction at first, and the time step in every cycle. A group that
-/// cannot be evaluated does not.
-///
-/// # Safety
-/// As for [`evaluate`].
-pub unsafe fn needs_nodes<T: Precision>(laws: &Laws<T>, group: &Group<T>) -> bool {
-    in_default_environment(|| {
-        let at_start = group.time.into() == 0.0;
-        // SAFETY: no array is null behind `check`: NUPARAM values of UPARAM, one element or more. A group of the other precision does not
-        // need nodes: it is refused.
-        let parameters = unsafe {
-            let empty = group.check(laws).is_err() || group.elements == 0;
-            if empty || (at_start && (group.other_precision().is_some() || group.has_no_gradient())) {
-                return false;
-            }
-            slice::from_raw_parts(group.uparam, group.parameters as usize)
-        };
-        Card::of(laws, parameters)
-            .is_ok_and(|card| card.by_direction || (at_start && card.fibre_from == FibreFrom::Nodes))
-    })
-}
-
 /// What the run stops with if the engine passes no F, see [`super::card::NEEDS`].
 const NO_GRADIENT: &str = "the solver passes no deformation gradient (F = 0): the elements of this material need \
     /PROP/TYPE14 (/PROP/SOLID) with Isolid = 1, Ismstr = 10, Iframe = 1; F is 0 for every other Ismstr";
@@ -147,8 +104,8 @@ const NO_GRADIENT_IN_SINGLE: &str = "the solver passes no deformation gradient (
     /PROP/TYPE14 (/PROP/SOLID) with Isolid = 1, Ismstr = 10, Iframe = 1; F is 0 for every other Ismstr, and in a solver of double \
     precision, which needs libtoron_openradioss.so";
 
-/// What the run stops with if strain rates are not in the axes of the nodes' coordinates: F and stress are in the same ones.
-const OTHER_AXES: &str = "F is not in the global axes, as the nodes' velocities show; the elements of this material need \
+/// What the run stops with if F is not in the axes of the nodes' coordinates.
+const OTHER_AXES: &str = "F is not in the global axes, as the nodes show; the elements of this material need \
     /PROP/TYPE14 (not TYPE6) with Isolid = 1, Ismstr = 10, Iframe = 1";
 
 /// What the run stops with if fibre_from is 1 and elements are flat in the direction of the fibre: yarns are meshed with long ones.
@@ -186,28 +143,55 @@ impl<T: Precision> Group<T> {
         self.deformation_gradient.iter().all(|&f| unsafe { *f }.into() == 0.0)
     }
 
+    /// Time 0: the diagonals of the elements as they are undeformed, (0, 0, 0) where nothing is to be compared.
+    unsafe fn keep_diagonals(&self, card: &Card<'_, T>) {
+        for i in 0..self.count() {
+            // SAFETY: i is below NEL, the rows are of UVAR, and the nodes are not null where they are read.
+            unsafe {
+                let known = !self.nodes.is_null() && !self.volume.is_null();
+                let diagonal = if known { Brick(self.of_nodes(self.nodes, i)).diagonal() } else { None };
+                // Of a model with a reference geometry, F is not 1.
+                let [a, b, c] = self.gradient(i);
+                let rows = [cross(b, c), cross(c, a), cross(a, b)];
+                let determinant = dot(a, rows[0]);
+                let undeformed =
+                    diagonal.filter(|_| determinant > 0.0).map(|d| rows.map(|row| dot(row, d) / determinant));
+                for (row, x) in self.diagonal(card).into_iter().zip(undeformed.unwrap_or_default()) {
+                    *row.add(i) = T::splat(x);
+                }
+            }
+        }
+    }
+
     /// # Errors
-    /// F is not in global axes, as an element shows that is intact and strained.
-    unsafe fn compare_axes(&self) -> Result<(), Error> {
-        let Motion { time_step, strain_rate, velocities, .. } = self.motion;
-        if self.nodes.is_null() || velocities.is_null() || strain_rate.iter().any(|rate| rate.is_null()) {
+    /// F is not in global axes, as an element shows that is intact, strained and turned.
+    unsafe fn compare_axes(&self, card: &Card<'_, T>) -> Result<(), Error> {
+        if self.nodes.is_null() || self.volume.is_null() {
             return Ok(());
         }
+        let rounding = if size_of::<T>() == size_of::<f32>() { f64::from(f32::EPSILON) } else { f64::EPSILON };
         for i in 0..self.count() {
-            // SAFETY: i is below NEL, and what may be null is not, as just checked.
+            // SAFETY: i is below NEL, the rows are of UVAR, and what may be null is not, as just checked.
             unsafe {
-                if !T::splat(1.0).le(*self.off.add(i)) {
-                    continue; // of an element that is out, the solver scales them
+                let diagonal = self.diagonal(card).map(|row| (*row.add(i)).into());
+                // Of an element that is out, the solver scales F − 1.
+                if diagonal == [0.0; 3] || !T::splat(1.0).le(*self.off.add(i)) {
+                    continue;
                 }
-                let passed = strain_rate.map(|rate| (*rate.add(i)).into());
-                let velocities = self.of_nodes(velocities, i);
-                if !Brick(self.of_nodes(self.nodes, i)).has_strain_rate(&velocities, time_step.into(), passed) {
+                let brick = Brick(self.of_nodes(self.nodes, i));
+                let taken = image(&self.gradient(i), diagonal);
+                if !brick.has_diagonal(taken, brick.has_one_point((*self.volume.add(i)).into()), rounding) {
                     let code = status::NO_DEFORMATION_GRADIENT;
                     return Err(Error::ElementSetting { code, number: self.number(i), text: OTHER_AXES });
                 }
             }
         }
         Ok(())
+    }
+
+    /// The rows of the elements' diagonals.
+    fn diagonal(&self, card: &Card<'_, T>) -> [*mut T; 3] {
+        [0, 1, 2].map(|c| self.row(card.diagonal() + c))
     }
 
     /// The vectors of the eight nodes of element `i` among those of the group, (NEL, 8, 3).
@@ -284,8 +268,10 @@ impl<T: Precision> Group<T> {
         unsafe {
             if self.time.into() == 0.0 {
                 self.initialise(card)?;
+                self.keep_diagonals(card);
+            } else {
+                self.compare_axes(card)?;
             }
-            self.compare_axes()?;
             self.take_out_deleted(card.layout());
             self.clear_viscosity();
         }
@@ -368,8 +354,7 @@ impl<T: Precision> Group<T> {
             *self.row(layout.law.alive).add(i) = T::splat(0.0);
             let deleted = self.row(layout.deleted()).add(i);
             let known = (*deleted).into();
-            // NaN is none.
-            if !(known < 0.0 || known > 0.0) {
+            if known == 0.0 || known.is_nan() {
                 *deleted = T::splat(reason);
             }
         }
@@ -408,6 +393,13 @@ impl<T: Precision> Group<T> {
         columns
     }
 
+    /// F of element `i`, by columns.
+    unsafe fn gradient(&self, i: usize) -> Matrix<f64> {
+        // SAFETY: i is below NEL.
+        let [xx, yx, zx, xy, yy, zy, xz, yz, zz] = self.columns(i).map(|component| unsafe { *component }.into());
+        [[xx, yx, zx], [xy, yy, zy], [xz, yz, zz]]
+    }
+
     /// Evaluates the law at the group.
     ///
     /// # Errors
@@ -432,7 +424,7 @@ impl<T: Precision> Group<T> {
                 f_old: components(row(card.layout().f_old()).cast_const(), n),
                 f_new: self.columns(first),
                 fibre: self.fibre(card, first),
-                limit: if card.has_limits { row(card.layout().variables()) } else { ptr::null_mut() },
+                limit: if card.has_limits { row(card.layout().limit()) } else { ptr::null_mut() },
                 state_old: row(0),
                 state_new: row(0),
                 // SAFETY: RHO0 has a value.
@@ -451,10 +443,6 @@ impl<T: Precision> Group<T> {
         };
         // SAFETY: the group is the caller's.
         unsafe { self.in_chunks(card.layout(), part)? };
-        if card.by_direction {
-            // SAFETY: the same.
-            unsafe { self.bound_by_direction(card, &L::wave_bounds(card)) };
-        }
         if L::DESCRIPTION.reads_old_gradient {
             for (row, f) in f_old.into_iter().zip(self.columns(0)) {
                 // SAFETY: a row of UVAR and a component of F have NEL values each.
@@ -462,45 +450,6 @@ impl<T: Precision> Group<T> {
             }
         }
         Ok(())
-    }
-
-    /// Lowers SOUNDSP where the solver's length over it would be less than the stable step: in a direction in which the element is short,
-    /// only slow waves may run. The solver divides [`Brick::length`] by it; the stable step is 2/ω.
-    ///
-    /// Elements of more than one point, and those that are out, keep the law's bound.
-    unsafe fn bound_by_direction(&self, card: &Card<'_, T>, bounds: &WaveBounds) {
-        if *bounds == WaveBounds::Isotropic || self.nodes.is_null() || self.motion.volume.is_null() {
-            return;
-        }
-        let of_card = card.layout().law.fibre.and_then(|first| card.properties.get(first..)?.first_chunk::<3>());
-        // SAFETY: RHO0 has a value.
-        let density: f64 = unsafe { *self.density }.into();
-        for i in 0..self.count() {
-            // SAFETY: i is below NEL; nodes and volumes are not null, as checked above.
-            unsafe {
-                let brick = Brick(self.of_nodes(self.nodes, i));
-                let intact = T::splat(1.0).le(*self.off.add(i));
-                if !intact || !brick.has_one_point((*self.motion.volume.add(i)).into()) {
-                    continue;
-                }
-                let fibre = match (card.fibre_from, of_card) {
-                    (FibreFrom::Card, Some(fibre)) => fibre.map(Into::into),
-                    _ => self.fibre(card, i).map(|row| if row.is_null() { 0.0 } else { (*row).into() }),
-                };
-                let f = self.columns(i).map(|component| (*component).into());
-                let stress = self.stress.map(|component| (*component.add(i)).into());
-                let (point, m) = deformed(&f, fibre, stress);
-                let (Some([along, across]), [on_along, on_across]) = (bounds.at(&point), brick.frequencies(m)) else {
-                    continue;
-                };
-                let square = (along * on_along + across * on_across) / density;
-                let speed = 0.5 * brick.length() * libm::sqrt(square);
-                let bound = self.sound_speed.add(i);
-                if speed > 0.0 && speed < (*bound).into() {
-                    *bound = T::splat(speed);
-                }
-            }
-        }
     }
 
     /// Evaluates the group in parts and marks the points that are out.
@@ -550,26 +499,4 @@ impl<T: Precision> Group<T> {
         }
         Ok(())
     }
-}
-
-/// F, by columns, in axes of which the first is the fibre's, with its stress, and the unit vector of the fibre as it is deformed.
-fn deformed(f: &[f64; 9], fibre: [f64; 3], stress: [f64; 6]) -> (Deformed<f64>, [f64; 3]) {
-    let [xx, yx, zx, xy, yy, zy, xz, yz, zz] = *f;
-    let f = [[xx, yx, zx], [xy, yy, zy], [xz, yz, zz]];
-    let unit = |v: [f64; 3]| scale(1.0 / libm::sqrt(dot(v, v)), v);
-    let first = unit(fibre);
-    let [x, y, z] = first.map(libm::fabs);
-    let beside = if x <= y && x <= z {
-        [1.0, 0.0, 0.0]
-    } else if y <= z {
-        [0.0, 1.0, 0.0]
-    } else {
-        [0.0, 0.0, 1.0]
-    };
-    let second = unit(cross(first, beside));
-    let [u, v, w] = [first, second, cross(first, second)].map(|axis| image(&f, axis));
-    let stretch_square = dot(u, u);
-    let in_section = |column| dot(column, column) - dot(u, column) * dot(u, column) / stretch_square;
-    let section = [in_section(v), in_section(w)];
-    (Deformed { columns: [u, v, w], stress, volume_ratio: dot(u, cross(v, w)), stretch_square, section }, unit(u))
 }

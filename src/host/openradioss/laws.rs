@@ -6,12 +6,10 @@ use crate::law::error::Error;
 use crate::law::hyperelastic::Hyperelastic;
 use crate::law::interface::Law;
 use crate::law::linear_elastic::LinearElastic;
-use crate::law::parameters::{HYPERELASTIC_PROPERTIES, LINEAR_ELASTIC_PROPERTIES};
+use crate::law::parameters::HYPERELASTIC_PROPERTIES;
 use crate::law::response::Request;
 use crate::law::state::HYPERELASTIC_STATE;
 use crate::law::user::{User, UserMaterial};
-use crate::law::wave_bounds::WaveBounds;
-use crate::law::{hyperelastic, linear_elastic};
 
 use super::card::{Card, Layout, OPTIONS};
 use super::engine::Group;
@@ -21,19 +19,14 @@ pub trait SolidLaw<T: Precision>: Law<T> {
     /// How many of [`OPTIONS`] its card has: the first one is for a law with a fibre, the others for the linear elastic law.
     const OPTIONS: usize;
 
-    /// Whether its card has the options [`OWN_OPTIONS`](super::card::OWN_OPTIONS) behind them.
-    const HAS_OWN_OPTIONS: bool = false;
+    /// Whether its card has [`OWN_OPTION`](super::card::OWN_OPTION) behind them.
+    const HAS_OWN_OPTION: bool = false;
 
     /// ρ0 c² of the fastest wave in the unstressed material.
     ///
     /// # Errors
     /// A wrong property.
     fn modulus_at_rest(properties: &[T]) -> Result<T, Error>;
-
-    /// What bounds the speeds of waves by their direction.
-    fn wave_bounds(_card: &Card<'_, T>) -> WaveBounds {
-        WaveBounds::Isotropic
-    }
 
     /// Evaluates the law at a group that has been checked.
     ///
@@ -120,15 +113,10 @@ macro_rules! toron_laws {
         impl SolidLaw<$t> for Hyperelastic<$t> {
             const OPTIONS: usize = 1;
 
-            const HAS_OWN_OPTIONS: bool = true;
+            const HAS_OWN_OPTION: bool = true;
 
             fn modulus_at_rest(properties: &[$t]) -> Result<$t, Error> {
                 hyperelastic_modulus(properties)
-            }
-
-            fn wave_bounds(card: &Card<'_, $t>) -> WaveBounds {
-                let values: [f64; HYPERELASTIC_PROPERTIES] = in_double_precision(card.properties);
-                WaveBounds::hyperelastic(&hyperelastic::Properties::from(values))
             }
 
             unsafe fn evaluate_group(group: &Group<$t>, card: &Card<'_, $t>) -> Result<(), Error> {
@@ -140,15 +128,10 @@ macro_rules! toron_laws {
         impl SolidLaw<$t> for LinearElastic<$t> {
             const OPTIONS: usize = OPTIONS.len();
 
-            const HAS_OWN_OPTIONS: bool = true;
+            const HAS_OWN_OPTION: bool = true;
 
             fn modulus_at_rest(properties: &[$t]) -> Result<$t, Error> {
                 Ok(LinearElastic::new(properties)?.lanes::<f64>().wave_modulus() as $t)
-            }
-
-            fn wave_bounds(card: &Card<'_, $t>) -> WaveBounds {
-                let values: [f64; LINEAR_ELASTIC_PROPERTIES] = in_double_precision(card.properties);
-                WaveBounds::linear_elastic(&linear_elastic::Properties::from(values), card.rotation)
             }
 
             unsafe fn evaluate_group(group: &Group<$t>, card: &Card<'_, $t>) -> Result<(), Error> {

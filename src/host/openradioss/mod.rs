@@ -9,9 +9,9 @@
 //! | deformation | FPSXX YY ZZ XY YZ ZX **YX ZY XZ**, an array for each; 0 unless Ismstr = 10 |
 //! | stress | SIGNXX YY ZZ XY YZ ZX: Cauchy, global; SIGVXX … are set to 0 where the solver has not done so |
 //! | arrays | F and stress have the solver's vector length; UVAR is (NEL, NUVAR), SOUNDSP and OFF are (NEL) |
-//! | UVAR | the law's state, fibre direction of a law that has one, `deleted`; for a law that reads it the old F too, see [`card::Layout`] |
+//! | UVAR | the law's state, fibre direction of a law that has one, `deleted`; for a law that reads it the old F too; the element's diagonal, see [`card::Layout`] |
 //! | failure | OFF = 0, `deleted` = 1; a point that cannot be evaluated: OFF = 0, `deleted` = its status code |
-//! | time step | SOUNDSP, in every cycle: the law's bound of the wave speed, or less where the waves' directions allow it, see [`engine`] |
+//! | time step | SOUNDSP, in every cycle: the law's bound of the wave speed |
 //!
 //! Elements with `/PROP/TYPE14` (`/PROP/SOLID`), Isolid = 1 (or 17), Iframe = 1, Ismstr = 10: F and stress are then in global axes.
 
@@ -22,7 +22,7 @@ mod entries;
 pub mod laws;
 pub mod starter;
 
-pub use engine::{Group, Motion, compares_axes, evaluate, needs_nodes};
+pub use engine::{Group, evaluate, needs_nodes};
 pub use entries::{ListingLine, MaterialCard, read_card_f32, read_card_f64, write_line_f32, write_line_f64};
 pub use entries::{group_f32, group_f64, group_of_f32, group_of_f64};
 pub use laws::{Laws, Material, MyReal, SolidLaw};
