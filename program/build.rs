@@ -1,4 +1,5 @@
-//! The checksum of the sources that the program is made of, and of the compiler's options that Cargo does not count to a package.
+//! The checksum of the sources that the program is made of, and of the compiler's options that Cargo does not count to
+//! a package.
 
 use std::path::{Path, PathBuf};
 
@@ -36,7 +37,8 @@ pub fn checksum(root: &Path, options: &[String]) -> u32 {
     sum.finalize()
 }
 
-/// The files of a folder and of those in it; none of one that is not there, as where packages were taken apart from each other.
+/// The files of a folder and of those in it; none of one that is not there, as where packages were taken apart from
+/// each other.
 fn files(folder: &Path) -> Vec<PathBuf> {
     if !folder.is_dir() {
         return Vec::new();

@@ -31,7 +31,8 @@ enum Command {
     Init(init::Arguments),
     /// Find the properties of a yarn from measured data, and how sure they are; write a preset of them.
     Fit {
-        /// The data and what is known besides, a TOML file (`toron init data-sheet` writes one); - is the standard input.
+        /// The data and what is known besides, a TOML file (`toron init data-sheet` writes one); - is the standard
+        /// input.
         data: PathBuf,
         /// Where the preset, the tables and the plot go.
         #[arg(short, long, default_value = "toron-out")]

@@ -1,4 +1,5 @@
-//! The standard output and the standard error: as text, or what is for the standard output as one JSON object at the end.
+//! The standard output and the standard error: as text, or what is for the standard output as one JSON object at the
+//! end.
 
 use std::io::{self, ErrorKind, Write};
 use std::sync::{Mutex, OnceLock, PoisonError};
@@ -59,8 +60,8 @@ pub fn finish(command: &str, version: &str) {
     }
 }
 
-/// A table in a text that is printed as JSON: the two lines of each heading, and rows of numbers, texts, or null where a column does not
-/// apply.
+/// A table in a text that is printed as JSON: the two lines of each heading, and rows of numbers, texts, or null where
+/// a column does not apply.
 pub fn table_record(columns: &[Column]) -> String {
     let rows = columns.first().map_or(0, |column| column.entries.len());
     let row = |i: usize| columns.iter().map(|column| cell(&column.entries[i])).collect::<Vec<_>>();

@@ -256,7 +256,8 @@ fn cells(line: &str, delimiter: u8) -> Vec<String> {
     record.and_then(Result::ok).map_or_else(Vec::new, |record| record.iter().map(str::to_string).collect())
 }
 
-/// The name and the unit of a heading, `name (unit)`, `name [unit]` or `name / unit`; the unit may have parentheses of its own.
+/// The name and the unit of a heading, `name (unit)`, `name [unit]` or `name / unit`; the unit may have parentheses of
+/// its own.
 fn name_and_unit(heading: &str) -> Option<(&str, &str)> {
     let (open, close) = match heading.chars().next_back()? {
         ')' => ('(', ')'),

@@ -10,7 +10,8 @@ use super::console::is_quiet;
 const PART: f64 = 0.1;
 const TIME: Duration = Duration::from_secs(60);
 
-/// A bar of this length. `template` says what stands beside it; `target` is where it is drawn, unless the program is to be quiet.
+/// A bar of this length. `template` says what stands beside it; `target` is where it is drawn, unless the program is to
+/// be quiet.
 pub fn bar(length: u64, template: &str, target: ProgressDrawTarget) -> ProgressBar {
     let target = if is_quiet() { ProgressDrawTarget::hidden() } else { target };
     let bar = ProgressBar::with_draw_target(Some(length), target);

@@ -15,7 +15,8 @@ pub fn message(text: &str, error: &toml::de::Error) -> String {
     explained(text, error).unwrap_or_else(|| with_hint(error.message().trim_end()))
 }
 
-/// The message, with what an unknown key may have been meant to be: `unknown field `sped`, did you mean speed? expected one of …`.
+/// The message, with what an unknown key may have been meant to be: `unknown field `sped`, did you mean speed? expected
+/// one of …`.
 fn with_hint(message: &str) -> String {
     let parts = || {
         let (name, expected) = message.strip_prefix("unknown field `")?.split_once("`, ")?;

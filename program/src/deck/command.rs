@@ -34,11 +34,12 @@ pub struct Arguments {
     /// The solver.
     #[arg(long, value_enum)]
     host: Host,
-    /// The yarn: a preset by name (`toron params` lists them), or a file of your own, as my-yarn.toml (`toron fit` and `toron init
-    /// path` write one); without it, the first built-in one of the law.
+    /// The yarn: a preset by name (`toron params` lists them), or a file of your own, as my-yarn.toml (`toron fit` and
+    /// `toron init path` write one); without it, the first built-in one of the law.
     #[arg(long)]
     preset: Option<String>,
-    /// The yarn's file, whatever its name ends in: what --preset takes, and `toron fit` writes; - is the standard input.
+    /// The yarn's file, whatever its name ends in: what --preset takes, and `toron fit` writes; - is the standard
+    /// input.
     #[arg(long, value_name = "FILE", conflicts_with = "preset")]
     properties: Option<PathBuf>,
     /// hyperelastic or linear-elastic: which built-in preset to take, or what law that of --preset must be of.

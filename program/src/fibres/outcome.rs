@@ -140,8 +140,8 @@ impl Outcome {
         ((last.speed - before.speed).abs() < STEADY * striking).then_some(last.speed)
     }
 
-    /// What friction of fibres has taken, and friction at the projectile; none where nothing rubs, and the remainder is what the balance
-    /// is off by.
+    /// What friction of fibres has taken, and friction at the projectile; none where nothing rubs, and the remainder is
+    /// what the balance is off by.
     pub fn frictions(&self) -> [Option<f64>; 2] {
         let at_projectile = matches!(self.model.striker, Striking::Cylinder { friction, .. } if friction > 0.0);
         let Sample { friction_fibres, friction_projectile, .. } = self.last();

@@ -23,8 +23,8 @@ const PROGRESS_DELAY: Duration = Duration::from_secs(1);
 
 #[derive(Args)]
 pub struct Arguments {
-    /// The load path, a TOML file (`toron init path` writes one); - is the standard input. Without it, a demonstration: compaction,
-    /// then tension to failure.
+    /// The load path, a TOML file (`toron init path` writes one); - is the standard input. Without it, a demonstration:
+    /// compaction, then tension to failure.
     pub path: Option<PathBuf>,
     /// Where the table and the plot go.
     #[arg(short, long, default_value = "toron-out")]

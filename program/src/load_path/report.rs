@@ -79,7 +79,8 @@ pub fn summary(path: &LoadPath, history: &History) -> String {
     text
 }
 
-/// What is to be said of a section that has grown where its sides are free: Newton's method has found one of many equilibria.
+/// What is to be said of a section that has grown where its sides are free: Newton's method has found one of many
+/// equilibria.
 fn grown_section(path: &LoadPath, history: &History) -> Option<String> {
     let (material, last) = (&history.point.material, history.increments.last()?);
     let area = last.f.determinant() / (last.f * material.fibre()).norm();

@@ -30,7 +30,8 @@ const TRUTH: [f64; 2] = [0.5, 0.125];
 /// What a user asks for.
 #[derive(clap::Args)]
 pub struct Arguments {
-    /// The scene of `toron fabric` or `toron impact`, with a table `[shots]` (`toron init v50` writes one); - is the standard input.
+    /// The scene of `toron fabric` or `toron impact`, with a table `[shots]` (`toron init v50` writes one); - is the
+    /// standard input.
     scene: PathBuf,
     /// Where the tables and the picture go.
     #[arg(short, long, default_value = "toron-out/v50")]

@@ -1,4 +1,5 @@
-//! What commands have in common: scenes to start from, JSON, quiet, the standard input, misspelt keys, the order of the commands.
+//! What commands have in common: scenes to start from, JSON, quiet, the standard input, misspelt keys, the order of the
+//! commands.
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -75,7 +76,8 @@ fn run_of(command: &[String]) -> Vec<&str> {
     command.iter().map(String::as_str).collect()
 }
 
-/// Every scene that is listed runs as it is written, by the command that is said, or reads to its end where another program is needed.
+/// Every scene that is listed runs as it is written, by the command that is said, or reads to its end where another
+/// program is needed.
 #[test]
 fn scenes_to_start_from_run() {
     let listed = json(&folder("init"), &["init"]);
@@ -198,7 +200,8 @@ fn from_standard_input(folder: &Path, arguments: &[&str], input: &str) -> Output
     child.wait_with_output().expect("it ends")
 }
 
-/// In every command that reads a TOML file; what the file names is relative to the current folder, and errors have their lines.
+/// In every command that reads a TOML file; what the file names is relative to the current folder, and errors have
+/// their lines.
 #[test]
 fn a_minus_is_the_standard_input() {
     let (folder, _) = started("path", &[]);

@@ -299,7 +299,8 @@ fn the_documentations_example_runs() {
     }
 }
 
-/// Nothing resists a section that grows: where its sides are free, what Newton's method finds is one of many equilibria, and that is said.
+/// Nothing resists a section that grows: where its sides are free, what Newton's method finds is one of many
+/// equilibria, and that is said.
 #[test]
 fn a_section_that_grows_is_said() {
     let summary = |fibre: &str, sides: &str| {

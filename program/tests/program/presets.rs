@@ -237,7 +237,8 @@ fn a_file_prints_as_a_deck() {
 const TENSION: &str = "units = \"mm-tonne-s\"\n[yarn]\nname = \"mine\"\nsource = \"lot 12\"\npreset = \"kevlar-km2-600\"\n[[data]]\n\
                        name = \"pull\"\nfile = \"pull.csv\"\nloading = \"elongation\"\n";
 
-/// A tensile test alone: all else is a guess, α and ε_lim as well, and every way on says so: the notes, the preset, cards, decks.
+/// A tensile test alone: all else is a guess, α and ε_lim as well, and every way on says so: the notes, the preset,
+/// cards, decks.
 #[test]
 fn guesses_are_called_so_wherever_the_yarn_goes() {
     let folder = folder("guesses");
@@ -290,7 +291,8 @@ fn guesses_are_handed_on() {
     assert_eq!((output.status.code(), text(&output.stderr).as_str()), (Some(2), expected));
 }
 
-/// What a user may have changed by hand is not lost when a command writes it again: it has another name then, which is said.
+/// What a user may have changed by hand is not lost when a command writes it again: it has another name then, which is
+/// said.
 #[test]
 fn a_file_that_may_have_been_edited_is_kept() {
     let folder = folder("kept");
