@@ -1,5 +1,5 @@
-//! What all commands share: errors and their exit codes, the console, progress bars, units, short numbers, files in TOML, tables of
-//! measured data, numbers of chance, roots, the level of intervals.
+//! What all commands share: errors and their exit codes, the console, progress bars, units, short numbers, files in TOML, keyword
+//! files of solvers, tables of measured data, numbers of chance, roots, the level of intervals.
 
 pub mod bound_child;
 pub mod chance;
@@ -9,6 +9,7 @@ pub mod data_table;
 pub mod error;
 pub mod folder;
 pub mod interrupt;
+pub mod keyword_file;
 pub mod progress;
 pub mod root;
 pub mod run_directory;
