@@ -11,9 +11,10 @@ use super::scene::Case;
 use crate::common::units::{LENGTH, number, unit};
 use crate::explicit::judgement::{self, Finding};
 use crate::explicit::lanes::{largest, smallest};
+use crate::weave::cloth::Cloth;
 use crate::weave::geometry::Family;
 use crate::weave::model::Model;
-use crate::weave::report::areal_density_warning;
+use crate::weave::report::{areal_density_warning, section_warning};
 use toron::host::units::UnitSystem;
 
 /// The sphere's radius has to hold so many edges of the elements' faces.
@@ -73,9 +74,21 @@ pub fn before(units: &UnitSystem, case: &Case, panel: &Model) -> Vec<Finding> {
         let volume = figures.volume_by_area();
         let mass: f64 = Family::BOTH.map(mass).iter().sum();
         let areal_density = areal_density_warning(volume, mass / volume, units);
-        findings.extend(areal_density.map(|text| Finding::new("units", text)));
+        let sections = section_warning(&figures, case.cloth.pitches()[number], units);
+        findings.extend(sections.into_iter().chain(areal_density).map(|text| Finding::new("units", text)));
     }
     findings.extend(coarse(units, case, panel));
+    findings.extend(of_mesh(units, case));
+    findings
+}
+
+/// A blow beside the middle of a mesh of others.
+fn of_mesh(units: &UnitSystem, case: &Case) -> Vec<Finding> {
+    let mut findings = Vec::new();
+    if let Cloth::Foreign(foreign) = &*case.cloth {
+        let beside = foreign.off_middle(case.sphere.aim, &unit(units, LENGTH));
+        findings.extend(beside.map(|text| Finding::new("aim", text)));
+    }
     findings
 }
 

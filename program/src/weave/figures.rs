@@ -67,6 +67,11 @@ impl Figures {
         figures
     }
 
+    /// The area of a yarn's section, of warp and weft with these pitches.
+    pub fn sections(&self, pitch: [f64; 2]) -> [f64; 2] {
+        [0, 1].map(|family| self.volumes_by_area[family] * pitch[family] / (1.0 + self.crimp[family]))
+    }
+
     pub fn volume_by_area(&self) -> f64 {
         self.volumes_by_area.iter().sum()
     }

@@ -19,6 +19,26 @@ const AREAL_DENSITY: Dimension = Dimension { mass: 1, length: -2, time: 0, name:
 /// What woven fabrics weigh, in kg/m², with a margin on both sides: sailcloth and parachutes from 0.03, heavy rovings 2.
 const KNOWN: RangeInclusive<f64> = 0.01..=10.0;
 
+const AREA: Dimension = Dimension { mass: 0, length: 2, time: 0, name: "area" };
+
+/// The sections of yarns that are woven, in mm², with a margin on both sides: silk of 20 dtex has 0.002, a roving of 9600 tex 6.
+const SECTIONS: RangeInclusive<f64> = 0.001..=10.0;
+
+/// What to say where no yarn has such a section: the unit of length is likely another one.
+pub fn section_warning(figures: &Figures, pitch: [f64; 2], units: &UnitSystem) -> Option<String> {
+    let sections = figures.sections(pitch).map(|area| 1e6 * area / units.from_si(1.0, AREA));
+    sections.iter().any(|area| !SECTIONS.contains(area)).then(|| {
+        format!(
+            "the yarns of warp and weft have sections of {} mm², and yarns that are woven {} to {}:\n\
+             the mesh or a length of the weave is most likely not in {}, the unit of the file",
+            sections.map(number).join(" and "),
+            SECTIONS.start(),
+            SECTIONS.end(),
+            units.names()[0]
+        )
+    })
+}
+
 /// In kg/m².
 fn areal_density(volume_by_area: f64, density: f64, units: &UnitSystem) -> f64 {
     volume_by_area * density / units.from_si(1.0, AREAL_DENSITY)
@@ -86,7 +106,11 @@ pub fn report(scene: &Scene, model: &Model) -> String {
     let of_wave = wave.and_then(|wave| wave.unit_warning(&scene.units));
     let of_area =
         figures.iter().filter_map(|figures| areal_density_warning(figures.volume_by_area(), density?, &scene.units));
-    let warnings: Vec<String> = of_mesh.into_iter().chain(of_wave).chain(of_area.take(1)).collect();
+    let pitches = scene.cloth.pitches();
+    let of_sections =
+        figures.iter().zip(pitches).filter_map(|(figures, pitch)| section_warning(figures, pitch, &scene.units));
+    let warnings = of_mesh.into_iter().chain(of_wave);
+    let warnings: Vec<String> = warnings.chain(of_sections.take(1)).chain(of_area.take(1)).collect();
     for (number, warning) in warnings.iter().enumerate() {
         let before = if number == 0 { "\n" } else { "" };
         let _ = writeln!(text, "{before}warning: {}", warning.replace('\n', "\n  "));
