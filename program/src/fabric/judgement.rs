@@ -12,6 +12,7 @@ use crate::common::units::{LENGTH, number, unit};
 use crate::explicit::judgement::{self, Finding};
 use crate::explicit::lanes::{largest, smallest};
 use crate::weave::cloth::Cloth;
+use crate::weave::crimp;
 use crate::weave::geometry::Family;
 use crate::weave::model::Model;
 use crate::weave::report::{areal_density_warning, section_warning};
@@ -82,9 +83,12 @@ pub fn before(units: &UnitSystem, case: &Case, panel: &Model) -> Vec<Finding> {
     findings
 }
 
-/// A blow beside the middle of a mesh of others.
+/// Yarns that the mesh makes too long, and a blow beside the middle of a mesh of others.
 fn of_mesh(units: &UnitSystem, case: &Case) -> Vec<Finding> {
-    let mut findings = Vec::new();
+    let mut crimp: Vec<String> =
+        case.cloth.plies().iter().filter_map(|ply| crimp::warning(&ply.woven.geometry)).collect();
+    crimp.dedup();
+    let mut findings: Vec<Finding> = crimp.into_iter().map(|text| Finding::new("crimp", text)).collect();
     if let Cloth::Foreign(foreign) = &*case.cloth {
         let beside = foreign.off_middle(case.sphere.aim, &unit(units, LENGTH));
         findings.extend(beside.map(|text| Finding::new("aim", text)));

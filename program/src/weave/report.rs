@@ -4,6 +4,7 @@ use std::fmt::Write;
 use std::ops::RangeInclusive;
 
 use super::cloth::Cloth;
+use super::crimp;
 use super::figures::Figures;
 use super::foreign::reader::Foreign;
 use super::layup::Ply;
@@ -109,7 +110,9 @@ pub fn report(scene: &Scene, model: &Model) -> String {
     let pitches = scene.cloth.pitches();
     let of_sections =
         figures.iter().zip(pitches).filter_map(|(figures, pitch)| section_warning(figures, pitch, &scene.units));
-    let warnings = of_mesh.into_iter().chain(of_wave);
+    let mut of_crimp: Vec<String> = plies.iter().filter_map(|ply| crimp::warning(&ply.woven.geometry)).collect();
+    of_crimp.dedup();
+    let warnings = of_mesh.into_iter().chain(of_crimp).chain(of_wave);
     let warnings: Vec<String> = warnings.chain(of_sections.take(1)).chain(of_area.take(1)).collect();
     for (number, warning) in warnings.iter().enumerate() {
         let before = if number == 0 { "\n" } else { "" };
