@@ -116,8 +116,8 @@ impl ls_dyna::Reader for Reader {
             "*ELEMENT_SOLID_ORTHO" => Next::Element(true),
             "*PART" => Next::Title,
             _ => {
-                let begins = |with: &&str| name.starts_with(*with);
-                if !WITHOUT_EFFECT.iter().any(|with| begins(&with)) || WITH_EFFECT.iter().any(|with| begins(&with)) {
+                let one_of = |names: &[&str]| names.iter().any(|with| name.starts_with(with));
+                if !one_of(&WITHOUT_EFFECT) || one_of(&WITH_EFFECT) {
                     let message = format!(
                         "{name}; allowed: *ELEMENT_SOLID and *ELEMENT_SOLID_ORTHO, *NODE, *PART, *INCLUDE, *INCLUDE_TRANSFORM, and \
                          keywords that leave nodes, elements and fibres as they are"

@@ -1,9 +1,10 @@
 //! The yarns of a scope, with their elements and their fibres.
 
 use std::collections::HashMap;
+use std::collections::hash_map::Entry;
 
 use super::motion::Motion;
-use super::orientation::{Distribution, Orientation};
+use super::orientation::{Distribution, Orientation, Points};
 use super::scope::{Kind, Member, Scope, Section};
 use crate::common::error::Error;
 use crate::common::keyword_file::line::Place;
@@ -12,59 +13,73 @@ use crate::weave::foreign::raw::Raw;
 pub const PARTS: &str =
     "elements of the set of one *SOLID SECTION or, without sections, of *ELEMENT, ELSET=NAME or of *ELSET";
 
+/// Elements by their numbers, and what says that they are a yarn.
+struct Yarn {
+    name: String,
+    elements: Vec<u64>,
+    section: Section,
+}
+
 impl Scope {
-    /// Adds the yarns to the mesh; what this has not may be `shared`.
+    /// Adds the yarns to the mesh; an orientation that is not here may be in `shared`.
+    ///
+    /// # Errors
+    /// What of them is wrong.
     pub fn add_to(mut self, raw: &mut Raw, shared: &Scope) -> Result<(), Error> {
         if self.mesh.element.is_empty() {
             return Ok(());
         }
-        let (prefix, whole, motion) = match &self.kind {
-            Kind::Instance(name, place, motion) => {
-                (format!("{name}."), Some((name.clone(), place.clone())), motion.clone())
-            }
-            _ => (String::new(), None, Motion::default()),
-        };
-        let mut yarns: Vec<(String, Vec<u64>, &Section)> = Vec::new();
-        let named =
-            [&self.sections, &self.of_elements, &self.of_sets].into_iter().find(|sections| !sections.is_empty());
-        for section in named.into_iter().flatten() {
-            let elements = self.yarn(section)?;
-            if !elements.is_empty() {
-                yarns.push((format!("{prefix}{}", section.set), elements, section));
-            }
-        }
-        let mut all: Vec<u64> = self.mesh.element.keys().copied().collect();
-        all.sort_unstable();
-        // An instance of which nothing says more is a yarn.
-        let whole = whole
-            .filter(|_| named.is_none() && !all.is_empty())
-            .map(|(name, place)| (name.clone(), Section { set: name, orientation: None, place }));
-        if let Some((name, section)) = &whole {
-            yarns.push((name.clone(), all, section));
-        }
-        let mut yarn = vec![None; self.mesh.element.len()];
+        let yarns = self.yarns()?;
         let free = self.free_directions(shared)?;
+        let motion = if let Kind::Instance(_, _, motion) = &self.kind { motion.clone() } else { Motion::default() };
+        let mut known = HashMap::new();
+        let mut yarn = vec![None; self.mesh.element.len()];
         let mut directions: Vec<Option<[f64; 3]>> = vec![None; yarn.len()];
-        for (place, (_, elements, section)) in yarns.iter().enumerate() {
-            let fibre = self.fibres(section, shared)?;
-            for number in elements {
+        for (place, Yarn { elements, section, .. }) in yarns.iter().enumerate() {
+            let fibres = self.fibres(section, elements, shared, &mut known)?;
+            for (i, number) in elements.iter().enumerate() {
                 let element = self.mesh.element[number];
                 if yarn[element].replace(place).is_some_and(|other| other != place) {
                     let message =
                         format!("element {number} of set {} is of another yarn too; allowed: {PARTS}", section.set);
                     return Err(section.place.error(&message));
                 }
-                let direction = if section.orientation.is_some() { fibre(*number)? } else { free.get(number).copied() };
+                let direction = fibres.as_ref().map_or_else(|| free.get(number).copied(), |fibres| Some(fibres[i]));
                 directions[element] = direction.map(|direction| motion.turned(direction));
             }
         }
         self.mesh.places.iter_mut().for_each(|place| *place = motion.moved(*place));
-        let names = yarns.into_iter().map(|(name, ..)| name).collect();
-        self.mesh.add_to(raw, names, &yarn, &directions, PARTS)
+        self.mesh.add_to(raw, yarns.into_iter().map(|yarn| yarn.name).collect(), &yarn, &directions, PARTS)
     }
 
-    /// The elements of a yarn; none where its set has no volumes.
-    fn yarn(&self, section: &Section) -> Result<Vec<u64>, Error> {
+    /// What is a yarn: by sections, else by sets; an instance without either is one.
+    fn yarns(&self) -> Result<Vec<Yarn>, Error> {
+        let mut sections = [&self.sections, &self.of_elements, &self.of_sets].into_iter();
+        match (sections.find(|sections| !sections.is_empty()), &self.kind) {
+            (Some(sections), kind) => {
+                let mut yarns = Vec::new();
+                for section in sections {
+                    let name = match kind {
+                        Kind::Instance(instance, ..) => format!("{instance}.{}", section.set),
+                        _ => section.set.clone(),
+                    };
+                    yarns.push(Yarn { name, elements: self.elements(section)?, section: section.clone() });
+                }
+                yarns.retain(|yarn| !yarn.elements.is_empty());
+                Ok(yarns)
+            }
+            (None, Kind::Instance(name, place, _)) => {
+                let mut elements: Vec<u64> = self.mesh.element.keys().copied().collect();
+                elements.sort_unstable();
+                let section = Section { set: name.clone(), orientation: None, place: place.clone() };
+                Ok(vec![Yarn { name: name.clone(), elements, section }])
+            }
+            (None, _) => Ok(Vec::new()),
+        }
+    }
+
+    /// The elements of a section; none where its set has no volumes.
+    fn elements(&self, section: &Section) -> Result<Vec<u64>, Error> {
         let Section { set, place, .. } = section;
         let found = self.members(set, place)?;
         if found.is_empty() {
@@ -118,49 +133,39 @@ impl Scope {
         found
     }
 
-    /// The direction of each element by a section's orientation.
-    fn fibres<'a>(
-        &'a self,
-        section: &Section,
-        shared: &'a Scope,
-    ) -> Result<impl Fn(u64) -> Result<Option<[f64; 3]>, Error> + 'a, Error> {
-        let place = section.place.clone();
-        let missing = |name: &str| {
-            section.place.error(&format!("ORIENTATION={name}, which the file does not have; allowed: an *ORIENTATION"))
+    /// The directions of a section's elements by its orientation, if it has one; `known` are the distributions that sections before it
+    /// have named.
+    fn fibres(
+        &self,
+        Section { orientation, place, .. }: &Section,
+        elements: &[u64],
+        shared: &Scope,
+        known: &mut HashMap<String, HashMap<u64, Points>>,
+    ) -> Result<Option<Vec<[f64; 3]>>, Error> {
+        let Some(name) = orientation else { return Ok(None) };
+        let missing =
+            || place.error(&format!("ORIENTATION={name}, which the file does not have; allowed: an *ORIENTATION"));
+        let orientation = self.orientations.get(name).or(shared.orientations.get(name)).ok_or_else(missing)?;
+        let Some(name) = orientation.distribution() else {
+            return Ok(Some(vec![orientation.fibre(None)?; elements.len()]));
         };
-        let orientation = match &section.orientation {
-            Some(name) => {
-                let own = self.orientations.get(name).or(shared.orientations.get(name));
-                Some(own.ok_or_else(|| missing(name))?)
+        let wrong = |what: &str| orientation.place.error(&format!("*DISTRIBUTION {name}{what}"));
+        let distribution = self.distributions.get(&name).or(shared.distributions.get(&name));
+        let distribution = distribution.ok_or_else(|| wrong(", which the file does not have"))?;
+        if self.is_of_vectors(distribution, shared) == Some(false) {
+            return Err(wrong(" is of no vectors; allowed: COORD3D, COORD3D"));
+        }
+        let all = match known.entry(name.clone()) {
+            Entry::Occupied(known) => known.into_mut(),
+            Entry::Vacant(new) => {
+                new.insert(distribution.by_element(&|name, place| self.members(name, place), &self.mesh.element)?)
             }
-            None => None,
         };
-        let by_element = match orientation.and_then(Orientation::distribution) {
-            Some(name) => {
-                let own = self.distributions.get(&name).or(shared.distributions.get(&name));
-                let place = orientation.map_or(&section.place, |orientation| &orientation.place);
-                let missing = || place.error(&format!("*DISTRIBUTION {name}, which the file does not have"));
-                let distribution = own.ok_or_else(missing)?;
-                if self.is_of_vectors(distribution, shared) == Some(false) {
-                    return Err(
-                        place.error(&format!("*DISTRIBUTION {name} is of no vectors; allowed: COORD3D, COORD3D"))
-                    );
-                }
-                Some(distribution.by_element(&|name, place| self.members(name, place), &self.mesh.element)?)
-            }
-            None => None,
+        let of_element = |number: &u64| match all.get(number) {
+            Some(points) => orientation.fibre(Some(*points)),
+            None => Err(wrong(&format!(" has no direction of element {number}"))),
         };
-        Ok(move |number: u64| {
-            let Some(orientation) = orientation else { return Ok(None) };
-            let of_element = match &by_element {
-                Some(all) => {
-                    let wanted = || place.error(&format!("*DISTRIBUTION has no direction of element {number}"));
-                    Some(*all.get(&number).ok_or_else(wanted)?)
-                }
-                None => None,
-            };
-            orientation.fibre(of_element).map(Some)
-        })
+        elements.iter().map(of_element).collect::<Result<_, _>>().map(Some)
     }
 
     /// Whether the entries of a distribution are vectors, where its table is there.
