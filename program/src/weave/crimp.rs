@@ -1,18 +1,19 @@
 //! Whether the yarns of a mesh are as long as those of the weave.
 //!
-//! The centre line of a mesh is a polygon, and its sections are polygons too, which keep their clearance only with a larger amplitude than
-//! the curves behind them. What a coarse mesh's yarns are too long is slack: they carry nothing until it is pulled out.
+//! The centre line of a mesh is a polygon, and its sections are polygons too, which keep their clearance only with a
+//! larger amplitude than the curves behind them. What a coarse mesh's yarns are too long is slack: they carry nothing
+//! until it is pulled out.
 
 use super::centre_line::CentreLines;
 use super::geometry::{Family, Geometry, Weave};
 use super::panel::Centre;
 use crate::common::units::number;
 
-/// The crimp of a mesh may differ by this from that of the weave. It is a strain; in the panel of the tutorial, struck at 25 m/s, 0.6 % of
-/// slack make the deflection 18 % larger, and this less than a tenth.
+/// The crimp of a mesh may differ by this from that of the weave. It is a strain; in the panel of the tutorial, struck
+/// at 25 m/s, 0.6 % of slack make the deflection 18 % larger, in proportion this 7 %.
 const LARGEST: f64 = 0.0025;
-/// Meshes that are tried for an advice, by elements along a yarn from a crossing to the next, and across its section. The last one stands
-/// for the weave: finer ones have hardly another crimp.
+/// Meshes that are tried for an advice, by elements along a yarn from a crossing to the next, and across its section.
+/// The last one stands for the weave: finer ones have hardly another crimp.
 const MESHES: [[usize; 2]; 8] = [[6, 4], [6, 6], [8, 6], [10, 8], [12, 10], [16, 12], [24, 18], [32, 24]];
 
 /// The length of yarns over that of the panel which they cross, less 1; of warp and weft.
@@ -44,7 +45,8 @@ fn differ(one: Crimp, other: Crimp) -> bool {
 /// What to say of a mesh whose yarns are too long or too short, and which one will do.
 pub fn warning(geometry: &Geometry) -> Option<String> {
     let (weave, found) = (&geometry.weave, meshed(geometry));
-    // A fine mesh takes longer to solve, and tells nothing else unless sections have corners that meet, or yarns hardly room to bend.
+    // A fine mesh takes longer to solve, and tells nothing else unless sections have corners that meet, or yarns hardly
+    // room to bend.
     if !differ(found, smooth(weave)) {
         return None;
     }
@@ -85,8 +87,8 @@ mod tests {
         warning(&weave.solve().expect("it has room"))
     }
 
-    /// The tutorial's panel, and one of Twaron with wide yarns: their coarse meshes are far too long, and those that the warnings name are
-    /// not. The preset's coarse mesh is 0.21 % off.
+    /// The tutorial's panel, and one of Twaron with wide yarns: their coarse meshes are far too long, and those that
+    /// the warnings name are not. The preset's coarse mesh is 0.21 % off.
     #[test]
     fn slack_is_found_and_the_mesh_that_is_named_will_do() {
         for sizes in [[1.18, 0.95, 0.128], [1.4286, 1.2, 0.085]] {
@@ -106,7 +108,8 @@ mod tests {
         }
     }
 
-    /// Corners of rectangles meet where the other yarn descends, on any mesh: a fine one is not as short as the smooth line.
+    /// Corners of rectangles meet where the other yarn descends, on any mesh: a fine one is not as short as the smooth
+    /// line.
     #[test]
     fn a_fine_mesh_stands_for_the_weave_where_the_smooth_line_does_not() {
         let rectangle = |mesh: [usize; 2]| {

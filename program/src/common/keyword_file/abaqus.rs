@@ -1,7 +1,7 @@
 //! Inputs of Abaqus, which CalculiX reads too.
 //!
-//! Capitals make no difference, nor do blanks in a keyword and around its parameters. A keyword line that ends with a comma goes on in
-//! the next one; a name in quotes may have commas; lines that begin with two stars are comments.
+//! Capitals make no difference, nor do blanks in a keyword and around its parameters. A keyword line that ends with a
+//! comma goes on in the next one; a name in quotes may have commas; lines that begin with two stars are comments.
 
 use std::sync::Arc;
 

@@ -15,7 +15,8 @@ pub fn text(bytes: &[u8]) -> String {
 /// The files that are being read, each of which names the next one.
 pub struct Files {
     open: Vec<PathBuf>,
-    /// Where a name may stand for a file besides the folder of the file that has it: that of the first file, and what the deck says.
+    /// Where a name may stand for a file besides the folder of the file that has it: that of the first file, and what
+    /// the deck says.
     folders: Vec<PathBuf>,
 }
 

@@ -1,7 +1,8 @@
 //! Keyword decks of LS-DYNA.
 //!
-//! A card has its fields between commas, or in columns: of the widths that its keyword has, of 20 each with `*KEYWORD LONG=Y` or a `+`
-//! behind the keyword. A line that begins with `$` is a comment; a blank one is a card of zeros. `*END` ends its file.
+//! A card has its fields between commas, or in columns: of the widths that its keyword has, of 20 each with `*KEYWORD
+//! LONG=Y` or a `+` behind the keyword. A line that begins with `$` is a comment; a blank one is a card of zeros.
+//! `*END` ends its file.
 
 use std::sync::Arc;
 
@@ -111,7 +112,8 @@ impl<'a> Card<'a> {
 #[derive(Clone, Debug)]
 pub struct Transform {
     pub place: Place,
-    /// What is added to the numbers of nodes, elements, parts, materials, sets, functions, other definitions, and all else.
+    /// What is added to the numbers of nodes, elements, parts, materials, sets, functions, other definitions, and all
+    /// else.
     pub offsets: [i64; 8],
     /// What masses, times and lengths are multiplied by.
     pub factors: [f64; 3],
@@ -274,7 +276,8 @@ impl Transform {
     }
 }
 
-/// Whether the cards of a file are in the long format: that of the file which includes it, where its `*KEYWORD` says nothing.
+/// Whether the cards of a file are in the long format: that of the file which includes it, where its `*KEYWORD` says
+/// nothing.
 fn format(keyword: &Keyword<'_>) -> Result<bool, Error> {
     let mut long = keyword.long;
     let options: Vec<&str> = keyword.rest.split('=').map(str::trim).collect();

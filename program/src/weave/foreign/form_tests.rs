@@ -209,7 +209,8 @@ fn parts_are_instanced_where_the_assembly_has_them() {
     same("blank", &[("cross.inp", &cae(&flat, "\n"))], &plain);
     // The mesh of an independent instance stands in it.
     same("independent", &[("cross.inp", &cae("", &format!("{place}{moved}")))], &plain);
-    // Fibre directions turn with an instance: half of those of the weft are the other way round, which a fibre does not feel.
+    // Fibre directions turn with an instance: half of those of the weft are the other way round, which a fibre does not
+    // feel.
     let directions = changed(&cross.directions(), "*none", |line| line.to_string());
     let swapped: String = directions
         .lines()

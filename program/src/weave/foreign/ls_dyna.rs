@@ -9,9 +9,9 @@ use crate::common::keyword_file::ls_dyna::{self, Card, Keyword, Transform};
 
 const PARTS: &str = "elements of a part";
 
-/// Keywords that change neither nodes nor solid elements nor the fibres in them, by how they begin: laws, sections, contacts, loads,
-/// controls, results, curves, coordinate systems and sets that something else has to name, and elements that are no solids, which are
-/// the striker's or a clamp's.
+/// Keywords that change neither nodes nor solid elements nor the fibres in them, by how they begin: laws, sections,
+/// contacts, loads, controls, results, curves, coordinate systems and sets that something else has to name, and
+/// elements that are no solids, which are the striker's or a clamp's.
 const WITHOUT_EFFECT: [&str; 50] = [
     "*TITLE",
     "*COMMENT",

@@ -1,5 +1,5 @@
-//! VTU files with hexahedra and wedges, the number of their yarn and the direction of their fibres: those of `toron weave`, meshio and
-//! ParaView.
+//! VTU files with hexahedra and wedges, the number of their yarn and the direction of their fibres: those of `toron
+//! weave`, meshio and ParaView.
 
 use nalgebra::Vector3;
 use roxmltree::{Document, Node};

@@ -1,4 +1,5 @@
-//! The arrays of a VTU file that are no text: in base64 or raw, beside their names or appended, compressed by zlib or not.
+//! The arrays of a VTU file that are no text: in base64 or raw, beside their names or appended, compressed by zlib or
+//! not.
 
 use std::borrow::Cow;
 use std::io::Read;

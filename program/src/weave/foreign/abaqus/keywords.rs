@@ -3,8 +3,9 @@
 use crate::common::error::Error;
 use crate::common::keyword_file::abaqus::Keyword;
 
-/// Keywords that change neither nodes nor elements nor the fibres in them: laws with all that belongs to them, sections of what is no
-/// solid, surfaces, contact, constraints, loads, results, and sets of nodes. In a step there are others, which come after the mesh.
+/// Keywords that change neither nodes nor elements nor the fibres in them: laws with all that belongs to them, sections
+/// of what is no solid, surfaces, contact, constraints, loads, results, and sets of nodes. In a step there are others,
+/// which come after the mesh.
 const WITHOUT_EFFECT: &str = "
     HEADING PREPRINT RESTART DIAGNOSTICS PHYSICALCONSTANTS WAVEFRONTMINIMIZATION AMPLITUDE TIMEPOINTS FILTER
     MATERIAL DENSITY ELASTIC PLASTIC DEPVAR USERMATERIAL USERDEFINEDFIELD USEROUTPUTVARIABLES HYPERELASTIC HYPERFOAM HYPOELASTIC
@@ -26,8 +27,8 @@ const WITHOUT_EFFECT: &str = "
 /// What a step does not have that goes by the mesh as it stands.
 const NOT_IN_A_STEP: [&str; 8] =
     ["NODE", "ELEMENT", "PART", "INSTANCE", "SYSTEM", "NMAP", "MODELCHANGE", "IMPERFECTION"];
-/// How the kinds of elements begin that are no volumes: rigid faces, masses, connectors, lines, membranes, shells and plane elements, which
-/// are the striker's or a clamp's, or what a mesher writes of surfaces.
+/// How the kinds of elements begin that are no volumes: rigid faces, masses, connectors, lines, membranes, shells and
+/// plane elements, which are the striker's or a clamp's, or what a mesher writes of surfaces.
 const NO_VOLUMES: [&str; 26] = [
     "R3D", "RAX", "R2D", "RB", "MASS", "ROTARYI", "HEATCAP", "CONN", "SPRING", "DASHPOT", "T3D", "T2D", "B2", "B3",
     "PIPE", "S3", "S4", "S6", "S8", "S9", "STRI", "M3D", "SFM3D", "CPS", "CPE", "CAX",

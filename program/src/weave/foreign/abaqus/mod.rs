@@ -1,5 +1,5 @@
-//! Abaqus inputs: `*NODE`, `*ELEMENT` of C3D8 and C3D6, a yarn for each `*SOLID SECTION`, its fibres by `*ORIENTATION`; flat, or in parts
-//! that are instanced, as Abaqus/CAE writes them.
+//! Abaqus inputs: `*NODE`, `*ELEMENT` of C3D8 and C3D6, a yarn for each `*SOLID SECTION`, its fibres by `*ORIENTATION`;
+//! flat, or in parts that are instanced, as Abaqus/CAE writes them.
 //!
 //! TexGen writes flat files of dry fibres, with the directions in a file of their own beside the input.
 

@@ -166,7 +166,8 @@ impl Orientation {
                 .place
                 .error("*ORIENTATION whose points are on a line with its origin; allowed: two directions"));
         };
-        // Point a is on the first or the third axis, b in the plane of the first and the second, or of the third and the first.
+        // Point a is on the first or the third axis, b in the plane of the first and the second, or of the third and
+        // the first.
         let a = a.normalize();
         let axes = if along_z { [normal.cross(&a), *normal, a] } else { [a, normal.cross(&a), *normal] };
         let about = Unit::new_unchecked(axes[turned_about - 1]);

@@ -133,8 +133,8 @@ impl Scope {
         found
     }
 
-    /// The directions of a section's elements by its orientation, if it has one; `known` are the distributions that sections before it
-    /// have named.
+    /// The directions of a section's elements by its orientation, if it has one; `known` are the distributions that
+    /// sections before it have named.
     fn fibres(
         &self,
         Section { orientation, place, .. }: &Section,
