@@ -117,7 +117,7 @@ fn wedges_are_struck() {
 #[test]
 fn a_mesh_that_is_struck_at_its_corner_says_so() {
     let output = texgen("meshes-corner", 4, "0.5337", "8", "0");
-    let scene = SCENE.replace("end = 0.003", "end = 0.0001");
+    let scene = SCENE.replace("end = 0.003", "end = 0.0005");
     let report = |mesh: &str| {
         let answer = toron(&output, "fabric", &format!("{mesh}{scene}"));
         assert!(answer.status.success(), "{}", String::from_utf8_lossy(&answer.stderr));
