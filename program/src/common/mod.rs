@@ -1,5 +1,5 @@
-//! What all commands share: errors and their exit codes, the console, progress bars, units, short numbers, names of files, files in TOML, tables of
-//! measured data, numbers of chance, roots, the level of intervals.
+//! What all commands share: errors and their exit codes, the console, progress bars, units, short numbers, names of files, files in TOML,
+//! keyword files of solvers, tables of measured data, numbers of chance, roots, the level of intervals.
 
 pub mod bound_child;
 pub mod build;
@@ -12,6 +12,7 @@ pub mod file_names;
 pub mod folder;
 pub mod interrupt;
 pub mod kept_file;
+pub mod keyword_file;
 pub mod nearest;
 pub mod progress;
 pub mod root;

@@ -12,6 +12,8 @@ use super::weights;
 use crate::common::units::{LENGTH, TIME, number, unit};
 use crate::explicit::judgement::{self, Finding};
 use crate::explicit::lanes::{largest, smallest};
+use crate::weave::cloth::Cloth;
+use crate::weave::crimp;
 use crate::weave::model::Model;
 use toron::host::units::UnitSystem;
 
@@ -82,6 +84,20 @@ pub fn before(units: &UnitSystem, case: &Case, panel: &Model) -> Vec<Finding> {
         case.materials().flat_map(|material| judgement::units(std::slice::from_ref(material), units)).collect();
     findings.extend(weights::findings(units, case, panel));
     findings.extend(coarse(units, case, panel));
+    findings.extend(of_mesh(units, case));
+    findings
+}
+
+/// Yarns that the mesh makes too long, and a blow beside the middle of a mesh of others.
+fn of_mesh(units: &UnitSystem, case: &Case) -> Vec<Finding> {
+    let mut crimp: Vec<String> =
+        case.cloth.plies().iter().filter_map(|ply| crimp::warning(&ply.woven.geometry)).collect();
+    crimp.dedup();
+    let mut findings: Vec<Finding> = crimp.into_iter().map(|text| Finding::new("crimp", text)).collect();
+    if let Cloth::Foreign(foreign) = &*case.cloth {
+        let beside = foreign.off_middle(case.sphere.aim, &unit(units, LENGTH));
+        findings.extend(beside.map(|text| Finding::new("aim", text)));
+    }
     findings
 }
 

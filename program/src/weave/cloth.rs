@@ -114,10 +114,7 @@ impl Cloth {
                 }
                 Outline::Rectangle(half) => half.map(|half| [-half, half]),
             },
-            Cloth::Foreign(foreign) => [0, 1].map(|axis| {
-                let places = foreign.model.nodes.iter().map(|node| node[axis]);
-                places.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], at| [low.min(at), high.max(at)])
-            }),
+            Cloth::Foreign(foreign) => foreign.extent(),
         };
         if ends.iter().zip(place).all(|([low, high], at)| (*low..=*high).contains(&at)) {
             return Ok(());
@@ -130,8 +127,7 @@ impl Cloth {
     pub fn pitches(&self) -> Vec<[f64; 2]> {
         match self {
             Cloth::Woven(layup) => {
-                let pitches = |ply: &Ply| ply.woven.geometry.weave.threads.map(|thread| thread.pitch);
-                layup.plies.iter().map(pitches).collect()
+                layup.plies.iter().map(|ply| ply.woven.geometry.weave.threads.map(|thread| thread.pitch)).collect()
             }
             Cloth::Foreign(foreign) => vec![foreign.pitch],
         }
@@ -139,13 +135,7 @@ impl Cloth {
 
     /// The largest pitch.
     pub fn pitch(&self) -> f64 {
-        match self {
-            Cloth::Woven(layup) => {
-                let threads = layup.plies.iter().flat_map(|ply| ply.woven.geometry.weave.threads);
-                threads.map(|thread| thread.pitch).fold(0.0, f64::max)
-            }
-            Cloth::Foreign(foreign) => foreign.pitch[0].max(foreign.pitch[1]),
-        }
+        self.pitches().into_iter().flatten().fold(0.0, f64::max)
     }
 }
 

@@ -8,6 +8,7 @@ pub mod centre_line;
 pub mod cloth;
 pub mod coarse;
 pub mod command;
+pub mod crimp;
 pub mod cut;
 pub mod distance;
 pub mod figures;

@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use super::cloth::Cloth;
+use super::crimp;
 use super::figures::Figures;
 use super::foreign::reader::Foreign;
 use super::layup::Ply;
@@ -12,6 +13,7 @@ use super::weights::PlyWeight;
 use crate::common::text_table::value_line;
 use crate::common::units::number;
 use crate::material::fibre_wave::FibreWave;
+use toron::host::units::UnitSystem;
 use toron::law::parameters::DENSITY;
 
 /// What a yarn without a material is taken to have in kg/m³, to see whether its section can be a yarn's.
@@ -22,6 +24,13 @@ const NAMES: usize = 31;
 
 /// A figure's name, and its value with the unit.
 type Row = (&'static str, String);
+
+/// What to say of a mesh in other units where no material is named: its sections alone show it.
+pub fn section_warnings(figures: &Figures, pitches: [f64; 2], units: &UnitSystem) -> Vec<String> {
+    let weight = PlyWeight::of(figures, pitches, [units.from_si(ASSUMED_DENSITY, DENSITY); 2], units);
+    let warnings = weight.yarns.iter().filter_map(|yarn| yarn.warning(units));
+    warnings.map(|text| format!("taken to have {ASSUMED_DENSITY} kg/m³, {text}")).collect()
+}
 
 /// The figures of each ply, those of all where there are several, and what looks wrong.
 pub fn report(scene: &Scene, model: &Model) -> String {
@@ -76,19 +85,13 @@ pub fn report(scene: &Scene, model: &Model) -> String {
     }
     let waves = scene.materials.iter().flatten().filter_map(|material| FibreWave::of(material, &scene.units));
     let of_waves = waves.filter_map(|wave| wave.unit_warning(&scene.units));
-    // Where no material is named, its sections alone show a mesh in other units.
-    let assumed = [scene.units.from_si(ASSUMED_DENSITY, DENSITY); 2];
-    let of_sections = |ply: usize| {
-        let weight = PlyWeight::of(&figures[ply], scene.cloth.pitches()[ply], assumed, &scene.units);
-        let warnings = weight.yarns.iter().filter_map(|yarn| yarn.warning(&scene.units));
-        warnings.map(|text| format!("taken to have {ASSUMED_DENSITY} kg/m³, {text}")).collect()
-    };
     let of_weights = weights.iter().enumerate().flat_map(|(ply, weight)| match weight {
         Some(weight) => weight.warnings(&scene.units),
-        None => of_sections(ply),
+        None => section_warnings(&figures[ply], scene.cloth.pitches()[ply], &scene.units),
     });
+    let of_crimp = plies.iter().filter_map(|ply| crimp::warning(&ply.woven.geometry));
     let mut warnings: Vec<String> = Vec::new();
-    for warning in of_mesh.into_iter().chain(of_waves).chain(of_weights) {
+    for warning in of_mesh.into_iter().chain(of_crimp).chain(of_waves).chain(of_weights) {
         if !warnings.contains(&warning) {
             warnings.push(warning);
         }

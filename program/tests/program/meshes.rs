@@ -115,6 +115,23 @@ fn wedges_are_struck() {
 }
 
 #[test]
+fn a_mesh_that_is_struck_at_its_corner_says_so() {
+    let output = texgen("meshes-corner", 4, "0.5337", "8", "0");
+    let scene = SCENE.replace("end = 0.003", "end = 0.0005");
+    let report = |mesh: &str| {
+        let answer = toron(&output, "fabric", &format!("{mesh}{scene}"));
+        assert!(answer.status.success(), "{}", String::from_utf8_lossy(&answer.stderr));
+        format!("{}{}", String::from_utf8_lossy(&answer.stdout), String::from_utf8_lossy(&answer.stderr))
+    };
+    let corner = report(MESH);
+    assert!(corner.contains("the blow is at (0, 0) mm, nearer to an edge of the mesh than to its middle"), "{corner}");
+    let summary = std::fs::read_to_string(output.join("summary.csv")).expect("a summary");
+    assert!(summary.contains("aim"), "{summary}");
+    let middle = report(&format!("{MESH}shift = [-1.1206, -1.1206]\n"));
+    assert!(!middle.contains("nearer to an edge"), "{middle}");
+}
+
+#[test]
 fn a_woven_panel_read_back_has_the_same_history() {
     let output = folder("meshes-round-trip");
     let weave = "[weave]\npreset = \"kevlar-s706\"\nalong = 4\ncolumns = 4\n[weave.panel]\nshape = \"circle\"\nradius = 2.0\n\

@@ -2,18 +2,76 @@
 
 use std::collections::HashMap;
 
-use super::raw::{Line, Numbered, Raw, included, lines};
+use super::raw::{Numbered, Raw};
 use crate::common::error::Error;
+use crate::common::keyword_file::line::{Line, Place};
+use crate::common::keyword_file::ls_dyna::{self, Card, Keyword, Transform};
 
 const PARTS: &str = "elements of a part";
-/// So deep may files include others.
-const DEEPEST: usize = 8;
+
+/// Keywords that change neither nodes nor solid elements nor the fibres in them, by how they begin: laws, sections,
+/// contacts, loads, controls, results, curves, coordinate systems and sets that something else has to name, and
+/// elements that are no solids, which are the striker's or a clamp's.
+const WITHOUT_EFFECT: [&str; 50] = [
+    "*TITLE",
+    "*COMMENT",
+    "*PARAMETER",
+    "*CONTROL_",
+    "*DATABASE_",
+    "*TERMINATION_",
+    "*INTERFACE_",
+    "*MAT_",
+    "*EOS_",
+    "*HOURGLASS",
+    "*DAMPING_",
+    "*SECTION_",
+    "*INTEGRATION_",
+    "*PART_INERTIA",
+    "*PART_CONTACT",
+    "*PART_PRINT",
+    "*PART_ATTACHMENT_NODES",
+    "*ELEMENT_SHELL",
+    "*ELEMENT_BEAM",
+    "*ELEMENT_DISCRETE",
+    "*ELEMENT_MASS",
+    "*ELEMENT_INERTIA",
+    "*ELEMENT_SEATBELT",
+    "*ELEMENT_PLOTEL",
+    "*SET_",
+    "*BOUNDARY_",
+    "*CONSTRAINED_",
+    "*CONTACT",
+    "*FRICTION",
+    "*RIGIDWALL_",
+    "*LOAD_",
+    "*INITIAL_VELOCITY",
+    "*INITIAL_STRESS_",
+    "*INITIAL_STRAIN_",
+    "*INITIAL_TEMPERATURE",
+    "*SENSOR_",
+    "*USER_",
+    "*MODULE",
+    "*DEFINE_CURVE",
+    "*DEFINE_TABLE",
+    "*DEFINE_FUNCTION",
+    "*DEFINE_COORDINATE_",
+    "*DEFINE_VECTOR",
+    "*DEFINE_SD_ORIENTATION",
+    "*DEFINE_BOX",
+    "*DEFINE_PLANE",
+    "*DEFINE_FRICTION",
+    "*DEFINE_TRANSFORMATION",
+    "*DEFINE_CONTACT_",
+    "*DEFINE_MATERIAL_HISTORIES",
+];
+/// Of these, those that refine, move or delete what is there.
+const WITH_EFFECT: [&str; 4] = ["*CONTROL_REFINE", "*CONTROL_ADAP", "*CONTROL_FORMING", "*CONTROL_REMESHING"];
 
 /// # Errors
 /// What in the file is wrong, by line.
 pub fn read(file: &str, text: &str) -> Result<Raw, Error> {
-    let mut reader = Reader::default();
-    reader.read(file, text, 0)?;
+    let mut reader = Reader { offsets: vec![[0; 3]], ..Reader::default() };
+    ls_dyna::read(file, text, &mut reader)?;
     reader.finish()
 }
 
@@ -22,158 +80,194 @@ struct Reader {
     mesh: Numbered,
     /// The number of an element's part, in the order of the elements.
     part: Vec<u64>,
-    directions: HashMap<u64, [f64; 3]>,
+    directions: Vec<Option<[f64; 3]>>,
     /// Titles of parts by their numbers, and where they are.
-    titles: Vec<(u64, String, String, usize)>,
+    titles: Vec<(u64, String, Place)>,
     /// Elements that are no solids have parts too.
     others: bool,
+    next: Next,
+    /// Where the element began that was read last.
+    last: Option<Place>,
+    /// What is added to the numbers of nodes, elements and parts, file by file.
+    offsets: Vec<[i64; 3]>,
 }
 
-/// What the next line is.
-#[derive(Clone, Copy)]
+/// What the next card is.
+#[derive(Clone, Default)]
 enum Next {
-    Nothing,
+    #[default]
     Node,
     /// The first card of an element, and whether two of axes follow its nodes.
     Element(bool),
     NodesOf(u64, bool),
-    Fibre(u64),
+    Fibre,
     Second,
     Title,
-    Part,
-    File,
+    Part(String),
 }
 
-impl Reader {
-    fn read(&mut self, file: &str, text: &str, depth: usize) -> Result<(), Error> {
-        let mut next = Next::Nothing;
-        let mut title = String::new();
-        for line in lines(file, text) {
-            if line.text.starts_with('$') || line.text.trim().is_empty() {
-                continue;
-            }
-            if line.text.starts_with('*') {
-                next = self.keyword(&line)?;
-                continue;
-            }
-            next = match next {
-                Next::Nothing => Next::Nothing,
-                Next::Node => {
-                    let [number, x, y, z] = fields(line.text, [8, 16, 16, 16]);
-                    let place = [line.real("x", x)?, line.real("y", y)?, line.real("z", z)?];
-                    self.mesh.add_node(&line, line.number("a node's number", number)?, place)?;
-                    Next::Node
-                }
-                Next::Element(axes) => {
-                    let [element, part] = fields(line.text, [8, 8]);
-                    self.part.push(line.number("a part's number", part)?);
-                    let element = line.number("an element's number", element)?;
-                    let all: [&str; 10] = fields(line.text, [8; 10]);
-                    // The older format has all numbers on one line.
-                    if all[2].trim().is_empty() {
-                        Next::NodesOf(element, axes)
-                    } else {
-                        self.element(&line, element, &all[2..], axes)?
-                    }
-                }
-                Next::NodesOf(element, axes) => {
-                    let nodes: [&str; 8] = fields(line.text, [8; 8]);
-                    self.element(&line, element, &nodes, axes)?
-                }
-                Next::Fibre(element) => {
-                    let axis: [&str; 3] = fields(line.text, [16; 3]);
-                    let [x, y, z] = axis.map(|field| line.real("a direction", field));
-                    self.directions.insert(element, [x?, y?, z?]);
-                    Next::Second
-                }
-                Next::Second => Next::Element(true),
-                Next::Title => {
-                    title = line.text.trim().to_string();
-                    Next::Part
-                }
-                Next::Part => {
-                    let [number] = fields(line.text, [10]);
-                    let number = line.number("a part's number", number)?;
-                    self.titles.push((number, title.clone(), file.to_string(), line.number));
-                    Next::Title
-                }
-                Next::File => {
-                    if depth == DEEPEST {
-                        return Err(
-                            line.error(&format!("files that include others are {DEEPEST} deep; allowed: fewer"))
-                        );
-                    }
-                    let (file, text) = included(&line, line.text)?;
-                    self.read(&file, &text, depth + 1)?;
-                    Next::File
-                }
-            };
-        }
-        Ok(())
-    }
-
-    fn keyword(&mut self, line: &Line<'_>) -> Result<Next, Error> {
-        let keyword = line.text.trim().to_uppercase();
-        let name = keyword.split_whitespace().next().unwrap_or_default();
-        Ok(match name {
-            "*KEYWORD" if keyword.contains("LONG=Y") => {
-                return Err(line.error("LONG=Y; allowed: the standard format, or fields between commas"));
-            }
+impl ls_dyna::Reader for Reader {
+    fn keyword(&mut self, keyword: &Keyword<'_>) -> Result<bool, Error> {
+        self.check_last()?;
+        let name = keyword.name.as_str();
+        self.next = match name {
             "*NODE" => Next::Node,
             "*ELEMENT_SOLID" => Next::Element(false),
             "*ELEMENT_SOLID_ORTHO" => Next::Element(true),
             "*PART" => Next::Title,
-            "*INCLUDE" => Next::File,
-            _ if name.starts_with("*ELEMENT_SOLID") => {
-                let message = format!("{name}; allowed: *ELEMENT_SOLID and *ELEMENT_SOLID_ORTHO");
-                return Err(line.error(&message));
-            }
             _ => {
-                self.others |= name.starts_with("*ELEMENT");
-                Next::Nothing
+                let one_of = |names: &[&str]| names.iter().any(|with| name.starts_with(with));
+                if !one_of(&WITHOUT_EFFECT) || one_of(&WITH_EFFECT) {
+                    let message = format!(
+                        "{name}; allowed: *ELEMENT_SOLID and *ELEMENT_SOLID_ORTHO, *NODE, *PART, *INCLUDE, *INCLUDE_TRANSFORM, and \
+                         keywords that leave nodes, elements and fibres as they are"
+                    );
+                    return Err(keyword.line.error(&message));
+                }
+                self.others |= name.starts_with("*ELEMENT") || name.starts_with("*PART");
+                return Ok(false);
             }
-        })
+        };
+        Ok(true)
     }
 
-    fn element(&mut self, line: &Line<'_>, element: u64, nodes: &[&str], axes: bool) -> Result<Next, Error> {
+    fn card(&mut self, card: &Card<'_>) -> Result<(), Error> {
+        let line = &card.line;
+        self.next = match std::mem::take(&mut self.next) {
+            next @ (Next::Node | Next::Element(_)) if card.is_blank() => next,
+            Next::Node => {
+                let [number, x, y, z] = card.fields([8, 16, 16, 16])?;
+                let place = [line.real("x", x)?, line.real("y", y)?, line.real("z", z)?];
+                let number = self.numbered(line, "a node's number", number, 0)?;
+                self.mesh.add_node(line, number, place)?;
+                Next::Node
+            }
+            Next::Element(axes) => {
+                self.last = Some(line.place());
+                let [element, part, nodes @ ..]: [&str; 10] = card.fields([8; 10])?;
+                self.part.push(self.numbered(line, "a part's number", part, 2)?);
+                let element = self.numbered(line, "an element's number", element, 1)?;
+                // The older format has all numbers on one line.
+                if nodes.iter().all(|node| node.is_empty()) {
+                    Next::NodesOf(element, axes)
+                } else {
+                    self.element(line, element, nodes, axes)?
+                }
+            }
+            Next::NodesOf(element, axes) => {
+                let [nodes @ .., ninth, tenth]: [&str; 10] = card.fields([8; 10])?;
+                if [ninth, tenth].iter().any(|node| !matches!(*node, "" | "0")) {
+                    let message =
+                        format!("element {element} has ten nodes; allowed: eight, of a hexahedron or a wedge");
+                    return Err(line.error(&message));
+                }
+                self.element(line, element, nodes, axes)?
+            }
+            Next::Fibre => {
+                let axis: [&str; 3] = card.fields([16; 3])?;
+                let [x, y, z] = axis.map(|field| line.real("a direction", field));
+                self.directions.push(Some([x?, y?, z?]));
+                Next::Second
+            }
+            Next::Second => {
+                let axis: [&str; 3] = card.fields([16; 3])?;
+                let [x, y, z] = axis.map(|field| line.real("a direction", field));
+                // Without it the card before has an angle by which the law's own axes are turned.
+                if [x?, y?, z?] == [0.0; 3] {
+                    return Err(line
+                        .error("vector d is 0; allowed: two vectors, in whose plane the fibre and another axis are"));
+                }
+                Next::Element(true)
+            }
+            Next::Title => Next::Part(line.text.trim().to_string()),
+            Next::Part(title) => {
+                let [number] = card.fields([10])?;
+                // Blank lines may stand behind the last part.
+                if title.is_empty() && number.is_empty() {
+                    Next::Title
+                } else {
+                    let number = self.numbered(line, "a part's number", number, 2)?;
+                    let name = if title.is_empty() { format!("part {number}") } else { title };
+                    self.titles.push((number, name, line.place()));
+                    Next::Title
+                }
+            }
+        };
+        Ok(())
+    }
+
+    fn begin_file(&mut self, transform: &Transform) -> Result<(), Error> {
+        self.check_last()?;
+        let Transform { place, offsets, factors: [_, _, length], transformation } = transform;
+        if *transformation != 0 {
+            let message =
+                format!("*INCLUDE_TRANSFORM with the transformation {transformation}; allowed: 0, offsets alone");
+            return Err(place.error(&message));
+        }
+        if *length != 1.0 {
+            let message =
+                format!("*INCLUDE_TRANSFORM with the factor {length} of lengths; allowed: 1, and units in [mesh]");
+            return Err(place.error(&message));
+        }
+        let before = self.offsets.last().copied().unwrap_or_default();
+        self.offsets.push(std::array::from_fn(|i| before[i] + offsets[i]));
+        Ok(())
+    }
+
+    fn end_file(&mut self) {
+        self.offsets.pop();
+    }
+}
+
+impl Reader {
+    /// That the element which was read last has all its cards.
+    fn check_last(&self) -> Result<(), Error> {
+        match (&self.next, &self.last) {
+            (Next::NodesOf(..) | Next::Fibre | Next::Second, Some(place)) => {
+                Err(place.error("an element without all its cards; allowed: its nodes, and two vectors with _ORTHO"))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// A number of a node (0), an element (1) or a part (2) with the file's offset.
+    fn numbered(&self, line: &Line<'_>, what: &str, field: &str, kind: usize) -> Result<u64, Error> {
+        let number: u64 = line.number(what, field)?;
+        let offset = self.offsets.last().map_or(0, |offsets| offsets[kind]);
+        let wrong = || line.error(&format!("{what} is {number} with an offset of {offset}; allowed: a sum from 1 on"));
+        number.checked_add_signed(offset).filter(|&sum| sum > 0 || offset == 0).ok_or_else(wrong)
+    }
+
+    fn element(&mut self, line: &Line<'_>, element: u64, nodes: [&str; 8], axes: bool) -> Result<Next, Error> {
         let mut numbers = [0; 8];
         for (number, field) in numbers.iter_mut().zip(nodes) {
-            *number = line.number(&format!("a node of element {element}"), field)?;
+            *number = self.numbered(line, &format!("a node of element {element}"), field, 0)?;
         }
-        self.mesh.add_element(line, element, numbers)?;
-        Ok(if axes { Next::Fibre(element) } else { Next::Element(false) })
+        self.mesh.add_element(line.place(), element, numbers)?;
+        if axes {
+            return Ok(Next::Fibre);
+        }
+        self.directions.push(None);
+        Ok(Next::Element(false))
     }
 
     fn finish(self) -> Result<Raw, Error> {
+        self.check_last()?;
         let mut numbers = self.part.clone();
         numbers.sort_unstable();
         numbers.dedup();
         let place = |number: &u64| numbers.binary_search(number).ok();
         let empty = self.titles.iter().find(|(number, ..)| !self.others && place(number).is_none());
-        if let Some((number, title, file, line)) = empty {
-            let line = Line { file, number: *line, text: "" };
+        if let Some((number, title, line)) = empty {
             return Err(line.error(&format!("part {number}, {title}, has no elements; allowed: a yarn's elements")));
         }
-        let name = |number: &u64| {
-            let title = self.titles.iter().find(|(part, ..)| part == number);
-            title.map_or_else(|| format!("part {number}"), |(_, title, ..)| title.clone())
-        };
+        let titles: HashMap<u64, &str> =
+            self.titles.iter().map(|(number, title, _)| (*number, title.as_str())).collect();
+        let name =
+            |number: &u64| titles.get(number).map_or_else(|| format!("part {number}"), |name| (*name).to_string());
         let yarn: Vec<Option<usize>> = self.part.iter().map(place).collect();
-        self.mesh.finish(numbers.iter().map(name).collect(), &yarn, &self.directions, PARTS)
+        let mut raw = Raw::default();
+        self.mesh.add_to(&mut raw, numbers.iter().map(name).collect(), &yarn, &self.directions, PARTS)?;
+        Ok(raw)
     }
-}
-
-/// The fields of a line: between commas, or of so many columns; empty ones where the line ends.
-fn fields<const N: usize>(text: &str, widths: [usize; N]) -> [&str; N] {
-    let mut found = [""; N];
-    if text.contains(',') {
-        found.iter_mut().zip(text.split(',')).for_each(|(field, part)| *field = part);
-        return found;
-    }
-    let mut start = 0;
-    for (field, width) in found.iter_mut().zip(widths) {
-        *field = text.get(start..(start + width).min(text.len())).unwrap_or_default();
-        start += width;
-    }
-    found
 }

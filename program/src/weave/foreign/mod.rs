@@ -5,6 +5,8 @@ pub mod bins;
 pub mod build;
 pub mod checks;
 pub mod file;
+#[cfg(test)]
+mod form_tests;
 pub mod ls_dyna;
 pub mod orient;
 pub mod raw;
@@ -12,3 +14,4 @@ pub mod reader;
 #[cfg(test)]
 mod tests;
 pub mod vtu;
+pub mod vtu_data;

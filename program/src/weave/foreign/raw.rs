@@ -1,10 +1,9 @@
 //! What a mesh file says, whatever its format.
 
 use std::collections::HashMap;
-use std::path::Path;
-use std::str::FromStr;
 
 use crate::common::error::Error;
+use crate::common::keyword_file::line::{Line, Place};
 
 /// Nodes and elements of a file, with numbers from 0.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -32,69 +31,21 @@ pub fn of_wedge<T: Copy>([a, b, c, d, e, f]: [T; 6]) -> [T; 8] {
     [a, b, c, c, d, e, f, f]
 }
 
-/// A line of a text file.
-#[derive(Clone, Copy, Debug)]
-pub struct Line<'a> {
-    pub file: &'a str,
-    /// From 1.
-    pub number: usize,
-    pub text: &'a str,
-}
-
-impl Line<'_> {
-    pub fn error(&self, message: &str) -> Error {
-        Error::Input(format!("{}:{}: {message}", self.file, self.number))
-    }
-
-    /// A field as a number.
-    ///
-    /// # Errors
-    /// It is none.
-    pub fn number<T: FromStr>(&self, what: &str, field: &str) -> Result<T, Error> {
-        field.trim().parse().map_err(|_| self.error(&format!("{what} is \"{}\"; allowed: a number", field.trim())))
-    }
-
-    /// A field as a coordinate or a component, with an exponent of Fortran's too.
-    ///
-    /// # Errors
-    /// It is no finite number.
-    pub fn real(&self, what: &str, field: &str) -> Result<f64, Error> {
-        let text = field.trim().replace(['d', 'D'], "e");
-        let wanted = || self.error(&format!("{what} is \"{}\"; allowed: a finite number", field.trim()));
-        text.parse().ok().filter(|value: &f64| value.is_finite()).ok_or_else(wanted)
-    }
-}
-
-/// The lines of a text, numbered.
-pub fn lines<'a>(file: &'a str, text: &'a str) -> impl Iterator<Item = Line<'a>> {
-    text.lines().enumerate().map(move |(i, text)| Line { file, number: i + 1, text })
-}
-
-/// The text of a file that another one names at this line.
-///
-/// # Errors
-/// It cannot be read.
-pub fn included(line: &Line<'_>, name: &str) -> Result<(String, String), Error> {
-    let place = Path::new(line.file).parent().unwrap_or(Path::new("")).join(name.trim());
-    let text = std::fs::read(&place).map_err(|error| line.error(&format!("{}: {error}", place.display())))?;
-    Ok((place.display().to_string(), String::from_utf8_lossy(&text).into_owned()))
-}
-
 /// Nodes and elements by the file's numbers, which may stand before or after what they name.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub struct Numbered {
     nodes: HashMap<u64, u32>,
-    places: Vec<[f64; 3]>,
+    pub places: Vec<[f64; 3]>,
     elements: Vec<Named>,
     /// Places in the list by the elements' numbers.
     pub element: HashMap<u64, usize>,
 }
 
+#[derive(Clone)]
 struct Named {
     number: u64,
     nodes: [u64; 8],
-    file: String,
-    line: usize,
+    place: Place,
 }
 
 impl Numbered {
@@ -102,9 +53,7 @@ impl Numbered {
     /// There is another node of this number.
     pub fn add_node(&mut self, line: &Line<'_>, number: u64, place: [f64; 3]) -> Result<(), Error> {
         if self.nodes.insert(number, self.places.len() as u32).is_some() {
-            return Err(
-                line.error(&format!("node {number} has a place already; allowed: each number once, without parts"))
-            );
+            return Err(line.error(&format!("node {number} has a place already; allowed: each number once in a part")));
         }
         self.places.push(place);
         Ok(())
@@ -112,41 +61,44 @@ impl Numbered {
 
     /// # Errors
     /// There is another element of this number.
-    pub fn add_element(&mut self, line: &Line<'_>, number: u64, nodes: [u64; 8]) -> Result<(), Error> {
+    pub fn add_element(&mut self, place: Place, number: u64, nodes: [u64; 8]) -> Result<(), Error> {
         if self.element.insert(number, self.elements.len()).is_some() {
-            let message = format!("there is an element {number} already; allowed: each number once, without parts");
-            return Err(line.error(&message));
+            let message = format!("there is an element {number} already; allowed: each number once in a part");
+            return Err(place.error(&message));
         }
-        self.elements.push(Named { number, nodes, file: line.file.to_string(), line: line.number });
+        self.elements.push(Named { number, nodes, place });
         Ok(())
     }
 
-    /// The mesh, with these yarns; `yarn` and `direction` are by the elements' places in the list.
+    /// Adds the mesh to another one, with these yarns; `yarn` and `direction` are by the elements' places in the list.
     ///
     /// # Errors
     /// An element has a node that is nowhere, or is no yarn's.
-    pub fn finish(
+    pub fn add_to(
         self,
+        raw: &mut Raw,
         yarns: Vec<String>,
         yarn: &[Option<usize>],
-        direction: &HashMap<u64, [f64; 3]>,
+        direction: &[Option<[f64; 3]>],
         parts: &str,
-    ) -> Result<Raw, Error> {
-        let mut raw = Raw { nodes: self.places, elements: Vec::with_capacity(self.elements.len()), yarns };
-        for (element, &yarn) in self.elements.iter().zip(yarn) {
-            let line = Line { file: &element.file, number: element.line, text: "" };
-            let number = element.number;
+    ) -> Result<(), Error> {
+        let (first_node, first_yarn) = (raw.nodes.len() as u32, raw.yarns.len());
+        raw.nodes.extend(self.places);
+        raw.yarns.extend(yarns);
+        for ((element, &yarn), &direction) in self.elements.iter().zip(yarn).zip(direction) {
+            let Named { number, place, .. } = element;
             let mut nodes = [0; 8];
             for (node, own) in nodes.iter_mut().zip(element.nodes) {
-                *node = *self.nodes.get(&own).ok_or_else(|| {
-                    line.error(&format!(
+                let found = self.nodes.get(&own).ok_or_else(|| {
+                    place.error(&format!(
                         "element {number} has node {own}, which the file does not have; allowed: nodes with a place"
                     ))
                 })?;
+                *node = first_node + found;
             }
-            let yarn = yarn.ok_or_else(|| line.error(&format!("element {number} is of no yarn; allowed: {parts}")))?;
-            raw.elements.push(Element { number, nodes, yarn, direction: direction.get(&number).copied() });
+            let yarn = yarn.ok_or_else(|| place.error(&format!("element {number} is of no yarn; allowed: {parts}")))?;
+            raw.elements.push(Element { number: *number, nodes, yarn: first_yarn + yarn, direction });
         }
-        Ok(raw)
+        Ok(())
     }
 }

@@ -9,6 +9,7 @@ use super::file::MeshFile;
 use super::raw::Raw;
 use super::{abaqus, ls_dyna, vtu};
 use crate::common::error::Error;
+use crate::common::keyword_file::files::text;
 use crate::common::toml_file::Source;
 use crate::common::unit_expression::Unit;
 use crate::common::units::{LENGTH, number};
@@ -57,13 +58,46 @@ impl fmt::Debug for Foreign {
 }
 
 impl Foreign {
+    /// The least and the largest x, and the same of y.
+    pub fn extent(&self) -> [[f64; 2]; 2] {
+        [0, 1].map(|axis| {
+            let places = self.model.nodes.iter().map(|node| node[axis]);
+            places.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], at| [low.min(at), high.max(at)])
+        })
+    }
+
+    /// What to say of a blow that is nearer to an edge of a whole mesh than to its middle; `length` is the unit.
+    pub fn off_middle(&self, blow: [f64; 2], length: &str) -> Option<String> {
+        let extent = self.extent();
+        let middle = extent.map(|[low, high]| 0.5 * (low + high));
+        let is_off = |axis: usize| (blow[axis] - middle[axis]).abs() > 0.25 * (extent[axis][1] - extent[axis][0]);
+        (self.part == Part::Whole && (is_off(0) || is_off(1))).then(|| {
+            let target = self.nearest_crossing(middle).unwrap_or(middle);
+            let shift = [0, 1].map(|axis| number(blow[axis] - target[axis])).join(", ");
+            let [x, y] = extent.map(|ends| ends.map(number).join(" to "));
+            format!(
+                "the blow is at ({}) {length}, nearer to an edge of the mesh than to its middle, x from {x} and y from {y}:\n\
+                 add [{shift}] to mesh.shift, and it is at the crossing that is nearest to the middle",
+                blow.map(number).join(", ")
+            )
+        })
+    }
+
+    fn nearest_crossing(&self, place: [f64; 2]) -> Option<[f64; 2]> {
+        let crossings = self.model.crossings.iter().map(|crossing| crossing.place);
+        let distance = |[x, y]: &[f64; 2]| (x - place[0]).hypot(y - place[1]);
+        crossings.min_by(|a, b| distance(a).total_cmp(&distance(b)))
+    }
+
     /// Names and values for the terminal; `length` is the unit.
     pub fn rows(&self, length: &str) -> Vec<(&'static str, String)> {
-        let nearest = self.model.crossings.iter().map(|crossing| crossing.place);
-        let nearest = nearest.min_by(|a, b| a[0].hypot(a[1]).total_cmp(&b[0].hypot(b[1])));
         let [warp, weft] = self.pitch.map(number);
-        let mut rows = vec![("pitch of warp and weft", format!("{warp} {length}, {weft} {length}"))];
-        if let Some([x, y]) = nearest {
+        let [x, y] = self.extent().map(|ends| ends.map(number).join(" to "));
+        let mut rows = vec![
+            ("pitch of warp and weft", format!("{warp} {length}, {weft} {length}")),
+            ("extent", format!("x from {x} {length}, y from {y} {length}")),
+        ];
+        if let Some([x, y]) = self.nearest_crossing([0.0; 2]) {
             rows.push(("crossing nearest to the origin", format!("({}, {}) {length}", number(x), number(y))));
         }
         rows.extend(self.checks.rows(length));
@@ -82,13 +116,12 @@ impl Source<'_> {
         let name = keys.file.as_ref().ok_or_else(|| self.error(table.span(), missing))?;
         let place = self.folder().join(name.get_ref());
         let file = place.display().to_string();
-        let text = std::fs::read(&place).map_err(|error| self.error(name.span(), &format!("{file}: {error}")))?;
-        let text = String::from_utf8_lossy(&text);
+        let bytes = std::fs::read(&place).map_err(|error| self.error(name.span(), &format!("{file}: {error}")))?;
         let ending = place.extension().and_then(|ending| ending.to_str()).unwrap_or_default().to_lowercase();
         let mut raw = match ending.as_str() {
-            "inp" => abaqus::read(&file, &text)?,
-            "k" | "key" | "dyn" => ls_dyna::read(&file, &text)?,
-            "vtu" => vtu::read(&file, &text)?,
+            "inp" => abaqus::read(&file, &text(&bytes))?,
+            "k" | "key" | "dyn" => ls_dyna::read(&file, &text(&bytes))?,
+            "vtu" => vtu::read(&file, &bytes)?,
             _ => {
                 let message = format!("mesh.file is \"{}\"; allowed: .inp, .k, .key or .vtu", name.get_ref());
                 return Err(self.error(name.span(), &message));

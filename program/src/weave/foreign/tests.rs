@@ -2,38 +2,43 @@
 
 use std::fmt::Write;
 use std::path::PathBuf;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use super::reader::Foreign;
 use crate::common::error::Error;
+use crate::common::units::number;
 use crate::weave::cloth::Cloth;
 use crate::weave::figures::Figures;
 use crate::weave::model::Model;
 use crate::weave::reader::Scene;
+use crate::weave::report::section_warnings;
 use crate::weave::vtu;
+use toron::host::units::UnitSystem;
 
 /// Four straight yarns: the weft lies on the warp, which is 0.1 high; all have a pitch of 1, are 3 long, and have three columns, the
 /// outer ones wedges of half the width.
-struct Cross {
-    nodes: Vec<[f64; 3]>,
-    elements: Vec<Solid>,
+pub(super) struct Cross {
+    pub nodes: Vec<[f64; 3]>,
+    pub elements: Vec<Solid>,
 }
 
-struct Solid {
+pub(super) struct Solid {
     yarn: usize,
-    nodes: Vec<usize>,
+    pub nodes: Vec<usize>,
     direction: [f64; 3],
 }
 
-const LAYERS: usize = 6;
+pub(super) const LAYERS: usize = 6;
 const LENGTH: f64 = 3.0;
 const HEIGHT: f64 = 0.1;
 /// Across and upwards: the tip, below and above at the left, at the right, the tip.
-const SECTION: [[f64; 2]; 6] = [[-0.3, 0.0], [-0.1, -0.05], [-0.1, 0.05], [0.1, -0.05], [0.1, 0.05], [0.3, 0.0]];
+pub(super) const SECTION: [[f64; 2]; 6] =
+    [[-0.3, 0.0], [-0.1, -0.05], [-0.1, 0.05], [0.1, -0.05], [0.1, 0.05], [0.3, 0.0]];
 /// By places in the section: around a triangle, a quadrangle and a triangle, as one looks along the yarn.
 const PIECES: [&[usize]; 3] = [&[0, 2, 1], &[1, 2, 4, 3], &[3, 4, 5]];
 
 impl Cross {
-    fn new(gap: f64) -> Cross {
+    pub(super) fn new(gap: f64) -> Cross {
         let mut cross = Cross { nodes: Vec::new(), elements: Vec::new() };
         for (yarn, (family, coordinate)) in [(0, -0.5), (0, 0.5), (1, -0.5), (1, 0.5)].into_iter().enumerate() {
             let first = cross.nodes.len();
@@ -59,7 +64,7 @@ impl Cross {
     }
 
     /// Abaqus, as TexGen has it: an element set and a section a yarn, directions in a file of their own.
-    fn abaqus(&self, directions: &str) -> String {
+    pub(super) fn abaqus(&self, directions: &str) -> String {
         let mut text = "*Heading\nby hand\n*Node\n".to_string();
         for (number, [x, y, z]) in (1..).zip(&self.nodes) {
             let _ = writeln!(text, "{number}, {x}, {y}, {z}");
@@ -83,7 +88,7 @@ impl Cross {
         text
     }
 
-    fn directions(&self) -> String {
+    pub(super) fn directions(&self) -> String {
         let line = |(number, solid): (usize, &Solid)| {
             let [x, y, z] = solid.direction;
             format!("{number}, {x}, {y}, {z}, 0, 0, 1\n")
@@ -95,7 +100,7 @@ impl Cross {
     }
 
     /// LS-DYNA: a part a yarn, wedges with nodes 5 and 6, 7 and 8 alike.
-    fn ls_dyna(&self) -> String {
+    pub(super) fn ls_dyna(&self) -> String {
         let mut text = "*KEYWORD\n$ by hand\n*NODE\n".to_string();
         for (number, [x, y, z]) in (1..).zip(&self.nodes) {
             let _ = writeln!(text, "{number:>8}{x:>16.9}{y:>16.9}{z:>16.9}");
@@ -121,16 +126,20 @@ impl Cross {
 }
 
 fn folder(name: &str) -> PathBuf {
-    let folder = std::env::temp_dir().join(format!("toron-foreign-{name}-{}", std::process::id()));
+    static COUNT: AtomicUsize = AtomicUsize::new(0);
+    let [process, count] = [std::process::id() as usize, COUNT.fetch_add(1, Ordering::Relaxed)];
+    let folder = std::env::temp_dir().join(format!("toron-foreign-{name}-{process}-{count}"));
     std::fs::create_dir_all(&folder).expect("a folder");
     folder
 }
 
 /// The panel of a scene beside these files; further keys go into `[mesh]`.
-fn read(name: &str, files: &[(&str, &str)], keys: &str) -> Result<Foreign, Error> {
+pub(super) fn read<T: AsRef<[u8]>>(name: &str, files: &[(&str, T)], keys: &str) -> Result<Foreign, Error> {
     let folder = folder(name);
     for (file, text) in files {
-        std::fs::write(folder.join(file), text).expect("a file");
+        let place = folder.join(file);
+        std::fs::create_dir_all(place.parent().expect("a folder")).expect("a folder");
+        std::fs::write(place, text).expect("a file");
     }
     let scene = folder.join("scene.toml");
     let text = format!("units = \"mm-tonne-s\"\n[mesh]\nfile = \"{}\"\n{keys}\n", files[0].0);
@@ -143,12 +152,12 @@ fn read(name: &str, files: &[(&str, &str)], keys: &str) -> Result<Foreign, Error
 }
 
 #[track_caller]
-fn refused(files: &[(&str, &str)], keys: &str, message: &str) {
+pub(super) fn refused<T: AsRef<[u8]>>(files: &[(&str, T)], keys: &str, message: &str) {
     let error = read("refused", files, keys).map(|_| ()).expect_err(message).to_string();
     assert!(error.contains(message), "{message}: {error}");
 }
 
-fn check(foreign: &Foreign) {
+pub(super) fn check(foreign: &Foreign) {
     let Foreign { model, figures, checks, .. } = foreign;
     assert_eq!((figures.yarns, figures.elements, figures.nodes), ([2, 2], 72, 168));
     assert_eq!((checks.wedges, checks.inside_out, checks.overlapping.len()), (48, 0, 0));
@@ -159,7 +168,7 @@ fn check(foreign: &Foreign) {
     assert!(near(checks.clearance, 0.01) && checks.heights.iter().all(|&height| near(height, HEIGHT)), "{checks:?}");
     assert!(checks.off_element < 1e-5 && checks.off_yarn.0 < 1e-5, "{checks:?}");
     let coordinates: Vec<f64> = model.yarns.iter().map(|yarn| yarn.coordinate).collect();
-    assert_eq!(coordinates, [-0.5, 0.5, -0.5, 0.5]);
+    assert!(coordinates.iter().zip([-0.5, 0.5, -0.5, 0.5]).all(|(&found, own)| near(found, own)), "{coordinates:?}");
     assert_eq!(model.yarns.iter().map(|yarn| yarn.number).collect::<Vec<_>>(), [-1, 0, -1, 0]);
     assert!(model.crossings.len() == 4 && model.crossings.iter().all(|crossing| !crossing.warp_is_over));
     // A yarn has eight faces around it in each layer, less the four that its elements share; its ends are the rim.
@@ -251,6 +260,38 @@ fn yarns_that_go_into_each_other_are_counted_and_refused() {
 }
 
 #[test]
+fn a_blow_beside_the_middle_is_said_with_the_shift_that_mends_it() {
+    let cross = read("aimed", &[("cross.k", &Cross::new(0.01).ls_dyna())], "").expect("a panel");
+    for blow in [[0.0, 0.0], [0.7, -0.7]] {
+        assert_eq!(cross.off_middle(blow, "mm"), None);
+    }
+    let text = cross.off_middle([-0.5, -1.5], "mm").expect("a warning");
+    let wanted = "the blow is at (-0.5000, -1.500) mm, nearer to an edge of the mesh than to its middle, x from -1.500";
+    assert!(text.starts_with(wanted), "{text}");
+    // The crossing at (-0.5, -0.5) comes to it.
+    assert!(text.contains("add [0, -1.000] to mesh.shift"), "{text}");
+    let shifted = read("aimed", &[("cross.k", &Cross::new(0.01).ls_dyna())], "shift = [0.0, -1.0]").expect("a panel");
+    assert_eq!(shifted.off_middle([-0.5, -1.5], "mm"), None);
+}
+
+#[test]
+fn a_mesh_in_inches_has_sections_of_no_yarn() {
+    let units = UnitSystem::parse("mm-tonne-s").expect("units");
+    let warning = |foreign: &Foreign| section_warnings(&foreign.figures, foreign.pitch, &units).into_iter().next();
+    let cross = read("mm", &[("cross.k", &Cross::new(0.01).ls_dyna())], "").expect("a panel");
+    assert_eq!(warning(&cross), None);
+    for factor in [1.0 / 25.4, 25.4] {
+        let mut model = cross.model.clone();
+        model.nodes.iter_mut().flatten().for_each(|x| *x *= factor);
+        let scaled = read("in", &[("cross.vtu", &vtu::unstructured_grid(&model))], "").expect("a panel");
+        let text = warning(&scaled).expect("a warning");
+        // 0.04 mm² of 1400 kg/m³ are 560 dtex.
+        let dtex = number(560.0 * factor * factor);
+        assert!(text.starts_with("taken to have 1400 kg/m³, ") && text.contains(&dtex), "{dtex}: {text}");
+    }
+}
+
+#[test]
 fn a_wrong_file_is_refused_by_name() {
     let cross = Cross::new(0.01);
     let (abaqus, ls_dyna) = (cross.abaqus(""), cross.ls_dyna());
@@ -325,9 +366,9 @@ fn a_wrong_file_is_refused_by_name() {
     refused(&[("gap.vtu", &one)], "", "has a gap along x beside element");
     let k = |text: &str, message: &str| refused(&[("cross.k", text)], "", message);
     k(&ls_dyna.replace("*END", "*PART\nempty\n        99\n*END"), "part 99, empty, has no elements");
-    k(&ls_dyna.replace("*KEYWORD", "*KEYWORD LONG=Y"), "cross.k:1: LONG=Y; allowed: the standard format");
+    k(&ls_dyna.replace("*KEYWORD", "*KEYWORD LONG=Y"), "cross.k:4: x is \"0000    -0.200000000\"");
     let vtu = |text: &str, message: &str| refused(&[("cross.vtu", text)], "", message);
-    vtu(&own.replace("format=\"ascii\"", "format=\"binary\""), "has the format binary; allowed: ascii");
+    vtu(&own.replace("format=\"ascii\"", "format=\"binary\""), "array position is no base64");
     vtu(&own.replace("Name=\"yarn\"", "Name=\"thread\""), "CellData has no array yarn");
     vtu("<VTKFile>", "cross.vtu");
     // One yarn is two.

@@ -1,46 +1,52 @@
-//! VTU files as `toron weave` writes them: hexahedra and wedges with the number of their yarn and the direction of their fibres, as text.
+//! VTU files with hexahedra and wedges, the number of their yarn and the direction of their fibres: those of `toron
+//! weave`, meshio and ParaView.
 
 use nalgebra::Vector3;
 use roxmltree::{Document, Node};
 
-use super::raw::{Element, Line, Raw, of_wedge};
+use super::raw::{Element, Raw, of_wedge};
+use super::vtu_data::{Appended, Encoding};
 use crate::common::error::Error;
+use crate::common::keyword_file::files::text;
+use crate::common::keyword_file::line::{Line, Place};
 
-const HEXAHEDRON: u8 = 12;
-const WEDGE: u8 = 13;
+const HEXAHEDRON: u64 = 12;
+const WEDGE: u64 = 13;
 
 /// # Errors
 /// What in the file is wrong, by line.
-pub fn read(file: &str, text: &str) -> Result<Raw, Error> {
-    let document = Document::parse(text).map_err(|error| Error::Input(format!("{file}: {error}")))?;
+pub fn read(file: &str, bytes: &[u8]) -> Result<Raw, Error> {
+    let wrong = |message: String| Error::Input(format!("{file}: {message}"));
+    let (xml, appended) = Appended::split(bytes);
+    let xml = text(&xml);
+    let document = Document::parse(&xml).map_err(|error| wrong(error.to_string()))?;
     if let Some(piece) = document.descendants().filter(|node| node.has_tag_name("Piece")).nth(1) {
         let row = document.text_pos_at(piece.range().start).row;
         return Err(Error::Input(format!("{file}:{row}: a second Piece; allowed: one")));
     }
-    let reader = Reader { file, document: &document };
+    let encoding = Encoding::of(document.root_element()).map_err(wrong)?;
+    let reader = Reader { file, document: &document, encoding, appended };
     let [points, connectivity, offsets, types] = [
         reader.array("Points", None)?,
         reader.array("Cells", Some("connectivity"))?,
         reader.array("Cells", Some("offsets"))?,
         reader.array("Cells", Some("types"))?,
     ];
-    let places: Vec<f64> = reader.numbers(&points)?;
-    let (connectivity, offsets): (Vec<u32>, Vec<usize>) = (reader.numbers(&connectivity)?, reader.numbers(&offsets)?);
-    let types: Vec<u8> = reader.numbers(&types)?;
-    let of_yarn = reader.array("CellData", Some("yarn"))?;
-    let yarn: Vec<u64> = reader.numbers(&of_yarn)?;
+    let places: Vec<f64> = reader.reals(&points)?;
+    let [connectivity, offsets, types] =
+        [reader.integers(&connectivity)?, reader.integers(&offsets)?, reader.integers(&types)?];
+    let yarn = reader.integers(&reader.array("CellData", Some("yarn"))?)?;
     let fibre = reader.array("CellData", Some("fibre")).ok();
-    let fibre: Vec<f64> = fibre.map_or(Ok(Vec::new()), |fibre| reader.numbers(&fibre))?;
+    let fibre: Vec<f64> = fibre.map_or(Ok(Vec::new()), |fibre| reader.reals(&fibre))?;
     let count = offsets.len();
     for (name, found, wanted) in [
+        ("Points", places.len(), places.len() / 3 * 3),
         ("types", types.len(), count),
         ("yarn", yarn.len(), count),
         ("fibre", fibre.len(), if fibre.is_empty() { 0 } else { 3 * count }),
     ] {
         if found != wanted {
-            return Err(Error::Input(format!(
-                "{file}: {name} has {found} numbers; allowed: {wanted}, for {count} cells"
-            )));
+            return Err(wrong(format!("{name} has {found} numbers; allowed: {wanted}, for {count} cells")));
         }
     }
     let mut numbers = yarn.clone();
@@ -50,10 +56,15 @@ pub fn read(file: &str, text: &str) -> Result<Raw, Error> {
     let yarns = numbers.iter().map(|number| format!("yarn {number}")).collect();
     let mut raw = Raw { nodes, elements: Vec::with_capacity(count), yarns };
     for cell in 0..count {
-        let start = if cell == 0 { 0 } else { offsets[cell - 1] };
-        let own = connectivity.get(start..offsets[cell]).unwrap_or_default();
-        let wrong = |message: &str| Err(Error::Input(format!("{file}: cell {cell} {message}")));
-        let nodes = match (types[cell], own) {
+        let start = if cell == 0 { 0 } else { offsets[cell - 1] } as usize;
+        let own = connectivity.get(start..offsets[cell] as usize).unwrap_or_default();
+        let wrong = |message: &str| Err(wrong(format!("cell {cell} {message}")));
+        if let Some(node) = own.iter().find(|&&node| node as usize >= raw.nodes.len()) {
+            let points = raw.nodes.len();
+            return wrong(&format!("has node {node}, which the file does not have; allowed: less than {points}"));
+        }
+        let own: Vec<u32> = own.iter().map(|&node| node as u32).collect();
+        let nodes = match (types[cell], &own[..]) {
             (HEXAHEDRON, &[a, b, c, d, e, f, g, h]) => [a, b, c, d, e, f, g, h],
             // Files differ in the sense in which they go around a wedge's triangles.
             (WEDGE, &[a, b, c, d, e, f]) if goes_around(&raw.nodes, [a, b, c, d]) => of_wedge([a, b, c, d, e, f]),
@@ -65,10 +76,6 @@ pub fn read(file: &str, text: &str) -> Result<Raw, Error> {
                 ));
             }
         };
-        if let Some(node) = nodes.iter().find(|&&node| node as usize >= raw.nodes.len()) {
-            let points = raw.nodes.len();
-            return wrong(&format!("has node {node}, which the file does not have; allowed: less than {points}"));
-        }
         raw.elements.push(Element {
             number: cell as u64,
             nodes,
@@ -81,14 +88,15 @@ pub fn read(file: &str, text: &str) -> Result<Raw, Error> {
 
 /// Whether the first triangle goes around the way to the fourth node as solvers have it.
 fn goes_around(nodes: &[[f64; 3]], corners: [u32; 4]) -> bool {
-    let place = |node: u32| nodes.get(node as usize).map_or_else(Vector3::zeros, |&place| Vector3::from(place));
-    let [a, b, c, d] = corners.map(place);
+    let [a, b, c, d] = corners.map(|node| Vector3::from(nodes[node as usize]));
     (b - a).cross(&(c - a)).dot(&(d - a)) >= 0.0
 }
 
 struct Reader<'a> {
     file: &'a str,
     document: &'a Document<'a>,
+    encoding: Encoding,
+    appended: Option<Appended<'a>>,
 }
 
 impl<'a> Reader<'a> {
@@ -105,16 +113,65 @@ impl<'a> Reader<'a> {
         })
     }
 
-    fn numbers<T: std::str::FromStr>(&self, array: &Node<'a, 'a>) -> Result<Vec<T>, Error> {
-        let number = self.document.text_pos_at(array.range().start).row as usize;
-        let line = Line { file: self.file, number, text: "" };
-        let format = array.attribute("format").unwrap_or("ascii");
-        if format != "ascii" {
-            let name = array.attribute("Name").unwrap_or_default();
-            return Err(line.error(&format!("array {name} has the format {format}; allowed: ascii")));
+    fn reals(&self, array: &Node<'a, 'a>) -> Result<Vec<f64>, Error> {
+        match self.bytes(array)? {
+            Some((bytes, place)) => {
+                let kind = array.attribute("type").unwrap_or_default();
+                self.encoding.reals(kind, &bytes).map_err(|message| place.error(&self.of_array(array, &message)))
+            }
+            None => self.written(array),
         }
-        let name = array.attribute("Name").unwrap_or("of numbers");
-        let fields = array.text().unwrap_or_default().split_whitespace();
-        fields.map(|field| line.number(&format!("an entry of array {name}"), field)).collect()
     }
+
+    fn integers(&self, array: &Node<'a, 'a>) -> Result<Vec<u64>, Error> {
+        match self.bytes(array)? {
+            Some((bytes, place)) => {
+                let kind = array.attribute("type").unwrap_or_default();
+                self.encoding.integers(kind, &bytes).map_err(|message| place.error(&self.of_array(array, &message)))
+            }
+            None => self.written(array),
+        }
+    }
+
+    fn of_array(&self, array: &Node<'a, 'a>, message: &str) -> String {
+        format!("array {} {message}", array.attribute("Name").unwrap_or("of numbers"))
+    }
+
+    fn place(&self, array: &Node<'a, 'a>) -> Place {
+        Place { file: self.file.into(), line: self.document.text_pos_at(array.range().start).row as usize }
+    }
+
+    /// The numbers of an array as they are in memory, and where it is; none of one that is text.
+    fn bytes(&self, array: &Node<'a, 'a>) -> Result<Option<(Vec<u8>, Place)>, Error> {
+        let place = self.place(array);
+        let bytes = match array.attribute("format").unwrap_or("ascii") {
+            "ascii" => return Ok(None),
+            "binary" => self.encoding.from_text(&contents(array)),
+            "appended" => {
+                let offset = array.attribute("offset").and_then(|offset| offset.parse::<usize>().ok());
+                let next = |array: Node<'a, 'a>| array.attribute("offset")?.parse::<usize>().ok();
+                let end = self.document.descendants().filter_map(next).filter(|&next| Some(next) > offset).min();
+                match (offset, &self.appended) {
+                    (Some(offset), Some(appended)) => self.encoding.appended(appended, offset, end),
+                    _ => Err("has no data; allowed: an offset, and AppendedData".to_string()),
+                }
+            }
+            other => Err(format!("has the format {other}; allowed: ascii, binary, appended")),
+        };
+        let bytes = bytes.map_err(|message| place.error(&self.of_array(array, &message)))?;
+        Ok(Some((bytes, place)))
+    }
+
+    /// The numbers of an array that is text.
+    fn written<T: std::str::FromStr>(&self, array: &Node<'a, 'a>) -> Result<Vec<T>, Error> {
+        let (place, text) = (self.place(array), contents(array));
+        let line = Line { file: &place.file, number: place.line, text: "" };
+        let name = self.of_array(array, "").trim_end().to_string();
+        text.split_whitespace().map(|field| line.number(&format!("an entry of {name}"), field)).collect()
+    }
+}
+
+/// The text of an array, which may have notes among it.
+fn contents(array: &Node<'_, '_>) -> String {
+    array.children().filter(Node::is_text).filter_map(|child| child.text()).collect()
 }
