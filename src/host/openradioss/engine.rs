@@ -368,8 +368,7 @@ impl<T: Precision> Group<T> {
             *self.row(layout.law.alive).add(i) = T::splat(0.0);
             let deleted = self.row(layout.deleted()).add(i);
             let known = (*deleted).into();
-            // NaN is none.
-            if !(known < 0.0 || known > 0.0) {
+            if known == 0.0 || known.is_nan() {
                 *deleted = T::splat(reason);
             }
         }
