@@ -202,9 +202,9 @@ mod tests {
             Scene::parse("patch.toml", &text).map(|scene| scene.cases[0].mass).map_err(|error| error.to_string())
         };
         assert_eq!(with("7.7e-3"), Ok(0.692));
-        let refused = "patch.toml:12: mass is 0.692, and striker-density 0.0027 with the sizes of the sphere makes 0.2425; allowed: one";
+        let refused = "patch.toml:13: mass is 0.692, and striker-density 0.0027 with the sizes of the sphere makes 0.2425; allowed: one";
         assert!(with("2.7e-3").is_err_and(|error| error.starts_with(refused)), "{:?}", with("2.7e-3"));
-        let wrong = "patch.toml:15: striker-density is 7.7; allowed: what solids have, 1.000e-4 to 0.02300";
+        let wrong = "patch.toml:16: striker-density is 7.7; allowed: what solids have, 1.000e-4 to 0.02300";
         assert!(with("7.7").is_err_and(|error| error.starts_with(wrong)), "{:?}", with("7.7"));
     }
 }
