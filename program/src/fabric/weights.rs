@@ -177,8 +177,8 @@ mod tests {
         for part in ["sphere 7706 kg/m³; panel 0.17", " kg/m²; warp and weft 651.", " dtex of 1351 kg/m³"] {
             assert!(said.contains(part), "{said}");
         }
-        let thick = "[weave.warp]\npitch = 1.5\nwidth = 0.3\nheight = 0.35";
-        let inches = "[weave.warp]\npitch = 0.0294\nwidth = 0.021\nheight = 0.0045";
+        let thick = "pattern = \"plain\"\n[weave.warp]\npitch = 1.5\nwidth = 0.3\nheight = 0.35";
+        let inches = "pattern = \"plain\"\n[weave.warp]\npitch = 0.0294\nwidth = 0.021\nheight = 0.0045";
         let tungsten = BLOW.replace("mass = 0.692", "striker-density = 19.2e-3");
         for (text, word, part) in [
             (scene(3.0, PRESET, &BLOW.replace("2.778", "5.556")), "striker", "is radius the diameter?"),
