@@ -258,7 +258,7 @@ fn input_errors_name_file_line_and_what_was_expected() {
         ),
         (HEAD.to_string(), 1, "no [[step]]"),
         (format!("{HEAD}[[point]]\nname = \"a b\"\n{step}"), 5, "point \"a b\"; allowed: a name of its own"),
-        (format!("{HEAD}[[point]]\nname = \"a\"\n[[point]]\nname = \"a\"\n{step}"), 6, "a name of its own"),
+        (format!("{HEAD}[[point]]\nname = \"a\"\n[[point]]\nname = \"a\"\n{step}"), 7, "a name of its own"),
         (format!("units = \"mm-kg\"\n{step}"), 1, "unit system \"mm-kg\"; allowed: length-mass-time"),
         (
             format!("units = \"si\"\n[material]\npreset = \"kevlar\"\n{step}"),
