@@ -518,8 +518,8 @@ static void vumat_wrong_calls(void)
 /* A group that is refused is left as it is, and so is what a card that is refused would be written to. */
 static void openradioss_wrong_calls(void)
 {
-    enum { NEL = 3, NUVAR = 15, NUPARAM = 14, CARD = 13 };
-    static const char *const words[] = {"NUVAR: 14 given, 15 needed", "argument density is 0.0; allowed: " DENSITIES_TEXT,
+    enum { NEL = 3, NUVAR = 18, NUPARAM = 14, CARD = 13 };
+    static const char *const words[] = {"NUVAR: 17 given, 18 needed", "argument density is 0.0; allowed: " DENSITIES_TEXT,
                                         "property 2 (k_tc, transverse compaction stiffness) is -1.0; allowed: a number from 0 to 1e25",
                                         "argument coordinates of the nodes (MAT_SOLID_GET_NOD_X) is null"};
     static const int32_t wanted[] = {TORON_STATE_COUNT, TORON_BAD_ARGUMENT, TORON_PROPERTY_OUT_OF_BOUNDS, TORON_NULL_ARGUMENT};
@@ -546,7 +546,7 @@ static void openradioss_wrong_calls(void)
     }
     release();
     for (int wrong = 0; wrong < 4; wrong++) {
-        static const char *const of_card[] = {"argument count is -1; allowed: 0 to " MOST_TEXT, "MAXUPARAM: 5 given, 15 needed",
+        static const char *const of_card[] = {"argument count is -1; allowed: 0 to " MOST_TEXT, "MAXUPARAM: 5 given, 14 needed",
                                               "number of values on the card, five a line: 3 given, 11 needed",
                                               "argument nn of /MAT/USERnn is 9; allowed: 1 (USER01, hyperelastic yarn law), 2 (USER02, "
                                               "linear elastic law)"};
