@@ -1651,9 +1651,7 @@ int32_t toron_abaqus_linear_umat_f64(double *stress,
  such a code has zero stress, keeps its energies and invariants, and is marked as failed and deleted. State variables
  behind those of the law are copied; `ener_inelas_new` is `ener_inelas_old`, or 0 where that is not finite.
  */
-int32_t toron_abaqus_vumat_f64(const struct toron_vumat_f64 *block,
-                               char *message,
-                               size_t capacity);
+int32_t toron_abaqus_vumat_f64(const struct toron_vumat_f64 *block, char *message, size_t capacity);
 
 /*
  As `toron_abaqus_vumat_f64`, for jobs in single precision.

@@ -520,7 +520,7 @@ static void openradioss(size_t n, int32_t law, int fibre_from, int with_limit, r
     static real values[24 * MOST];
     real card[16] = {0}, uparam[64], modulus;
     int32_t nuparam, nuvar;
-    const size_t count = law == 1 ? PROPERTIES : LINEAR_PROPERTIES, options = law == 1 ? 3 : 5;
+    const size_t count = law == 1 ? PROPERTIES : LINEAR_PROPERTIES, options = law == 1 ? 2 : 4;
     memcpy(card, law == 1 ? properties : linear_properties, count * sizeof(real));
     card[count] = (real)fibre_from, card[count + options - 1] = (real)with_limit;
     const int32_t read = ENTRY(toron_openradioss_lecm)(law, card, count + options, uparam, 64, &nuparam, &nuvar, &modulus, NULL, 0);
