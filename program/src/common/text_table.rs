@@ -40,8 +40,8 @@ pub fn shortened(name: &str, longest: usize) -> String {
     }
 }
 
-/// The table without columns that apply to nothing; columns for which a line of this width has no room stand in tables below it, each of
-/// which begins with the first column. Words stand on the left of their column, numbers on the right.
+/// The table without columns that apply to nothing; columns for which a line of this width has no room stand in tables
+/// below it, each of which begins with the first column. Words stand on the left of their column, numbers on the right.
 pub fn table(columns: Vec<Column>, widest: usize) -> String {
     let columns: Vec<Column> = columns.into_iter().filter(Column::applies).collect();
     if is_json() {

@@ -56,8 +56,8 @@ impl Source<'_> {
         })
     }
 
-    /// The name of a case, or of another of several `what`, out of which its files' names are made; `taken` are the names that are there
-    /// already.
+    /// The name of a case, or of another of several `what`, out of which its files' names are made; `taken` are the
+    /// names that are there already.
     ///
     /// # Errors
     /// There is none, files cannot be named by it, or they would be called as those of one that is taken.

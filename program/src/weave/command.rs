@@ -12,7 +12,8 @@ use crate::common::run_directory::{RunDirectory, Writes, file_error};
 /// What the files are called.
 const NAME: &str = "weave";
 
-/// Meshes the panel of a scene, which was read from `path`, prints its figures, and writes the mesh and a picture of it to the directory `output`.
+/// Meshes the panel of a scene, which was read from `path`, prints its figures, and writes the mesh and a picture of it
+/// to the directory `output`.
 ///
 /// # Errors
 /// The input, or a file that cannot be written.
