@@ -372,6 +372,12 @@ fn openradioss<L: Limited>(number: i32, options: &[f64], variables: usize) {
     assert!(text.contains("limit_from = 1") && text.contains(&format!("       {variables} limit\n")), "{text}");
     let error = read(laws, number, &with(0.03, 2.0), &mut [0.0; 40]).expect_err("no such option");
     assert_eq!(error.code(), status::BAD_ARGUMENT);
+    // And so does the message, by the same number.
+    let said = format!("{variables} of USER0{number}");
+    assert!(
+        error.to_string().contains("initial user variable limit, ") && error.to_string().contains(&said),
+        "{error}"
+    );
 }
 
 #[test]

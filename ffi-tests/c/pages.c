@@ -643,7 +643,7 @@ static int32_t reads_a_page(const void *array)
 
 enum { STACK = 1 << 18 };
 
-/* What docs/guides/c.md promises, without and with modes or a tangent, and 8 KiB for this program's own functions. */
+/* What docs/guides/c.md promises, without and with modes or a tangent, and 8 KiB for the thread's own functions here. */
 static const size_t allowed[2] = {(52 + 8) << 10, (60 + 8) << 10};
 static int with_tangents;
 

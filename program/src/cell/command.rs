@@ -61,7 +61,7 @@ pub fn run(path: &Path, output: &Path, ccx: Option<&Path>, restart: bool) -> Res
         return Err(Error::Input(message.to_string()));
     }
     let own = ["fit", "parameters"].into_iter().chain(scene.loads.iter().map(|load| load.name()));
-    let writes = Writes { command: "cell", scene: Some(path), names: own.map(String::from).collect(), restart };
+    let writes = Writes { command: "cell", files: vec![path], names: own.map(String::from).collect(), restart };
     let _directory = RunDirectory::open(output, writes)?;
     let fit = output.join(FIT);
     // One of an earlier run would stand beside other tables.

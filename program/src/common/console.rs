@@ -61,10 +61,14 @@ pub fn finish(command: &str, version: &str) {
 }
 
 /// A table in a text that is printed as JSON: the two lines of each heading, and rows of numbers, texts, or null where
-/// a column does not apply.
-pub fn table_record(columns: &[Column]) -> String {
+/// a column does not apply. Columns of words have no numbers, whatever a case is called, and the first of them says what each row is of.
+pub fn table_record(columns: &[Column], is_words: impl Fn(&Column) -> bool) -> String {
     let rows = columns.first().map_or(0, |column| column.entries.len());
-    let row = |i: usize| columns.iter().map(|column| cell(&column.entries[i])).collect::<Vec<_>>();
+    let entry = |(place, column): (usize, &Column), i: usize| match column.entries[i].as_str() {
+        word if is_words(column) && (place == 0 || word != NONE) => word.into(),
+        text => cell(text),
+    };
+    let row = |i: usize| columns.iter().enumerate().map(|column| entry(column, i)).collect::<Vec<Value>>();
     let headings: Vec<_> = columns.iter().map(|column| &column.heading).collect();
     record(&json!({"columns": headings, "rows": (0..rows).map(row).collect::<Vec<_>>()}))
 }
@@ -143,7 +147,8 @@ mod tests {
             heading: heading.map(str::to_string),
             entries: entries.map(str::to_string).to_vec(),
         };
-        let table = table_record(&[column(["case", ""], ["a", "b"]), column(["residual", "m/s"], ["12.5", NONE])]);
+        let columns = [column(["case", ""], ["a", "b"]), column(["residual", "m/s"], ["12.5", NONE])];
+        let table = table_record(&columns, Column::is_words);
         let list = value_record("law", "hyperelastic") + &value_record("index", "1e-3");
         let printed = format!("A title\n\n{table}\n  words\n{list}between\n{}", value_record("last", "inf"));
         assert_eq!(
@@ -159,5 +164,24 @@ mod tests {
                 "text": ["A title", "words", "between"],
             })
         );
+    }
+
+    #[test]
+    fn names_of_cases_are_no_numbers() {
+        let column = |heading: [&str; 2], entries: [&str; 3]| Column {
+            heading: heading.map(str::to_string),
+            entries: entries.map(str::to_string).to_vec(),
+        };
+        let columns = [
+            column(["case", ""], ["060", "1e3", NONE]),
+            column(["verdict", ""], ["7", "sound", NONE]),
+            column(["speed", "m/s"], ["060", "1e3", NONE]),
+        ];
+        let rows = |is_words: fn(&Column) -> bool| {
+            object("", "", &table_record(&columns, is_words))["tables"][0]["rows"].take()
+        };
+        assert_eq!(rows(Column::is_words), json!([["060", "7", 60], ["1e3", "sound", 1e3], [NONE, null, null]]));
+        // Tables whose headings have one line have no units, and the program's own names.
+        assert_eq!(rows(|_| false), json!([[60, 7, 60], [1e3, "sound", 1e3], [null, null, null]]));
     }
 }

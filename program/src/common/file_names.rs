@@ -1,20 +1,20 @@
-//! How the files of cases are called: the one rule by which the cases of a scene, and the commands that write to one directory, are
-//! kept apart.
+//! How the files of cases are called: the one rule by which the cases of a scene, and the commands that write to one
+//! directory, are kept apart.
 
 /// What stands between a case's name and the number of a picture, by what is drawn.
 pub const PANEL: &str = "-panel-";
 pub const YARN: &str = "-yarn-";
 pub const FIBRES: &str = "-fibres-";
-/// Between a case's name and the number of a table of strains along the yarn; without the last letter, behind the name of the plot of
-/// all of them.
+/// Between a case's name and the number of a table of strains along the yarn; without the last letter, behind the name
+/// of the plot of all of them.
 pub const STRAINS: &str = "-strain-";
 pub const STRAIN: &str = "-strain";
 const NUMBERED: [&str; 4] = [PANEL, YARN, FIBRES, STRAINS];
 /// A case of `toron fibres` has a folder of its name beside the files of all cases.
 const ENDINGS: [&str; 3] = [".csv", ".svg", ".png"];
 
-/// Whether two names of cases, or of other files without their endings, would give files of one name. File systems that take `A` for
-/// `a` count.
+/// Whether two names of cases, or of other files without their endings, would give files of one name. File systems that
+/// take `A` for `a` count.
 pub fn collide(one: &str, other: &str) -> bool {
     let [one, other] = [one, other].map(str::to_ascii_lowercase);
     let extends = |name: &str, by: &str| {
@@ -26,8 +26,8 @@ pub fn collide(one: &str, other: &str) -> bool {
     one == other || extends(&one, &other) || extends(&other, &one)
 }
 
-/// Whether a file of this name is of a case: a history, a plot, a picture, a table of strains, or a file for ParaView whose number is
-/// `frames` or more. Checkpoints are not counted.
+/// Whether a file of this name is of a case: a history, a plot, a picture, a table of strains, or a file for ParaView
+/// whose number is `frames` or more. Checkpoints are not counted.
 pub fn is_of(name: &str, case: &str, frames: usize) -> bool {
     let Some((stem, ending)) = name.strip_prefix(case).and_then(|rest| rest.rsplit_once('.')) else { return false };
     let picture = || [PANEL, YARN, FIBRES].iter().any(|between| number_behind(stem, between).is_some());

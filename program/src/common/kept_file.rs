@@ -2,7 +2,7 @@
 
 use std::ffi::OsString;
 use std::fs::File;
-use std::io::{self, BufReader, BufWriter, Read, Write};
+use std::io::{self, BufReader, BufWriter, ErrorKind, Read, Write};
 use std::path::{Path, PathBuf};
 
 use super::console::print_error;
@@ -12,23 +12,35 @@ use super::run_directory::{file_error, is_file};
 /// Large enough for decks of many elements.
 const BUFFER: usize = 1 << 20;
 
-/// Writes a file in one go. If one is there with other contents, it gets another name first, and that is said.
+/// Writes a file in one go. If one is there with other contents, it gets another name first, and that is said. What is written until an
+/// error is removed.
 ///
 /// # Errors
-/// The file cannot be written, or what is there is no regular file.
+/// The file cannot be written, or what is there is no regular file, or something is called as the one that is being written.
 pub fn write(place: &Path, contents: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>) -> Result<(), Error> {
     let is_there = is_file(place)?;
     let new = with_ending(place, "-new");
-    let written = File::create(&new).and_then(|file| {
-        let mut file = BufWriter::with_capacity(BUFFER, file);
-        contents(&mut file)?;
-        file.flush()
+    let file = File::create_new(&new).map_err(|error| match error.kind() {
+        ErrorKind::AlreadyExists => file_error(&new, &"is there already; allowed: no such file"),
+        _ => file_error(place, &error),
+    })?;
+    let written = write_new(file, contents).and_then(|()| Ok(is_there && !are_equal(&new, place)?));
+    let put = written.map_err(|error| file_error(place, &error)).and_then(|differs| {
+        if differs {
+            set_aside_if_there(place)?;
+        }
+        std::fs::rename(&new, place).map_err(|error| file_error(place, &error))
     });
-    written.map_err(|error| file_error(place, &error))?;
-    if is_there && !are_equal(&new, place).map_err(|error| file_error(place, &error))? {
-        set_aside_if_there(place)?;
+    if put.is_err() {
+        let _ = std::fs::remove_file(&new); // the error before it is the one to say
     }
-    std::fs::rename(&new, place).map_err(|error| file_error(place, &error))
+    put
+}
+
+fn write_new(file: File, contents: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>) -> io::Result<()> {
+    let mut file = BufWriter::with_capacity(BUFFER, file);
+    contents(&mut file)?;
+    file.flush()
 }
 
 /// Gives a file another name, if it is there, and says so.
@@ -38,7 +50,7 @@ pub fn write(place: &Path, contents: impl FnOnce(&mut BufWriter<File>) -> io::Re
 pub fn set_aside_if_there(place: &Path) -> Result<(), Error> {
     if is_file(place)? {
         let old = set_aside(place)?;
-        print_error(&format!("{} of before is now {}\n", place.display(), old.display()));
+        print_error(&format!("{}, as it was before, is now {}\n", place.display(), old.display()));
     }
     Ok(())
 }
@@ -93,6 +105,24 @@ mod tests {
         assert_eq!(names.map(read), ["one", "two", "six", "six"]);
         assert_eq!(std::fs::read_dir(&folder).expect("a folder").count(), names.len());
         assert!(write(&folder, |_| Ok(())).expect_err("a directory").to_string().contains("is a directory"));
+        std::fs::remove_dir_all(&folder).expect("it is removed");
+    }
+
+    #[test]
+    fn what_could_not_be_written_leaves_nothing() {
+        let folder = std::env::temp_dir().join(format!("toron-kept-new-{}", std::process::id()));
+        std::fs::create_dir_all(&folder).expect("a folder");
+        let [place, new] = ["scene.inp", "scene.inp-new"].map(|name| folder.join(name));
+        let read = |file: &Path| std::fs::read_to_string(file).expect("it is there");
+        write(&place, |file| file.write_all(b"one")).expect("it is written");
+        let error = write(&place, |file| file.write_all(b"two").and(Err(io::Error::other("no room"))));
+        assert!(error.expect_err("no room").to_string().ends_with("scene.inp: no room"));
+        assert!(read(&place) == "one" && !new.exists());
+        // What someone else has called so stays.
+        std::fs::write(&new, "mine").expect("a file");
+        let error = write(&place, |file| file.write_all(b"two")).expect_err("it is there").to_string();
+        assert!(error.ends_with("scene.inp-new: is there already; allowed: no such file"), "{error}");
+        assert_eq!([read(&place), read(&new)], ["one", "mine"]);
         std::fs::remove_dir_all(&folder).expect("it is removed");
     }
 }

@@ -1,5 +1,6 @@
-//! What all commands share: errors and their exit codes, the console, progress bars, units, short numbers, names of files, files in TOML,
-//! keyword files of solvers, tables of measured data, numbers of chance, roots, the level of intervals.
+//! What all commands share: errors and their exit codes, the console, progress bars, units, short numbers, names of
+//! files, files in TOML, keyword files of solvers, tables of measured data, numbers of chance, roots, the level of
+//! intervals.
 
 pub mod bound_child;
 pub mod build;

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use super::error::Error;
 use super::file_names::{collide, is_of};
-use super::folder;
+use super::{folder, toml_file};
 
 /// The file whose lock says that a run writes to its directory, and in which stands whose the files there are. The system releases the
 /// lock however the run ends; the file stays.
@@ -25,8 +25,8 @@ pub struct RunDirectory {
 /// What a command is about to write to a directory.
 pub struct Writes<'a> {
     pub command: &'a str,
-    /// The file that the command was given, if it was given one.
-    pub scene: Option<&'a Path>,
+    /// The files that the command was given: a scene, histories, or none.
+    pub files: Vec<&'a Path>,
     /// What its files are called, without endings and what is behind the names of cases.
     pub names: Vec<String>,
     /// Whether it goes on from checkpoints there, which it knows for its own: the scene may have been moved since.
@@ -37,7 +37,7 @@ pub struct Writes<'a> {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 struct Owner {
     command: String,
-    /// The scene's file, as seen from the directory, which may be moved together with it; empty where there is none.
+    /// The files that it was given, as [`known_as`]; empty where there were none.
     scene: String,
     names: Vec<String>,
 }
@@ -56,6 +56,21 @@ impl Owner {
     fn described(&self) -> String {
         format!("toron {} {}", self.command, self.scene).trim_end().to_string()
     }
+}
+
+/// What a file is called in a directory: its path from there, as they may be moved together; the standard input by what it says.
+///
+/// # Errors
+/// The standard input cannot be read.
+fn known_as(directory: &Path, file: &Path) -> Result<String, Error> {
+    if !toml_file::is_standard_input(file) {
+        return Ok(seen_from(directory, file));
+    }
+    toml_file::read(file).map(|(_, text)| of_standard_input(&text))
+}
+
+fn of_standard_input(text: &str) -> String {
+    format!("- ({:08x})", crc32fast::hash(text.as_bytes()))
 }
 
 /// A file's path from a directory on, both real ones where they exist.
@@ -89,9 +104,9 @@ impl RunDirectory {
         }
         let mut text = String::new();
         lock.read_to_string(&mut text).map_err(|error| file_error(&file, &error))?;
-        let Writes { command, scene, names, restart } = writes;
-        let scene = scene.map_or(String::new(), |scene| seen_from(path, scene));
-        let owner = Owner { command: command.to_string(), scene, names };
+        let Writes { command, files, names, restart } = writes;
+        let scene = files.into_iter().map(|file| known_as(path, file)).collect::<Result<Vec<_>, _>>()?;
+        let owner = Owner { command: command.to_string(), scene: scene.join(" "), names };
         let owners = with(owners(&file, &text)?, owner, restart).map_err(|taken| {
             let allowed = format!("allowed: another directory, or this one without {LOCK}: then they are overwritten");
             Error::Input(format!("output is {}, where {taken}; {allowed}", path.display()))
@@ -242,6 +257,34 @@ mod tests {
     fn a_scene_is_known_from_the_directory_on() {
         assert_eq!(seen_from(Path::new("/x/out"), Path::new("/x/a b.toml")), "../a b.toml");
         assert_eq!(seen_from(Path::new("/x"), Path::new("/x/y/a.toml")), "y/a.toml");
+    }
+
+    #[test]
+    fn what_the_standard_input_says_is_a_scene_of_its_own() {
+        let [one, two] =
+            ["speed = 1.0", "speed = 2.0"].map(|text| owner("impact", &of_standard_input(text), &["summary"]));
+        assert_eq!(with(vec![one.clone()], one.clone(), false), Ok(vec![one.clone()]));
+        let refused = with(vec![one.clone()], two.clone(), false).expect_err("another one");
+        assert!(
+            refused.contains(&format!("are of toron impact {}, and toron impact {}", one.scene, two.scene)),
+            "{refused}"
+        );
+        assert!(
+            one.scene.starts_with("- (") && known_as(Path::new("/x"), Path::new("/x/-")).is_ok_and(|name| name == "-")
+        );
+    }
+
+    #[test]
+    fn other_files_of_a_command_are_another_run() {
+        let path = std::env::temp_dir().join(format!("toron-run-directory-{}", std::process::id()));
+        let open = |files: &[&str]| {
+            let (files, names) = (files.iter().map(Path::new).collect(), vec!["compare".to_string()]);
+            RunDirectory::open(&path, Writes { command: "compare", files, names, restart: false }).map(drop)
+        };
+        assert!(open(&["/x/a.csv", "/x/b.csv"]).is_ok() && open(&["/x/a.csv", "/x/b.csv"]).is_ok());
+        let refused = open(&["/x/a.csv", "/x/c.csv"]).expect_err("another one").to_string();
+        assert!(refused.contains("files called compare are of toron compare "), "{refused}");
+        std::fs::remove_dir_all(&path).expect("it is removed");
     }
 
     #[test]

@@ -21,6 +21,11 @@ impl Column {
         self.heading.iter().chain(&self.entries).map(|text| text.chars().count()).fold(0, usize::max)
     }
 
+    /// Words have no unit.
+    pub fn is_words(&self) -> bool {
+        self.heading[1].is_empty()
+    }
+
     fn applies(&self) -> bool {
         self.entries.iter().any(|entry| entry != NONE)
     }
@@ -40,12 +45,12 @@ pub fn shortened(name: &str, longest: usize) -> String {
     }
 }
 
-/// The table without columns that apply to nothing; columns for which a line of this width has no room stand in tables below it, each of
-/// which begins with the first column. Words stand on the left of their column, numbers on the right.
+/// The table without columns that apply to nothing; columns for which a line of this width has no room stand in tables
+/// below it, each of which begins with the first column. Words stand on the left of their column, numbers on the right.
 pub fn table(columns: Vec<Column>, widest: usize) -> String {
     let columns: Vec<Column> = columns.into_iter().filter(Column::applies).collect();
     if is_json() {
-        return if columns.is_empty() { String::new() } else { table_record(&columns) };
+        return if columns.is_empty() { String::new() } else { table_record(&columns, Column::is_words) };
     }
     let Some((first, mut rest)) = columns.split_first() else { return String::new() };
     let mut text = String::new();
@@ -70,8 +75,7 @@ fn lines(columns: &[&Column]) -> String {
     let line = |text: &dyn Fn(&Column) -> String| {
         let cells = columns.iter().map(|column| {
             let (text, width) = (text(column), column.width());
-            // Words have no unit.
-            if column.heading[1].is_empty() { format!("{text:<width$}") } else { format!("{text:>width$}") }
+            if column.is_words() { format!("{text:<width$}") } else { format!("{text:>width$}") }
         });
         format!("{}\n", cells.collect::<Vec<_>>().join(GAP).trim_end())
     };
@@ -91,7 +95,8 @@ pub fn plain_table(head: &[&str], rows: &[Vec<String>], text: impl FnOnce() -> S
         heading: [title.to_string(), String::new()],
         entries: rows.iter().map(|row| row.get(place).map_or(NONE.to_string(), String::clone)).collect(),
     };
-    table_record(&head.iter().enumerate().map(column).collect::<Vec<_>>())
+    // Their names are the program's own.
+    table_record(&head.iter().enumerate().map(column).collect::<Vec<_>>(), |_| false)
 }
 
 /// A line of names and values below one another, on a terminal after two blanks and a name of so many columns.

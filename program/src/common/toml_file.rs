@@ -56,8 +56,8 @@ impl Source<'_> {
         })
     }
 
-    /// The name of a case, or of another of several `what`, out of which its files' names are made; `taken` are the names that are there
-    /// already.
+    /// The name of a case, or of another of several `what`, out of which its files' names are made; `taken` are the
+    /// names that are there already.
     ///
     /// # Errors
     /// There is none, files cannot be named by it, or they would be called as those of one that is taken.
@@ -150,12 +150,16 @@ impl Source<'_> {
 /// Where a file is named by this, the standard input is read.
 const STANDARD_INPUT: &str = "-";
 
+pub fn is_standard_input(path: &Path) -> bool {
+    path == Path::new(STANDARD_INPUT)
+}
+
 /// The name of a file for messages, and its text.
 ///
 /// # Errors
 /// It cannot be read.
 pub fn read(path: &Path) -> Result<(String, String), Error> {
-    if path == Path::new(STANDARD_INPUT) {
+    if is_standard_input(path) {
         // Once, for who reads a file twice.
         static TEXT: OnceLock<Result<String, String>> = OnceLock::new();
         let text = TEXT.get_or_init(|| std::io::read_to_string(std::io::stdin()).map_err(|error| error.to_string()));

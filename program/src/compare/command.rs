@@ -61,7 +61,8 @@ pub fn run(arguments: &Arguments) -> Result<(), Error> {
     }
     let judged = histories.iter().map(|history| Figures::of(history, &histories[0])).collect::<Vec<_>>();
     let judged: Vec<(&History, Figures)> = histories.iter().zip(judged).collect();
-    let writes = Writes { command: "compare", scene: None, names: vec!["compare".to_string()], restart: false };
+    let paths = arguments.histories.iter().map(PathBuf::as_path).collect();
+    let writes = Writes { command: "compare", files: paths, names: vec!["compare".to_string()], restart: false };
     let _directory = RunDirectory::open(&arguments.output, writes)?;
     let [svg, png] = FIGURE.map(|name| arguments.output.join(name));
     plot::write(&svg, &png, &histories.iter().collect::<Vec<_>>(), &units)?;

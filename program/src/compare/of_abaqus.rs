@@ -33,11 +33,10 @@ pub fn read(path: &Path, text: &str, name: String) -> Result<History, Error> {
     history.set(Quantity::Contact, contact.map(|work| -work));
     history.set(Quantity::Friction, named(":ALLFD")?);
     history.set(Quantity::Viscosity, named(":ALLVD").ok());
-    let total = named(":ETOTAL")?;
-    // The latch of elements that are watched; others would take their energy out of the sum.
+    // The latch of elements that are watched.
     let latches = table.find(|title| title.rsplit(':').next().is_some_and(|name| name.starts_with("SDV")));
     let failed = latches.into_iter().filter_map(|column| table.curve(column).first(|latch| latch >= 1.0));
-    history.failed = failed.chain(total.first_fall()).reduce(f64::min);
-    history.set(Quantity::Total, total);
+    history.failed = failed.reduce(f64::min);
+    history.set(Quantity::Total, named(":ETOTAL")?);
     Ok(history)
 }

@@ -26,7 +26,8 @@ pub struct Energies {
 }
 
 impl Energies {
-    /// The part that artificial viscosity has taken of what the blow has brought in since `first`; none where it has brought in nothing.
+    /// The part that artificial viscosity has taken of what the blow has brought in since `first`; none where it has
+    /// brought in nothing.
     pub fn viscosity_share(&self, first: &Energies) -> Option<f64> {
         let given = first.projectile - self.projectile + self.external - first.external;
         (given != 0.0).then(|| self.viscosity / given)

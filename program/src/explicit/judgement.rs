@@ -42,7 +42,8 @@ impl Finding {
     }
 }
 
-/// Adds what was found in the run after it had failed, `failed` says how and when; a word that stands there already is not said twice.
+/// Adds what was found in the run after it had failed, `failed` says how and when; a word that stands there already is
+/// not said twice.
 pub fn add_after_failure(findings: &mut Vec<Finding>, failed: &str, found: impl IntoIterator<Item = Finding>) {
     for finding in found {
         if !findings.iter().any(|known| known.name == finding.name) {

@@ -1,7 +1,8 @@
 //! Whether a strike can be believed: the finished run is held against bounds, and each verdict says what to change.
 //! `docs/guides/fabric.md` has the bounds and why they are where they are.
 //!
-//! A run is judged up to the first failure, and what follows by itself: torn shreds whip about then, which carry nothing.
+//! A run is judged up to the first failure, and what follows by itself: torn shreds whip about then, which carry
+//! nothing.
 
 use nalgebra::Vector3;
 
@@ -101,8 +102,8 @@ fn of_mesh(units: &UnitSystem, case: &Case) -> Vec<Finding> {
     findings
 }
 
-/// What is wrong with a run that has ended, by what was measured up to the first failure and of the whole; `front_at_rim` is when the
-/// transverse wave came to the rim.
+/// What is wrong with a run that has ended, by what was measured up to the first failure and of the whole;
+/// `front_at_rim` is when the transverse wave came to the rim.
 pub fn judge(
     units: &UnitSystem,
     case: &Case,
@@ -136,8 +137,8 @@ pub fn judge(
     findings
 }
 
-/// What is wrong with what followed the first failure, by bounds that torn yarns know too: the sphere is ahead of them, and corners of
-/// shreds turn over.
+/// What is wrong with what followed the first failure, by bounds that torn yarns know too: the sphere is ahead of them,
+/// and corners of shreds turn over.
 fn after_failure(case: &Case, whole: &Measures) -> Vec<Finding> {
     let folded = distorted(whole, "a finer mesh: shreds of torn yarns fold, and carry what they should not");
     let findings = [viscosity(whole), hourglass(case, whole), folded];

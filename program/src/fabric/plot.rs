@@ -14,7 +14,8 @@ use toron::law::parameters::ENERGY_DENSITY;
 
 const MODES: [&str; 5] = ["elongation", "compaction", "distortion", "shear", "work of the linear law"];
 
-/// Speed, deflection, energies by kind and by mode, largest energy densities, front and force over time, as far as they change, with the verdict of the run.
+/// Speed, deflection, energies by kind and by mode, largest energy densities, front and force over time, as far as they
+/// change, with the verdict of the run.
 ///
 /// # Errors
 /// A file cannot be written.

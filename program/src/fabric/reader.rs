@@ -202,8 +202,8 @@ impl Reader<'_> {
         self.material(law, &Some(file)).map(|material| Some(Box::new(material)))
     }
 
-    /// The mass of what strikes, and its density: from the file's mass, which must be one that its volume can have, or from the file's
-    /// density.
+    /// The mass of what strikes, and its density: from the file's mass, which must be one that its volume can have, or
+    /// from the file's density.
     fn mass_and_striker(&self, file: &CaseFile) -> Result<(f64, Striker), Error> {
         let keys = self.keys;
         let volume = self.volume(file)?;

@@ -18,7 +18,8 @@ const STEEL: RangeInclusive<f64> = 7.6e3..=8.2e3;
 const DIAMETER_FOR_RADIUS: f64 = 8.0;
 /// A striker's radius over what the panel reaches from its middle.
 const LARGEST_RADIUS: f64 = 2.0;
-/// Speeds at which panels are struck, in m/s, and stiffnesses of contact that yarns take, in MPa/mm, with a margin on both sides.
+/// Speeds at which panels are struck, in m/s, and stiffnesses of contact that yarns take, in MPa/mm, with a margin on
+/// both sides.
 const SPEEDS: RangeInclusive<f64> = 0.5..=3e3;
 const STIFFNESSES: RangeInclusive<f64> = 1e3..=1e7;
 const MPA_BY_MM: f64 = 1e9;

@@ -62,7 +62,7 @@ pub fn run(arguments: &Arguments) -> Result<Option<PathBuf>, Error> {
     scene.cases.iter().filter_map(|case| case.law.as_deref()).try_for_each(|file| Beside::read(file).map(drop))?;
     let output = &arguments.output;
     let names = COMMON.into_iter().chain(scene.cases.iter().map(|case| case.name.as_str())).map(String::from).collect();
-    let writes = Writes { command: "fibres", scene: Some(&arguments.scene), names, restart: false };
+    let writes = Writes { command: "fibres", files: vec![&arguments.scene], names, restart: false };
     let directory = RunDirectory::open(output, writes)?;
     let folders: Vec<Folder> =
         scene.cases.iter().zip(&models).map(|(case, model)| Folder::new(output.join(&case.name), model)).collect();

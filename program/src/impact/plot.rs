@@ -16,7 +16,8 @@ use toron::law::parameters::ENERGY_DENSITY;
 
 const COMPARISON: [u32; 2] = [760, 480];
 
-/// Speed, energies, largest energy densities and widths of a case over time, as far as they change, with the verdict of the run.
+/// Speed, energies, largest energy densities and widths of a case over time, as far as they change, with the verdict of
+/// the run.
 ///
 /// # Errors
 /// A file cannot be written.

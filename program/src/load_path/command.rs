@@ -44,7 +44,7 @@ pub fn run(laws: Laws, Arguments { path, output }: &Arguments) -> Result<(), Err
     };
     let names =
         path.points.iter().flat_map(|point| ["increments", "plot"].map(|of| format!("{of}{}", behind(&path, point))));
-    let writes = Writes { command: "run", scene: file, names: names.collect(), restart: false };
+    let writes = Writes { command: "run", files: file.into_iter().collect(), names: names.collect(), restart: false };
     let _directory = RunDirectory::open(output, writes)?;
     let histories = run_with_progress(&path);
     print(&format!("{}\n", path.title));

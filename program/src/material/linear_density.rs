@@ -1,4 +1,5 @@
-//! The linear density of a yarn in dtex, which every data sheet has: a slip in a size of the section, or in the density, shows in it.
+//! The linear density of a yarn in dtex, which every data sheet has: a slip in a size of the section, or in the
+//! density, shows in it.
 
 use std::ops::RangeInclusive;
 

@@ -7,7 +7,8 @@ use super::style::{GREY, INK, TEXT, fine, stroke, text};
 
 /// The opacity of what is shaded.
 pub const BAND: f64 = 0.16;
-/// The length of a line and of a band, and from the left of a mark to its name; that of a point; and from a name to the next mark.
+/// The length of a line and of a band, and from the left of a mark to its name; that of a point; and from a name to the
+/// next mark.
 const LINE: i32 = 22;
 const TO_NAME: i32 = 29;
 const POINT_TO_NAME: i32 = 16;

@@ -182,7 +182,8 @@ pub trait Table: Clone {
 }
 
 /// Reads the cases of a scene, or the scene as the only one: `read` gets the reader of the common keys, the case's keys over the
-/// scene's, its own ones alone and its name. The files that cases have in common are called as `common` says, without their endings.
+/// scene's, its own ones alone and its name. The files that cases have in common are called as `common` says, without
+/// their endings.
 ///
 /// # Errors
 /// A key that no case reads, as `unused` finds it; a name that cannot be; what `read` refuses.

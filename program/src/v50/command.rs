@@ -169,7 +169,7 @@ fn check_restart(place: &Path, restart: bool) -> Result<(), Error> {
 /// The directory of the tables and the picture, where shots of another scene are not overwritten.
 fn open_directory(arguments: &Arguments, restart: bool) -> Result<RunDirectory, Error> {
     let names = ["shots", "limit", "v50"].map(String::from).to_vec();
-    let writes = Writes { command: "v50", scene: Some(&arguments.scene), names, restart };
+    let writes = Writes { command: "v50", files: vec![&arguments.scene], names, restart };
     RunDirectory::open(&arguments.output, writes)
 }
 

@@ -12,13 +12,14 @@ use crate::common::run_directory::{RunDirectory, Writes, file_error};
 /// What the files are called.
 const NAME: &str = "weave";
 
-/// Meshes the panel of a scene, which was read from `path`, prints its figures, and writes the mesh and a picture of it to the directory `output`.
+/// Meshes the panel of a scene, which was read from `path`, prints its figures, and writes the mesh and a picture of it
+/// to the directory `output`.
 ///
 /// # Errors
 /// The input, or a file that cannot be written.
 pub fn run(scene: &Scene, path: &Path, output: &Path) -> Result<(), Error> {
     let model = scene.cloth.model();
-    let writes = Writes { command: "weave", scene: Some(path), names: vec![NAME.to_string()], restart: false };
+    let writes = Writes { command: "weave", files: vec![path], names: vec![NAME.to_string()], restart: false };
     let _directory = RunDirectory::open(output, writes)?;
     let mut text = report::report(scene, &model);
     let [mesh, svg, png] = ["vtu", "svg", "png"].map(|ending| output.join(format!("{NAME}.{ending}")));

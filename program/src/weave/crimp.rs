@@ -88,7 +88,7 @@ mod tests {
     }
 
     /// The tutorial's panel, and one of Twaron with wide yarns: their coarse meshes are far too long, and those that
-    /// the warnings name are not. The preset's coarse mesh is 0.21 % off.
+    /// the warnings name are not. The preset's coarse mesh is 0.15 % off.
     #[test]
     fn slack_is_found_and_the_mesh_that_is_named_will_do() {
         for sizes in [[1.18, 0.95, 0.128], [1.4286, 1.2, 0.085]] {

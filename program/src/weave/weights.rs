@@ -9,7 +9,8 @@ use toron::host::units::UnitSystem;
 use toron::law::parameters::Dimension;
 
 const AREAL_DENSITY: Dimension = Dimension { mass: 1, length: -2, time: 0, name: "areal density" };
-/// What woven fabrics weigh, in kg/m², with a margin on both sides: sailcloth and parachutes from 0.03, heavy rovings 2.
+/// What woven fabrics weigh, in kg/m², with a margin on both sides: sailcloth and parachutes from 0.03, heavy rovings
+/// 2.
 const KNOWN: RangeInclusive<f64> = 0.01..=10.0;
 
 /// Areal density in kg/m², and the yarns of warp and weft.

@@ -317,15 +317,15 @@ fn a_file_that_may_have_been_edited_is_kept() {
         let edited = read(file) + "# weighed again\n";
         write(&folder, file, &edited);
         let old = format!("{file}-old");
-        assert_eq!(said(command), format!("./{file} of before is now ./{old}\n"));
+        assert_eq!(said(command), format!("./{file}, as it was before, is now ./{old}\n"));
         assert!(read(&old) == edited && !read(file).contains("weighed"), "{}", read(file));
     }
     for (host, file) in [("ls-dyna", "scene.k"), ("abaqus-explicit", "scene.inp"), ("openradioss", "scene_0000.rad")] {
         let deck = |units: &str| said(&["impact", "scene.toml", "-o", "deck", "--deck", host, "--units", units]);
-        assert!(!deck("mm-tonne-s").contains("of before"));
+        assert!(!deck("mm-tonne-s").contains("as it was before"));
         let first = read(&format!("deck/{file}"));
         let said = deck("mm-kg-ms");
-        assert!(said.contains(&format!("deck/{file} of before is now deck/{file}-old\n")), "{said}");
+        assert!(said.contains(&format!("deck/{file}, as it was before, is now deck/{file}-old\n")), "{said}");
         assert!(read(&format!("deck/{file}-old")) == first && read(&format!("deck/{file}")) != first);
     }
 }
