@@ -51,7 +51,7 @@ impl<R: Real> Failure<R> {
         let zero = R::splat(0.0);
         let own = zero.lt(limit);
         let limit = R::select(own, limit.max(R::splat(LEAST_LIMIT)), self.limit);
-        // The quotient of `index` corrects a reciprocal that is an ulp off.
+        // That of a division, for all limits that a point can reach: `reciprocals_are_those_of_a_division`.
         Failure { limit, inverse_limit: limit.reciprocal(), threshold: R::select(own, zero, self.threshold), ..self }
     }
 

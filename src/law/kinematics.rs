@@ -30,7 +30,7 @@
 
 use super::number::elementary::{Asinh, Logarithm};
 use super::number::real::{Real, Single};
-use super::number::vector::{accurate_cross, along, cross, dot, image, scale};
+use super::number::vector::{accurate_cross, along, cross, dot, image, scale, select};
 
 /// F is near the reference if every entry of its diagonal is above this by more than the sum of the squares of the others. F − 1
 /// is exact from ½ on. With d the least entry of the diagonal, |F v| > (d − √(d − 0.6)) |v| ≥ 0.35 |v|: no direction is shortened so
@@ -180,10 +180,10 @@ impl<R: Real> Axes<R> for FibreFrame<R> {
     fn shifted(&self, v: [R; 3], s: R, axis: usize) -> [R; 3] {
         along(v, s, self.axis(axis))
     }
-    /// From the images where J_t = J/λ keeps more digits so. The image of the fibre has an error of |F|/λ roundings, and so has λ. In J
-    /// from the images that error is the same, and cancels in J/λ; there remains that of the other two images, at most |F|²/J_t. Else,
-    /// and where the sign is in question, from the columns, which have no error. Of an image that is short beside F, whether the fibre
-    /// is pressed or its section blown up, it makes the difference between all digits and none.
+    /// From the images where J_t = J/λ keeps more digits so. The image of the fibre has an error of |F|/λ roundings, and so has λ.
+    /// In J from the images that error is the same, and cancels in J/λ; there remains that of the other two images, at most
+    /// |F|²/J_t. Else, and where the sign is in question, from the columns, which have no error. Of an image that is short beside
+    /// F, whether the fibre is pressed or its section blown up, it makes the difference between all digits and none.
     #[inline(always)]
     fn determinant(&self, f: &[[R; 3]; 3], images: [[R; 3]; 3], inverse_square: R, norm_square: R) -> R {
         let (columns, images) = (triple_product(*f), triple_product(images));
@@ -288,8 +288,8 @@ pub struct Section<R: Real> {
     rounding: R,
 }
 
-/// The fibres have slipped far where the square of their slip, (h2² + h3²)/λ², is above this times that of the section's shorter half
-/// axis, of which J_t²/t̂ is at most twice the square.
+/// The fibres have slipped far where the square of their slip, (h2² + h3²)/λ², is above this times J_t²/t̂, which is about the square of three
+/// or four of the section's shorter half axes.
 const FAR_SLIP: f64 = 8.0;
 
 impl<R: Real> Section<R> {
@@ -317,16 +317,17 @@ impl<R: Real> Section<R> {
         (R::splat(FAR_SLIP) * self.area_square).lt(d.slip_square * self.half_trace)
     }
 
-    /// As [`new`](Self::new), with a and b made orthogonal to the fibre once more where `far` holds: of their components along it the
-    /// rounding of (h/λ²) c1 is left, as many roundings of a as the slip is longer than a. The other lanes keep their bits.
+    /// As [`new`](Self::new), with a and b made orthogonal to the fibre once more where `far` holds: of their components along it
+    /// the rounding of (h/λ²) c1 is left, as many roundings of a as the slip is longer than a. The other lanes keep their bits.
     #[inline(always)]
     pub fn orthogonal<A: Axes<R>>(d: &Stretch<R>, images: [[R; 3]; 3], n: &A, far: R::Mask) -> (Self, [[R; 3]; 2]) {
         let c1 = images[0];
         let [delta_2, delta_3] = Self::rests(d, images);
-        let again = R::select(far, d.inverse_square, R::splat(0.0));
-        let left_2 = dot(c1, n.shifted(delta_2, d.chi, 1)) * again;
-        let left_3 = dot(c1, n.shifted(delta_3, d.chi, 2)) * again;
-        Self::from_rests(d, [along(delta_2, -left_2, c1), along(delta_3, -left_3, c1)], n)
+        let left_2 = dot(c1, n.shifted(delta_2, d.chi, 1)) * d.inverse_square;
+        let left_3 = dot(c1, n.shifted(delta_3, d.chi, 2)) * d.inverse_square;
+        let again_2 = select(far, along(delta_2, -left_2, c1), delta_2);
+        let again_3 = select(far, along(delta_3, -left_3, c1), delta_3);
+        Self::from_rests(d, [again_2, again_3], n)
     }
 
     /// δ2 = a − χ t1 and δ3 = b − χ t2.
