@@ -2,6 +2,9 @@
 
 use std::fmt::Write;
 
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+
 use super::reader::Foreign;
 use super::tests::{Cross, LAYERS, SECTION, check, read, refused};
 
@@ -639,4 +642,30 @@ fn a_vtu_file_that_is_cut_or_of_another_kind_is_refused() {
     vtu(&text(plain, "Float64", "Int16"), "array Points has the entry -");
     vtu(&text(plain, "LittleEndian", "MiddleEndian"), "byte_order is MiddleEndian; allowed: LittleEndian, BigEndian");
     vtu(&text(FILES[8].1, "offset=\"0\"", "offset=\"999999\""), "begins at 999999 of ");
+}
+
+#[test]
+fn a_vtu_array_of_too_few_bytes_is_refused() {
+    let vtu = |attributes: &str, points: &[u8], message: &str| {
+        let points = STANDARD.encode(points);
+        let text = format!(
+            "<VTKFile {attributes}><Points><DataArray Name=\"Points\" type=\"Float64\" format=\"binary\">{points}</DataArray>\
+             </Points><Cells><DataArray Name=\"connectivity\"/><DataArray Name=\"offsets\"/><DataArray Name=\"types\"/></Cells>\
+             <CellData><DataArray Name=\"yarn\"/></CellData></VTKFile>"
+        );
+        refused(&[("cross.vtu", text)], "", &format!("cross.vtu:1: array Points {message}"));
+    };
+    let [header, zlib] = ["header_type=\"UInt64\"", "compressor=\"vtkZLibDataCompressor\""];
+    for attributes in [String::new(), header.to_string(), zlib.to_string(), format!("{header} {zlib}")] {
+        let length = if attributes.contains(header) { 8 } else { 4 };
+        for count in 1..length {
+            vtu(&attributes, &[0; 8][..count], "is shorter than it says");
+        }
+        vtu(&attributes, &[255; 8][..length], "is shorter than it says");
+    }
+    // A block of one byte, which is 0, that says it has as many as there may be.
+    let block = [0x78, 0x9c, 0x63, 0, 0, 0, 1, 0, 1];
+    let lengths = [1, u64::MAX, 0, block.len() as u64].map(u64::to_le_bytes).concat();
+    let message = "has 1 bytes in a block; allowed: 18446744073709551615";
+    vtu(&format!("{header} {zlib}"), &[&lengths[..], &block].concat(), message);
 }
