@@ -232,6 +232,14 @@ fn parts_are_instanced_where_the_assembly_has_them() {
     let oriented = moved.replace("Material=M", "Material=M, Orientation=O");
     let oriented = format!("{oriented}{table}{swapped}*Orientation, name=O, system=RECTANGULAR\nD\n1, 0.\n");
     same("oriented", &[("cross.inp", &cae(&oriented, place))], &plain);
+    // Outside the part they would not turn, and a section of the part does not see them.
+    let (part, distribution) = split(&oriented, "*Distribution, ");
+    let (distribution, orientation) = split(distribution, "*Orientation, ");
+    let outside = |part: &str, file: &str| [("cross.inp", cae(part, place) + file)];
+    let message = "ORIENTATION=O, which stands outside the part; allowed: in the part, or in the instance";
+    refused(&outside(&format!("{part}{distribution}"), orientation), "", message);
+    let message = "*DISTRIBUTION D, which stands outside the part; allowed: in the part, or in the instance";
+    refused(&outside(&format!("{part}{orientation}"), distribution), "", message);
     // One yarn, four times, twice without a section: the instance is the yarn then.
     let nodes: String = (0..(LAYERS + 1) * SECTION.len())
         .map(|i| {
