@@ -535,6 +535,13 @@ fn included_files_of_ls_dyna_are_read_with_their_offsets() {
         "cross.k:4: *INCLUDE_TRANSFORM with the factor 25.4 of lengths",
     );
     refused(&deck("        -1\n"), "", "nodes.k:3: a node's number is 1 with an offset of -1");
+    let zero = changed(&nodes, "*node", |line| line.replacen("       1", "       0", 1));
+    let [main, _] = deck("      1000\n");
+    refused(
+        &[main, ("nodes.k", zero)],
+        "",
+        "nodes.k:3: a node's number is 0 with an offset of 1000; allowed: a number",
+    );
     // Without its offset the nodes are nowhere.
     refused(&deck("      1000\n"), "", "element 1 has node ");
     let cycle = [("cross.k", with("*INCLUDE\na.k\n")), ("a.k", "*KEYWORD\n*INCLUDE\ncross.k\n".to_string())];

@@ -234,8 +234,10 @@ impl Reader {
     fn numbered(&self, line: &Line<'_>, what: &str, field: &str, kind: usize) -> Result<u64, Error> {
         let number: u64 = line.number(what, field)?;
         let offset = self.offsets.last().map_or(0, |offsets| offsets[kind]);
-        let wrong = || line.error(&format!("{what} is {number} with an offset of {offset}; allowed: a sum from 1 on"));
-        number.checked_add_signed(offset).filter(|&sum| sum > 0 || offset == 0).ok_or_else(wrong)
+        let allowed = "allowed: a number from 1 on, and a sum from 1 on";
+        let wrong = || line.error(&format!("{what} is {number} with an offset of {offset}; {allowed}"));
+        let sum = number.checked_add_signed(offset);
+        sum.filter(|&sum| offset == 0 || (number > 0 && sum > 0)).ok_or_else(wrong)
     }
 
     fn element(&mut self, line: &Line<'_>, element: u64, nodes: [&str; 8], axes: bool) -> Result<Next, Error> {
