@@ -580,6 +580,16 @@ fn what_of_ls_dyna_may_move_a_mesh_is_refused() {
             &format!("cross.k:2: {keyword}; allowed: *ELEMENT_SOLID and"),
         );
     }
+    let contact = |name: &str| text.replace("*KEYWORD", &format!("*KEYWORD\n*CONTACT_{name}\n         1         2"));
+    for name in ["TIED_NODES_TO_SURFACE", "TIED_SHELL_EDGE_TO_SURFACE_ID", "SPOTWELD"] {
+        k(
+            &contact(name),
+            &format!("cross.k:2: *CONTACT_{name}, which moves nodes; allowed: tied contacts with OFFSET"),
+        );
+    }
+    for name in ["TIED_NODES_TO_SURFACE_OFFSET", "AUTOMATIC_SINGLE_SURFACE"] {
+        check(&read("contact", &[("cross.k", &contact(name))], "").expect("a panel"));
+    }
     for mark in ["*NODE %", "*NODE%"] {
         k(&text.replace("*NODE", mark), "cross.k:3: *NODE");
         k(&text.replace("*NODE", mark), "numbers in ten columns; allowed: the standard or the long format");
