@@ -2,6 +2,9 @@
 
 use std::fmt::Write;
 
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+
 use super::reader::Foreign;
 use super::tests::{Cross, LAYERS, SECTION, check, read, refused};
 
@@ -229,6 +232,14 @@ fn parts_are_instanced_where_the_assembly_has_them() {
     let oriented = moved.replace("Material=M", "Material=M, Orientation=O");
     let oriented = format!("{oriented}{table}{swapped}*Orientation, name=O, system=RECTANGULAR\nD\n1, 0.\n");
     same("oriented", &[("cross.inp", &cae(&oriented, place))], &plain);
+    // Outside the part they would not turn, and a section of the part does not see them.
+    let (part, distribution) = split(&oriented, "*Distribution, ");
+    let (distribution, orientation) = split(distribution, "*Orientation, ");
+    let outside = |part: &str, file: &str| [("cross.inp", cae(part, place) + file)];
+    let message = "ORIENTATION=O, which stands outside the part; allowed: in the part, or in the instance";
+    refused(&outside(&format!("{part}{distribution}"), orientation), "", message);
+    let message = "*DISTRIBUTION D, which stands outside the part; allowed: in the part, or in the instance";
+    refused(&outside(&format!("{part}{orientation}"), distribution), "", message);
     // One yarn, four times, twice without a section: the instance is the yarn then.
     let nodes: String = (0..(LAYERS + 1) * SECTION.len())
         .map(|i| {
@@ -524,6 +535,13 @@ fn included_files_of_ls_dyna_are_read_with_their_offsets() {
         "cross.k:4: *INCLUDE_TRANSFORM with the factor 25.4 of lengths",
     );
     refused(&deck("        -1\n"), "", "nodes.k:3: a node's number is 1 with an offset of -1");
+    let zero = changed(&nodes, "*node", |line| line.replacen("       1", "       0", 1));
+    let [main, _] = deck("      1000\n");
+    refused(
+        &[main, ("nodes.k", zero)],
+        "",
+        "nodes.k:3: a node's number is 0 with an offset of 1000; allowed: a number",
+    );
     // Without its offset the nodes are nowhere.
     refused(&deck("      1000\n"), "", "element 1 has node ");
     let cycle = [("cross.k", with("*INCLUDE\na.k\n")), ("a.k", "*KEYWORD\n*INCLUDE\ncross.k\n".to_string())];
@@ -561,6 +579,16 @@ fn what_of_ls_dyna_may_move_a_mesh_is_refused() {
             &text.replace("*KEYWORD", &format!("*KEYWORD\n{keyword}")),
             &format!("cross.k:2: {keyword}; allowed: *ELEMENT_SOLID and"),
         );
+    }
+    let contact = |name: &str| text.replace("*KEYWORD", &format!("*KEYWORD\n*CONTACT_{name}\n         1         2"));
+    for name in ["TIED_NODES_TO_SURFACE", "TIED_SHELL_EDGE_TO_SURFACE_ID", "SPOTWELD"] {
+        k(
+            &contact(name),
+            &format!("cross.k:2: *CONTACT_{name}, which moves nodes; allowed: tied contacts with OFFSET"),
+        );
+    }
+    for name in ["TIED_NODES_TO_SURFACE_OFFSET", "AUTOMATIC_SINGLE_SURFACE"] {
+        check(&read("contact", &[("cross.k", &contact(name))], "").expect("a panel"));
     }
     for mark in ["*NODE %", "*NODE%"] {
         k(&text.replace("*NODE", mark), "cross.k:3: *NODE");
@@ -639,4 +667,30 @@ fn a_vtu_file_that_is_cut_or_of_another_kind_is_refused() {
     vtu(&text(plain, "Float64", "Int16"), "array Points has the entry -");
     vtu(&text(plain, "LittleEndian", "MiddleEndian"), "byte_order is MiddleEndian; allowed: LittleEndian, BigEndian");
     vtu(&text(FILES[8].1, "offset=\"0\"", "offset=\"999999\""), "begins at 999999 of ");
+}
+
+#[test]
+fn a_vtu_array_of_too_few_bytes_is_refused() {
+    let vtu = |attributes: &str, points: &[u8], message: &str| {
+        let points = STANDARD.encode(points);
+        let text = format!(
+            "<VTKFile {attributes}><Points><DataArray Name=\"Points\" type=\"Float64\" format=\"binary\">{points}</DataArray>\
+             </Points><Cells><DataArray Name=\"connectivity\"/><DataArray Name=\"offsets\"/><DataArray Name=\"types\"/></Cells>\
+             <CellData><DataArray Name=\"yarn\"/></CellData></VTKFile>"
+        );
+        refused(&[("cross.vtu", text)], "", &format!("cross.vtu:1: array Points {message}"));
+    };
+    let [header, zlib] = ["header_type=\"UInt64\"", "compressor=\"vtkZLibDataCompressor\""];
+    for attributes in [String::new(), header.to_string(), zlib.to_string(), format!("{header} {zlib}")] {
+        let length = if attributes.contains(header) { 8 } else { 4 };
+        for count in 1..length {
+            vtu(&attributes, &[0; 8][..count], "is shorter than it says");
+        }
+        vtu(&attributes, &[255; 8][..length], "is shorter than it says");
+    }
+    // A block of one byte, which is 0, that says it has as many as there may be.
+    let block = [0x78, 0x9c, 0x63, 0, 0, 0, 1, 0, 1];
+    let lengths = [1, u64::MAX, 0, block.len() as u64].map(u64::to_le_bytes).concat();
+    let message = "has 1 bytes in a block; allowed: 18446744073709551615";
+    vtu(&format!("{header} {zlib}"), &[&lengths[..], &block].concat(), message);
 }

@@ -66,6 +66,8 @@ const WITHOUT_EFFECT: [&str; 50] = [
 ];
 /// Of these, those that refine, move or delete what is there.
 const WITH_EFFECT: [&str; 4] = ["*CONTROL_REFINE", "*CONTROL_ADAP", "*CONTROL_FORMING", "*CONTROL_REMESHING"];
+/// What is in the names of contacts that put nodes onto the surface to which they are tied, unless with an offset.
+const TIED: [&str; 2] = ["TIED", "SPOTWELD"];
 
 /// # Errors
 /// What in the file is wrong, by line.
@@ -122,6 +124,11 @@ impl ls_dyna::Reader for Reader {
                         "{name}; allowed: *ELEMENT_SOLID and *ELEMENT_SOLID_ORTHO, *NODE, *PART, *INCLUDE, *INCLUDE_TRANSFORM, and \
                          keywords that leave nodes, elements and fibres as they are"
                     );
+                    return Err(keyword.line.error(&message));
+                }
+                let is_tied = name.starts_with("*CONTACT") && TIED.iter().any(|tied| name.contains(tied));
+                if is_tied && !name.contains("OFFSET") {
+                    let message = format!("{name}, which moves nodes; allowed: tied contacts with OFFSET");
                     return Err(keyword.line.error(&message));
                 }
                 self.others |= name.starts_with("*ELEMENT") || name.starts_with("*PART");
@@ -234,8 +241,10 @@ impl Reader {
     fn numbered(&self, line: &Line<'_>, what: &str, field: &str, kind: usize) -> Result<u64, Error> {
         let number: u64 = line.number(what, field)?;
         let offset = self.offsets.last().map_or(0, |offsets| offsets[kind]);
-        let wrong = || line.error(&format!("{what} is {number} with an offset of {offset}; allowed: a sum from 1 on"));
-        number.checked_add_signed(offset).filter(|&sum| sum > 0 || offset == 0).ok_or_else(wrong)
+        let allowed = "allowed: a number from 1 on, and a sum from 1 on";
+        let wrong = || line.error(&format!("{what} is {number} with an offset of {offset}; {allowed}"));
+        let sum = number.checked_add_signed(offset);
+        sum.filter(|&sum| offset == 0 || (number > 0 && sum > 0)).ok_or_else(wrong)
     }
 
     fn element(&mut self, line: &Line<'_>, element: u64, nodes: [&str; 8], axes: bool) -> Result<Next, Error> {

@@ -110,7 +110,11 @@ impl Encoding {
             return Ok(Vec::new());
         }
         match self.compressor.as_str() {
-            "" => return Ok(bytes[self.header..].get(..number(0)?).ok_or_else(short)?.to_vec()),
+            "" => {
+                let length = number(0)?;
+                let own = bytes.get(self.header..).and_then(|data| data.get(..length));
+                return Ok(own.ok_or_else(short)?.to_vec());
+            }
             "vtkZLibDataCompressor" => {}
             other => return Err(format!("is compressed by {other}; allowed: vtkZLibDataCompressor, or none")),
         }
@@ -125,7 +129,7 @@ impl Encoding {
             let before = data.len();
             let decoder = ZlibDecoder::new(bytes.get(start..end).ok_or_else(short)?);
             decoder
-                .take(wanted as u64 + 1)
+                .take((wanted as u64).saturating_add(1))
                 .read_to_end(&mut data)
                 .map_err(|error| format!("is no zlib data: {error}"))?;
             if data.len() - before != wanted {

@@ -21,7 +21,7 @@ struct Yarn {
 }
 
 impl Scope {
-    /// Adds the yarns to the mesh; an orientation that is not here may be in `shared`.
+    /// Adds the yarns to the mesh; the table of a distribution may be in `shared`.
     ///
     /// # Errors
     /// What of them is wrong.
@@ -143,15 +143,26 @@ impl Scope {
         known: &mut HashMap<String, HashMap<u64, Points>>,
     ) -> Result<Option<Vec<[f64; 3]>>, Error> {
         let Some(name) = orientation else { return Ok(None) };
-        let missing =
-            || place.error(&format!("ORIENTATION={name}, which the file does not have; allowed: an *ORIENTATION"));
-        let orientation = self.orientations.get(name).or(shared.orientations.get(name)).ok_or_else(missing)?;
+        // A section of a part names what is in the part, which turns with its instances: axes outside it would not.
+        let missing = |is_outside: bool| {
+            if is_outside {
+                "stands outside the part; allowed: in the part, or in the instance"
+            } else {
+                "the file does not have; allowed: an *ORIENTATION, and its *DISTRIBUTION"
+            }
+        };
+        let orientation = self.orientations.get(name).ok_or_else(|| {
+            let missing = missing(shared.orientations.contains_key(name));
+            place.error(&format!("ORIENTATION={name}, which {missing}"))
+        })?;
         let Some(name) = orientation.distribution() else {
             return Ok(Some(vec![orientation.fibre(None)?; elements.len()]));
         };
         let wrong = |what: &str| orientation.place.error(&format!("*DISTRIBUTION {name}{what}"));
-        let distribution = self.distributions.get(&name).or(shared.distributions.get(&name));
-        let distribution = distribution.ok_or_else(|| wrong(", which the file does not have"))?;
+        let distribution = self.distributions.get(&name).ok_or_else(|| {
+            let missing = missing(shared.distributions.contains_key(&name));
+            wrong(&format!(", which {missing}"))
+        })?;
         if self.is_of_vectors(distribution, shared) == Some(false) {
             return Err(wrong(" is of no vectors; allowed: COORD3D, COORD3D"));
         }
