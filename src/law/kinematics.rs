@@ -288,9 +288,9 @@ pub struct Section<R: Real> {
     rounding: R,
 }
 
-/// The fibres have slipped far where the square of their slip, (h2² + h3²)/λ², is above this times J_t²/t̂, which is about the square of three
-/// or four of the section's shorter half axes.
-const FAR_SLIP: f64 = 8.0;
+/// The fibres have slipped far where the square of their slip, (h2² + h3²)/λ², is above this times J_t²/t̂, about that of the section's
+/// shorter half axis, of which a slip of eleven costs one rounding.
+const FAR_SLIP: f64 = 128.0;
 
 impl<R: Real> Section<R> {
     /// From F m, (F − χ1) t1 and (F − χ1) t2. Also returns a and b, the images of the transverse axes without their components
