@@ -209,7 +209,7 @@ fn warp_and_weft_have_materials_of_their_own() {
     // Twice the mass of the weft is slower to be taken along, and takes more of the sphere's speed.
     let last = |name: &str| column(&read(name), "speed").last().copied().expect("a speed");
     assert!(last("heavy.csv") < last("alike.csv") - 0.05, "{} {}", last("heavy.csv"), last("alike.csv"));
-    let wanted = "warp kevlar-km2-600; weft kevlar-km2-600 (density = 0.0027028)";
+    let wanted = "warp kevlar-km2-600; weft kevlar-km2-600 (density = 0.0027028 g/mm³)";
     assert!(report.contains(wanted), "{report}");
     let hybrid = scene(
         1.0,
