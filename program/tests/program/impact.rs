@@ -424,7 +424,10 @@ fn errors_say_what_is_wrong() {
     }
     assert_eq!(scene("layers = 100\nfriction = -1.0"), "scene.toml:14: friction is -1; allowed: a finite number >= 0");
     let unknown = scene("layers = 100\nspeeed = 3.0");
-    assert!(unknown.starts_with("scene.toml:14: unknown field `speeed`, expected one of `name`"), "{unknown}");
+    assert!(
+        unknown.starts_with("scene.toml:14: unknown field `speeed`, did you mean speed? expected one of `name`"),
+        "{unknown}"
+    );
     let spin = scene(
         "layers = 100\nlaw = \"linear-elastic\"\nlinear-elastic = { preset = \"kevlar-km2-600-linear\", frame = \"spin\" }",
     );
