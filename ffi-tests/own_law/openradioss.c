@@ -10,7 +10,7 @@ static void starter(void)
 {
     material m = read_card(3, card_of(card, 8));
     CHECK(stops == 0, "%s", said);
-    CHECK(m.nuparam == 9 && m.nuvar == DELETED && m.uparam[0] == 3, "%d, %d", m.nuparam, m.nuvar);
+    CHECK(m.nuparam == 9 && m.nuvar == DELETED + 3 && m.uparam[0] == 3, "%d, %d", m.nuparam, m.nuvar);
     const double modulus = 17 + 2 * 31 + 4 * 230; /* of the wave along the fibre, which the bound may exceed */
     CHECK(m.parmat[0] >= (real)0.999999 * (real)modulus && m.parmat[0] < 3 * modulus, "%g", (double)m.parmat[0]);
     static const char *const lines[] = {"standard reinforcing model\n", "stretch_lim (fibre stretch at failure", "fibre_from = 0.0\n",
