@@ -10,7 +10,7 @@ mod report;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use baselines::{Properties, eigen, fortran, literal};
+use baselines::{eigen, fortran, literal};
 use common::truth::{Case, cases};
 use criterion::Criterion;
 use nalgebra::{Matrix3, Scalar};
@@ -20,6 +20,7 @@ use toron::Hyperelastic;
 use toron::Level;
 use toron::law::block::Precision;
 use toron::law::state::HYPERELASTIC_STATE;
+use toron::law::thesis::Yarn;
 use toron_program::bench::command::{SIZES, processor, properties};
 use toron_program::bench::entries::{Answer, Entry, each_point};
 use toron_program::bench::scene::Scene;
@@ -105,11 +106,11 @@ fn implementations(has_fortran: bool) -> Vec<Implementation> {
 /// A law of one point in Rust.
 fn scalar<L>(name: &str, family: Family, law: L) -> Implementation
 where
-    L: Fn(&Properties, &Matrix3<f64>, &[f64; HYPERELASTIC_STATE]) -> Answer<f64> + Copy + 'static,
+    L: Fn(&Yarn<f64>, &Matrix3<f64>, &[f64; HYPERELASTIC_STATE]) -> Answer<f64> + Copy + 'static,
 {
     let kernel = move |properties: &[f64]| {
-        let properties = Properties::new(properties);
-        Kernel::Double(Box::new(move |scene| each_point(scene, |f, state| law(&properties, f, state))))
+        let yarn = baselines::yarn(properties);
+        Kernel::Double(Box::new(move |scene| each_point(scene, |f, state| law(&yarn, f, state))))
     };
     Implementation { name: name.to_string(), family, flags: String::new(), by_point: true, kernel: Box::new(kernel) }
 }

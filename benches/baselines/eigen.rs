@@ -4,17 +4,19 @@
 use nalgebra::{Matrix3, Matrix3x2, SymmetricEigen, Vector3};
 use toron::law::state::{FAILED, HYPERELASTIC_STATE};
 use toron::law::status;
+use toron::law::thesis::Yarn;
 use toron_program::bench::entries::Answer;
 
-use super::{Properties, components};
+use super::components;
 
 /// Stress, new state and status of one point.
-pub fn point(law: &Properties, f: &Matrix3<f64>, state: &[f64; HYPERELASTIC_STATE]) -> Answer<f64> {
+pub fn point(yarn: &Yarn<f64>, f: &Matrix3<f64>, state: &[f64; HYPERELASTIC_STATE]) -> Answer<f64> {
     if state[FAILED] >= 0.5 {
         return ([0.0; 6], *state, status::OK);
     }
     let jacobian = f.determinant();
-    let image = f * law.m;
+    let law = &yarn.properties;
+    let image = f * Vector3::from(law.fibre);
     let lambda = image.norm();
     if !(jacobian > 0.0 && lambda > 0.0) {
         return ([0.0; 6], *state, status::INVERTED);
@@ -44,5 +46,5 @@ pub fn point(law: &Properties, f: &Matrix3<f64>, state: &[f64; HYPERELASTIC_STAT
         stress += (sign * distortion - pressure) * n * n.transpose();
     }
     stress += law.k_ld / (lambda * lambda) * (sheared * e.transpose() + e * sheared.transpose());
-    (components(&(stress / jacobian)), law.state([i_el, i_tc, difference.abs(), i_ld]), status::OK)
+    (components(&(stress / jacobian)), super::state(yarn, [i_el, i_tc, difference.abs(), i_ld]), status::OK)
 }

@@ -7,8 +7,8 @@
 //! ```
 //!
 //! with e = c1/λ, P = 1 − e⊗e, D̂ = a⊗a + b⊗b − t̂ P the deviator of the section, u = h2 a + h3 b, and the other quantities as
-//! in `kinematics`. It is Eq. 4.14 of the thesis pushed forward, without its quotient 0/0: 2 I_td/ŝ is
-//! smooth through ŝ = 0.
+//! in `kinematics`. It is the law that [`thesis`](super::thesis) states, with its Eq. 4.14 pushed forward, without its quotient 0/0:
+//! 2 I_td/ŝ is smooth through ŝ = 0.
 //!
 //! `Kirchhoff` holds the four factors of τ. They are multiplied out twice: `cauchy` sums the modes in the axes of space, which is
 //! what a solver needs of every point, and `modes` keeps them apart and pulls them back to the reference placement, with the

@@ -24,6 +24,7 @@ pub mod stress;
 pub(crate) mod tangent;
 #[cfg(test)]
 mod tests;
+pub mod thesis;
 pub mod user;
 pub mod voigt;
 pub mod wave_bounds;
