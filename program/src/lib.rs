@@ -10,7 +10,7 @@
 //! - a material's card for a solver's deck (`toron deck`): [`deck`];
 //! - a scene as a solver's whole deck (`--deck` of `toron fabric`, `impact` and `weave`): [`scene_deck`];
 //! - histories of a scene from several hosts (`toron compare`): [`compare`];
-//! - what is wrong with anybody's UMAT (`toron check`): `check`, on Linux;
+//! - what is wrong with anybody's UMAT (`toron check`): the package `umat-check`, on Linux;
 //! - scenes to start from, which are built in (`toron init`): [`init`];
 //! - properties from measured data (`toron fit`): [`identify`];
 //! - energies of a yarn's fibres by finite elements, in CalculiX, from which they are found too (`toron cell`): [`cell`];
@@ -22,14 +22,11 @@
 //! - woven panels as meshes of hexahedra (`toron weave`): [`weave`];
 //! - `run`, `params`, `deck` and `eval` for a law of one's own, in a program of three lines: [`of_law`];
 //! - what they share: materials, presets and how files describe them in [`material`], the calls of the C interface in [`entries`],
-//!   drawing in [`picture`], errors, units, TOML files and tables of measured data in [`common`], arguments and
-//!   exit codes in [`command_line`].
+//!   drawing in [`picture`], units and tables of measured data in [`common`]; errors, TOML files, arguments and exit codes in the package
+//!   `toron-shared`.
 
 pub mod bench;
 pub mod cell;
-#[cfg(target_os = "linux")]
-pub mod check;
-pub mod command_line;
 pub mod common;
 pub mod compare;
 pub mod deck;
@@ -53,3 +50,7 @@ pub mod v50;
 pub mod weave;
 
 pub use own_program::of_law;
+
+/// The commands whose output is tables, which they can print as JSON too.
+pub const WITH_TABLES: [&str; 12] =
+    ["init", "fit", "run", "weave", "fabric", "impact", "v50", "fibres", "cell", "params", "compare", "bench"];

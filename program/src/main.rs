@@ -5,16 +5,15 @@ use std::process::ExitCode;
 
 use clap::{CommandFactory, Parser, Subcommand};
 use clap_complete::Shell;
-#[cfg(target_os = "linux")]
-use toron_program::check;
-use toron_program::common::console::print;
-use toron_program::common::error::Error;
 use toron_program::eval::command::Entry;
 use toron_program::material::laws::Laws;
 use toron_program::{
-    bench, cell, command_line, compare, deck, eval, fabric, fibres, identify, impact, init, load_path, params,
+    WITH_TABLES, bench, cell, compare, deck, eval, fabric, fibres, identify, impact, init, load_path, params,
     scene_deck, v50,
 };
+use toron_shared::command_line;
+use toron_shared::console::print;
+use toron_shared::error::Error;
 
 /// A user-material library for yarns and dry fabrics: load paths on one element, struck yarns and panels, property tables, decks.
 #[derive(Parser)]
@@ -103,7 +102,7 @@ enum Command {
     Params(params::Arguments),
     /// Check a UMAT or VUMAT of Abaqus, yours or anybody's: tangent, objectivity, energy, memory, threads.
     #[cfg(target_os = "linux")]
-    Check(check::command::Arguments),
+    Check(umat_check::command::Arguments),
     /// The process in which a law is asked.
     #[cfg(target_os = "linux")]
     #[command(hide = true)]
@@ -136,12 +135,17 @@ enum Command {
 /// Made in memory first: the generator panics where it cannot write, and a reader that has gone is no error.
 fn completions(shell: Shell) {
     let mut script = Vec::new();
-    clap_complete::generate(shell, &mut command_line::with_options(Arguments::command()), "toron", &mut script);
+    clap_complete::generate(
+        shell,
+        &mut command_line::with_options(Arguments::command(), &WITH_TABLES),
+        "toron",
+        &mut script,
+    );
     print(&String::from_utf8_lossy(&script));
 }
 
 fn main() -> ExitCode {
-    command_line::run(Arguments::command(), |arguments: Arguments| run(arguments.command))
+    command_line::run(Arguments::command(), &WITH_TABLES, |arguments: Arguments| run(arguments.command))
 }
 
 fn run(command: Command) -> Result<(), Error> {
@@ -169,9 +173,9 @@ fn run(command: Command) -> Result<(), Error> {
         Command::Deck(arguments) => deck::command::run(Laws::Toron, &arguments),
         Command::Params(arguments) => params::print_tables(Laws::Toron, &arguments),
         #[cfg(target_os = "linux")]
-        Command::Check(arguments) => check::command::run(&arguments),
+        Command::Check(arguments) => umat_check::command::run(&arguments),
         #[cfg(target_os = "linux")]
-        Command::CheckChild { request } => check::child::answer(&request),
+        Command::CheckChild { request } => umat_check::child::answer(&request),
         Command::Compare(arguments) => compare::command::run(&arguments),
         Command::Eval { via, tangent } => eval::command::lines(via, tangent),
         Command::Bench { output } => bench::command::run(output.as_deref()),

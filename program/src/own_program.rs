@@ -4,13 +4,14 @@ use std::process::ExitCode;
 
 use clap::{CommandFactory, Parser, Subcommand};
 
-use crate::common::console::{print, print_error};
 use crate::eval::own_law::{self, Entry};
 use crate::material::laws::Laws;
 use crate::material::own_law::OwnLaw;
-use crate::{bench, command_line, deck, load_path, params};
+use crate::{WITH_TABLES, bench, deck, load_path, params};
 use toron::host::Material;
 use toron::host::c::AsNumbers;
+use toron_shared::command_line;
+use toron_shared::console::{print, print_error};
 
 #[derive(Parser)]
 struct Arguments {
@@ -85,7 +86,7 @@ fn program(law: &'static OwnLaw) -> ExitCode {
             let preset = "The material: a file NAME.toml";
             deck.mut_arg("law", |law| law.hide(true)).mut_arg("preset", |argument| argument.help(preset))
         });
-    command_line::run(command, |arguments: Arguments| match arguments.command {
+    command_line::run(command, &WITH_TABLES, |arguments: Arguments| match arguments.command {
         Command::Run(arguments) => load_path::command::run(laws, &arguments),
         Command::Params(arguments) => params::print_tables(laws, &arguments),
         Command::Deck(arguments) => deck::command::run(laws, &arguments),

@@ -5,10 +5,6 @@ use std::path::Path;
 use clap::Args;
 
 use crate::common::build;
-use crate::common::console::print;
-use crate::common::error::Error;
-use crate::common::short_number::short;
-use crate::common::text_table::plain_table;
 use crate::common::units::{unit, with_unit};
 use crate::material::laws::{LawName, Laws};
 use crate::material::model::Law;
@@ -18,6 +14,10 @@ use toron::host::units::UnitSystem;
 use toron::law::parameters::{DENSITY, Dimension, Property};
 use toron::law::state::StateVariable;
 use toron::{Criterion, Rotation};
+use toron_shared::console::print;
+use toron_shared::error::Error;
+use toron_shared::short_number::short;
+use toron_shared::text_table::plain_table;
 
 /// The text of `toron --version`.
 pub fn version() -> String {

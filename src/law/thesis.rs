@@ -7,7 +7,6 @@
 use nalgebra::{ClosedAddAssign, ClosedDivAssign, ClosedMulAssign, ClosedSubAssign, Matrix3, Scalar, Vector3};
 use num_traits::{One, Zero};
 
-
 use super::hyperelastic::Properties;
 
 /// A number type that a field of matrices can be made of.

@@ -9,8 +9,6 @@ use serde::Serialize;
 use super::command::{calls_that_last, properties, timed};
 use super::hosts::{Host, HostArrays, call, whole};
 use super::scene::{Scene, impacts};
-use crate::common::error::Error;
-use crate::common::text_table::plain_table;
 use crate::entries::aligned::Aligned;
 use crate::entries::blocks::{SolverBlock, prepared};
 use crate::entries::hosts::{Given, Wanted};
@@ -18,6 +16,8 @@ use toron::Hyperelastic;
 use toron::law::block::Arrays;
 use toron::law::parameters::{self, EPS_LIM, HYPERELASTIC_PROPERTIES};
 use toron::law::state::HYPERELASTIC_STATE;
+use toron_shared::error::Error;
+use toron_shared::text_table::plain_table;
 
 /// A ratio is the median over so many pairs of timings; of calls of a millisecond, over fewer.
 const PAIRS: usize = 301;

@@ -12,14 +12,14 @@ use super::choices::{self, Choice};
 use super::entries::Entry;
 use super::hosts::{Host, HostArrays, call};
 use super::scene::Scene;
-use crate::common::console::print;
-use crate::common::error::Error;
-use crate::common::folder;
-use crate::common::text_table::plain_table;
 use crate::entries::precision::BlockPrecision;
 use toron::Hyperelastic;
 use toron::law::block::Precision;
 use toron::law::parameters;
+use toron_shared::console::print;
+use toron_shared::error::Error;
+use toron_shared::folder;
+use toron_shared::text_table::plain_table;
 
 /// The sizes of a block: one point, a few, a solver's vectors, a batch that stays in the cache, one that does not.
 pub const SIZES: [usize; 6] = [1, 8, 64, 192, 4096, 1_000_000];

@@ -7,12 +7,12 @@ use std::path::Path;
 use clap::Args;
 
 use super::command::{Best, processor};
-use crate::common::console::{print, print_error};
-use crate::common::error::Error;
 use crate::material::laws::Laws;
 use crate::material::own_law::{Own, OwnLaw};
 use crate::material::preset::Preset;
 use toron::Level;
+use toron_shared::console::{print, print_error};
+use toron_shared::error::Error;
 
 #[derive(Args)]
 pub struct Arguments {

@@ -14,18 +14,18 @@ use super::run::{self, Outcome};
 use super::scene::{Arrangement, Load, Scene};
 use super::solver::{self, Job};
 use super::{arrangement, explicit_run, output, picture, report};
-use crate::common::console::{print, print_note};
-use crate::common::error::Error;
-use crate::common::folder;
-use crate::common::interrupt::Interrupt;
-use crate::common::kept_file;
-use crate::common::progress;
-use crate::common::run_directory::{RunDirectory, Writes, file_error};
-use crate::common::shell;
 use crate::struck::command::Checkpoint;
 use crate::struck::run::{End, Observer};
 use crate::struck::sample::Sample;
 use crate::struck::{self, checkpoint};
+use toron_shared::console::{print, print_note};
+use toron_shared::error::Error;
+use toron_shared::folder;
+use toron_shared::interrupt::Interrupt;
+use toron_shared::kept_file;
+use toron_shared::progress;
+use toron_shared::run_directory::{RunDirectory, Writes, file_error};
+use toron_shared::shell;
 
 /// The file for the identification.
 const FIT: &str = "fit.toml";

@@ -10,7 +10,6 @@ use super::energies::Increment;
 use super::model::{Body as Fibre, Model};
 use super::run::{Outcome, Shape, Shares};
 use super::scene::{Load, Scene};
-use crate::common::error::Error;
 use crate::explicit::body::{Body, Support};
 use crate::explicit::energies::Energies;
 use crate::explicit::lanes::Number;
@@ -23,6 +22,7 @@ use crate::explicit::solver::{Ramp, Solver};
 use crate::struck::plan::Plan;
 use crate::struck::run::{self, End, Observer, OutcomeOf, Struck};
 use crate::struck::sample::Sample;
+use toron_shared::error::Error;
 
 /// Pressure by depth of penetration over e_2 a diameter.
 const STIFFNESS: f64 = 200.0;

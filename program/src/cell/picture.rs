@@ -9,11 +9,11 @@ use super::model::Model;
 use super::report::title;
 use super::run::{Outcome, Shape};
 use super::scene::Scene;
-use crate::common::error::Error;
 use crate::common::units::{number, unit};
 use crate::picture::page::{self, Area, Drawn};
 use crate::picture::style::{GREY, INK, TEXT, TITLE, fine, stroke, text};
 use toron::law::parameters::STRESS;
+use toron_shared::error::Error;
 
 /// The width of what is drawn, the air around it, and the heading's height.
 const WIDTH: i32 = 760;

@@ -8,7 +8,7 @@ use super::energies::{self, Increment};
 use super::model::Model;
 use super::scene::{Load, Scene};
 use super::solver::{Job, Printed};
-use crate::common::error::Error;
+use toron_shared::error::Error;
 
 /// The stretch is known to the seven digits that CalculiX prints of the time.
 const ROUNDING: f64 = 1e-6;

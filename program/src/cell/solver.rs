@@ -7,8 +7,8 @@ use std::process::{Child, Command, ExitStatus, Stdio};
 use std::time::{Duration, Instant};
 
 use super::printed::{self, Table};
-use crate::common::bound_child;
-use crate::common::error::Error;
+use toron_shared::bound_child;
+use toron_shared::error::Error;
 
 /// The variable that names the program where no option does.
 pub const VARIABLE: &str = "TORON_CCX";

@@ -6,12 +6,12 @@ use std::path::Path;
 
 use csv::{ReaderBuilder, Trim};
 
-use super::error::Error;
-use super::toml_error::shortened;
 use super::unit_expression::{self, Unit};
 use super::units;
 use toron::host::units::UnitSystem;
 use toron::law::parameters::Dimension;
+use toron_shared::error::Error;
+use toron_shared::toml_error::shortened;
 
 /// A table of measured data. Lines are those of the file, from 1; so are the numbers of columns.
 #[derive(Clone, Debug)]

@@ -1,7 +1,10 @@
 //! What the units of a system are called, for axes and summaries: MPa in mm-tonne-s, GPa in mm-kg-ms, psi in in-slinch-s.
 
+use toml::Spanned;
 use toron::host::units::UnitSystem;
 use toron::law::parameters::{DENSITY, Dimension, ENERGY_DENSITY, NUMBER, STRESS};
+use toron_shared::error::Error;
+use toron_shared::toml_file::Source;
 
 /// Joule, for work and energies.
 pub const ENERGY: Dimension = Dimension { mass: 1, length: 2, time: -2, name: "energy" };
@@ -18,6 +21,17 @@ pub const SPEED: Dimension = Dimension { mass: 0, length: 1, time: -1, name: "sp
 /// Powers of ten that have a prefix.
 const PREFIXES: [(i32, &str); 9] =
     [(-9, "n"), (-6, "µ"), (-3, "m"), (0, ""), (3, "k"), (6, "M"), (9, "G"), (12, "T"), (15, "P")];
+
+/// The system of units that a file names.
+///
+/// # Errors
+/// There is none of that name.
+pub fn system(source: &Source, name: &Spanned<String>) -> Result<UnitSystem, Error> {
+    UnitSystem::parse(name.get_ref()).ok_or_else(|| {
+        let message = format!("unit system \"{}\"; allowed: {}", name.get_ref(), UnitSystem::ALLOWED);
+        source.error(name.span(), &message)
+    })
+}
 
 /// The name of a system's unit: one with a name of its own where there is one, else built of the base units.
 pub fn unit(units: &UnitSystem, dimension: Dimension) -> String {

@@ -3,7 +3,7 @@
 use std::fmt::{Display, Write};
 use std::path::PathBuf;
 
-use super::error::Error;
+use toron_shared::error::Error;
 
 /// The corners of an element in the order of a VTK hexahedron; corner c stands on the upper side of axis i where bit i of c
 /// is set.

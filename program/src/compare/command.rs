@@ -9,12 +9,12 @@ use toron::host::units::UnitSystem;
 use super::figures::Figures;
 use super::history::History;
 use super::{of_abaqus, of_ls_dyna, of_openradioss, of_toron, plot, report};
-use crate::common::console::print;
-use crate::common::error::Error;
-use crate::common::folder;
-use crate::common::run_directory::{RunDirectory, Writes, file_error};
-use crate::common::text_table::{files, shortened, write_csv};
 use crate::scene_deck::origin::Origin;
+use toron_shared::console::print;
+use toron_shared::error::Error;
+use toron_shared::folder;
+use toron_shared::run_directory::{RunDirectory, Writes, file_error};
+use toron_shared::text_table::{files, shortened, write_csv};
 
 /// Letters of a line that a message repeats.
 const LONGEST: usize = 40;

@@ -5,7 +5,7 @@
 use std::path::Path;
 
 use super::history::{Curve, History, Quantity, direction};
-use crate::common::error::Error;
+use toron_shared::error::Error;
 
 /// One of these is in a folder of a run.
 pub const FILES: [&str; 5] = ["glstat", "rbdout", "nodout", "rcforc", "matsum"];

@@ -7,7 +7,7 @@ use std::path::Path;
 
 use super::history::{Curve, History, Quantity, direction};
 use super::table::Table;
-use crate::common::error::Error;
+use toron_shared::error::Error;
 
 /// What its first line has.
 pub const START: &str = "\"time\",\"INTERNAL ENERGY\"";

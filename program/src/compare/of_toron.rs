@@ -7,8 +7,8 @@ use toron::law::parameters::{Dimension, NUMBER};
 
 use super::history::{Curve, History, Quantity};
 use crate::common::data_table::DataTable;
-use crate::common::error::Error;
 use crate::common::units::{ENERGY, FORCE, LENGTH, SPEED, TIME};
+use toron_shared::error::Error;
 
 /// What its first title begins with.
 pub const START: &str = "time (";

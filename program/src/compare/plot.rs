@@ -5,11 +5,11 @@ use std::path::Path;
 use toron::host::units::UnitSystem;
 
 use super::history::{History, QUANTITIES};
-use crate::common::error::Error;
 use crate::common::units::{TIME, unit};
 use crate::picture::history;
 use crate::picture::panel::{Abscissa, Panel, Series};
 use crate::picture::style::COLOURS;
+use toron_shared::error::Error;
 
 /// Points of a line.
 const POINTS: usize = 1000;

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::history::Curve;
-use crate::common::error::Error;
+use toron_shared::error::Error;
 
 /// The first column is the time.
 pub struct Table {

@@ -4,10 +4,10 @@
 use std::fmt::Write;
 
 use super::material::{Material, WIDE};
-use crate::common::error::Error;
-use crate::common::short_number::short;
 use crate::material::laws::LawName;
 use crate::material::preset::LONGEST_NAME;
+use toron_shared::error::Error;
+use toron_shared::short_number::short;
 
 /// What nobody but its author knows of a law.
 const UNSYMMETRIC: &str =

@@ -2,7 +2,7 @@
 
 use super::abaqus::{comments, constants};
 use super::material::{Material, WIDE};
-use crate::common::short_number::short;
+use toron_shared::short_number::short;
 
 /// CalculiX reads one more line where the last one is full.
 const FULL: usize = 8;

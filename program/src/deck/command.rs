@@ -11,11 +11,11 @@ use super::ls_dyna::{self, Fibre, NUMBERS};
 use super::material::Material;
 use super::openradioss::FibreFrom;
 use super::{calculix, mtest, openradioss};
-use crate::common::console::{print, print_error};
-use crate::common::error::Error;
-use crate::common::toml_file;
 use crate::material::laws::{LawName, Laws};
 use crate::material::preset::Preset;
+use toron_shared::console::{print, print_error};
+use toron_shared::error::Error;
+use toron_shared::toml_file;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Host {

@@ -4,8 +4,8 @@
 //! not readable. A number keeps nine characters and a blank before it; what that rounds is named in a comment.
 
 use super::material::Material;
-use crate::common::error::Error;
-use crate::common::short_number::{EXACT, deviation, short};
+use toron_shared::error::Error;
+use toron_shared::short_number::{EXACT, deviation, short};
 
 /// The numbers of materials whose routines have the argument list that the shims know.
 pub const NUMBERS: [u32; 8] = [41, 43, 44, 45, 47, 48, 49, 50];

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use super::interface::Interface;
 use super::material::{Material, WIDE};
-use crate::common::short_number::short;
+use toron_shared::short_number::short;
 
 pub fn card(material: &Material) -> String {
     let mut card = material.comments().iter().map(|comment| format!("// {comment}\n")).collect::<String>();

@@ -7,8 +7,8 @@ use toron::{Criterion, Rotation};
 
 use super::interface::Interface;
 use super::material::{Material, WIDE};
-use crate::common::error::Error;
-use crate::common::short_number::short;
+use toron_shared::error::Error;
+use toron_shared::short_number::short;
 
 /// Values a line.
 const FIELDS: usize = 5;

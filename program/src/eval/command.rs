@@ -11,12 +11,12 @@ use serde::{Deserialize, Serialize};
 use super::lines::{self, order};
 use super::polar::polar_decomposition;
 use super::push_forward::{cauchy_of_second, truesdell_of_material};
-use crate::common::error::Error;
-use crate::common::toml_error::shortened;
 use crate::entries::evaluation::{self, Answer};
 use crate::entries::precision::BlockPrecision;
 use toron::law::state::{ENERGIES, FAILED, FAILURE_INDEX, INVARIANTS};
 use toron::law::{status, stress};
+use toron_shared::error::Error;
+use toron_shared::toml_error::shortened;
 
 /// The C entry that evaluates a line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

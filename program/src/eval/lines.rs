@@ -4,7 +4,7 @@ use std::io::{self, BufRead, BufWriter, StdinLock, StdoutLock, Write};
 
 use serde::Serialize;
 
-use crate::common::error::Error;
+use toron_shared::error::Error;
 
 /// From the standard input to the standard output.
 ///

@@ -9,12 +9,12 @@ use serde::ser::SerializeMap;
 use serde::{Deserialize, Serialize, Serializer};
 
 use super::lines::{self, order};
-use crate::common::error::Error;
-use crate::common::toml_error::shortened;
 use crate::entries::evaluation::{NEIGHBOURS, place};
 use crate::material::own_law::{Own, OwnLaw, PointArrays};
 use toron::Measure;
 use toron::law::status;
+use toron_shared::error::Error;
+use toron_shared::toml_error::shortened;
 
 /// How the law is called.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

@@ -14,8 +14,8 @@ use super::lanes::{Number, largest};
 use super::medium::Medium;
 use super::mutual_contact::MutualContact;
 use super::projectile::Projectile;
-use crate::common::error::Error;
 use toron::law::status;
+use toron_shared::error::Error;
 
 /// A step is this fraction of the longest one that the bounds of frequency and damping allow.
 const SAFETY: f64 = 0.9;

@@ -4,10 +4,10 @@ use super::body::Body;
 use super::lanes::Number;
 use super::medium::ENERGY_NAMES;
 use super::solver::Solver;
-use crate::common::error::Error;
 use crate::common::vtk::{self, array, components, vectors};
 use toron::law::state::{FAILURE_INDEX, HYPERELASTIC, INVARIANTS};
 use toron::law::status;
+use toron_shared::error::Error;
 
 /// Components of the stress, in ParaView's order of a symmetric tensor.
 const STRESS: [&str; 6] = ["11", "22", "33", "12", "23", "31"];

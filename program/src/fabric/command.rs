@@ -9,15 +9,15 @@ use super::run::{Outcome, StruckPanel};
 use super::scene::{Case, Scene};
 use super::summary::{self, Figures};
 use super::{panel_picture, plot, report};
-use crate::common::console::print_error;
-use crate::common::error::Error;
-use crate::common::file_names::PANEL;
 use crate::explicit::judgement::{Finding, verdict};
 use crate::struck::command;
 use crate::struck::history::Column;
 use crate::struck::summary::Cells;
 use crate::weave;
 use toron::host::units::UnitSystem;
+use toron_shared::console::print_error;
+use toron_shared::error::Error;
+use toron_shared::file_names::PANEL;
 
 /// Runs the cases of a scene, one after another, and writes what came of them to the directory `output`. With `restart`, cases
 /// go on from their checkpoints there.

@@ -6,7 +6,6 @@ use std::path::Path;
 use plotters::prelude::*;
 
 use super::scene::{Case, Scene, Zones};
-use crate::common::error::Error;
 use crate::common::units::{number, time, unit};
 use crate::explicit::contact::Shape;
 use crate::explicit::snapshot::Snapshot;
@@ -21,6 +20,7 @@ use crate::weave::model::Model;
 use crate::weave::projection::{self, Eye};
 use crate::weave::surface::{self, Visible};
 use toron::law::parameters::ENERGY_DENSITY;
+use toron_shared::error::Error;
 
 const WIDTH: i32 = 1280;
 /// Air beside all that is drawn, and between two views.

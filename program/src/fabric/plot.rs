@@ -5,12 +5,12 @@ use std::path::Path;
 use super::measure::Sample;
 use super::run::Outcome;
 use super::scene::{Case, Scene};
-use crate::common::error::Error;
 use crate::common::units::{ENERGY, FORCE, LENGTH, SPEED, TIME, unit};
 use crate::picture::history;
 use crate::picture::panel::{Abscissa, Panel, Series, tidy};
 use crate::picture::style::{COLOURS, INK};
 use toron::law::parameters::ENERGY_DENSITY;
+use toron_shared::error::Error;
 
 const MODES: [&str; 5] = ["elongation", "compaction", "distortion", "shear", "work of the linear law"];
 

@@ -1,5 +1,9 @@
 //! A scene from its TOML file. The format is described in `docs/guides/fabric.md`.
 
+use crate::explicit::control_keys::zero_or_more;
+use crate::struck::shots::read_shots;
+use crate::weave::cloth::read_cloth;
+use crate::weave::reader::layup;
 use std::f64::consts::PI;
 use std::ops::RangeInclusive;
 use std::path::Path;
@@ -9,9 +13,7 @@ use toml::Spanned;
 
 use super::file::{CaseFile, Rim, SceneFile, ShapeName};
 use super::scene::{Case, Scene, Striker};
-use crate::common::error::Error;
-use crate::common::toml_file::{self, Numbers, Source, over};
-use crate::common::units::number;
+use crate::common::units::{self, number};
 use crate::explicit::contact::{Rigid, Shape};
 use crate::explicit::medium::Control;
 use crate::explicit::mutual_contact::Parameters;
@@ -26,6 +28,8 @@ use crate::weave::geometry::Family;
 use crate::weave::layup::Ply;
 use crate::weave::panel::Part;
 use toron::law::parameters::DENSITY;
+use toron_shared::error::Error;
+use toron_shared::toml_file::{self, Numbers, Source, over};
 
 /// Samples of a history where the file does not say otherwise.
 const SAMPLES: f64 = 400.0;
@@ -56,8 +60,8 @@ impl Scene {
     pub fn parse(name: &str, text: &str) -> Result<Scene, Error> {
         let source = Source { name, text };
         let file: SceneFile = source.parse()?;
-        let units = source.units(&file.units)?;
-        let cloth = Arc::new(source.cloth(file.weave.as_ref(), &file.ply, file.mesh.as_ref(), &units)?);
+        let units = units::system(&source, &file.units)?;
+        let cloth = Arc::new(read_cloth(&source, file.weave.as_ref(), &file.ply, file.mesh.as_ref(), &units)?);
         let CaseFile { weave, ply, mesh, .. } = file.scene.get_ref();
         let tables = [
             weave.as_ref().map(|table| (table.span(), "weave in [scene]; allowed: [weave], or in a [[case]]")),
@@ -78,7 +82,7 @@ impl Scene {
             },
         )?;
         let inner = || cases.iter().map(|case| case.zones.inner());
-        let shots = file.shots.as_ref().map(|shots| source.shots(shots, &units, inner())).transpose()?;
+        let shots = file.shots.as_ref().map(|shots| read_shots(&source, shots, &units, inner())).transpose()?;
         Ok(Scene { title: file.title.unwrap_or_else(|| name.to_string()), units, cases, shots })
     }
 }
@@ -97,7 +101,7 @@ impl Reader<'_> {
         if let Some(mesh) = &case.mesh {
             let mesh = over(&Some(mesh.clone()), &scene.mesh, MeshFile::over);
             let plies = case.ply.as_deref().unwrap_or_default();
-            let foreign = self.source.cloth(case.weave.as_ref(), plies, mesh.as_ref(), self.units)?;
+            let foreign = read_cloth(self.source, case.weave.as_ref(), plies, mesh.as_ref(), self.units)?;
             return Ok((Arc::new(foreign), vec![[None, None]]));
         }
         let plies = case.ply.as_ref().unwrap_or(&scene.ply);
@@ -113,7 +117,7 @@ impl Reader<'_> {
             cloth.clone()
         } else {
             let own = case.weave.as_ref().map(Spanned::span);
-            Arc::new(Cloth::Woven(self.source.layup(&weave, plies, self.units, own)?))
+            Arc::new(Cloth::Woven(layup(self.source, &weave, plies, self.units, own)?))
         };
         let threads = self.threads(weave.get_ref(), plies, &cloth)?;
         Ok((cloth, threads))
@@ -136,7 +140,7 @@ impl Reader<'_> {
                 shape: shape(file),
                 radius: self.positive("radius", &keys.radius)?,
                 stiffness,
-                friction: self.source.zero_or_more("friction", &keys.friction, friction)?,
+                friction: zero_or_more(self.source, "friction", &keys.friction, friction)?,
                 aim: self.aim(file, &cloth)?,
             },
             cloth,
@@ -149,7 +153,7 @@ impl Reader<'_> {
             held: file.rim != Some(Rim::Free),
             mutual: Parameters {
                 stiffness,
-                friction: self.source.zero_or_more("yarn-friction", &file.yarn_friction, of_yarns)?,
+                friction: zero_or_more(self.source, "yarn-friction", &file.yarn_friction, of_yarns)?,
                 margin: MARGIN * height,
                 deepest: DEEPEST * height,
                 // The chords of a coarse mesh go into each other where the yarns that they stand for touch.

@@ -4,13 +4,13 @@ use super::fate::{self, Fate};
 use super::measure::{OfPanel, Sample};
 use super::model::{self, share};
 use super::scene::Case;
-use crate::common::error::Error;
 use crate::explicit::lanes::Number;
 use crate::explicit::solver::Solver;
 use crate::struck::plan::Plan;
 pub use crate::struck::run::End;
 use crate::struck::run::{self, Struck};
 use crate::weave::model::Model;
+use toron_shared::error::Error;
 
 /// What came of a case.
 pub type Outcome = run::Outcome<OfPanel, Fate>;

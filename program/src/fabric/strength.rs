@@ -1,7 +1,6 @@
 //! The strength of each element of a panel's yarns.
 
 use super::scene::Case;
-use crate::common::error::Error;
 use crate::explicit::lanes::smallest;
 use crate::strength::field;
 use crate::strength::scatter::Strength;
@@ -12,6 +11,7 @@ use crate::weave::geometry::Family;
 use crate::weave::layup::Ply;
 use crate::weave::model::{Model, Yarn};
 use crate::weave::panel::Place;
+use toron_shared::error::Error;
 
 /// A case whose strength scatters.
 pub struct PanelStrength<'a> {

@@ -3,9 +3,9 @@
 use std::collections::HashMap;
 use std::path::Path;
 
-use crate::common::error::Error;
-use crate::common::file_names::STRAINS;
-use crate::common::run_directory::{file_error, is_file};
+use toron_shared::error::Error;
+use toron_shared::file_names::STRAINS;
+use toron_shared::run_directory::{file_error, is_file};
 
 const TIME: &str = "time";
 /// The columns that are drawn.

@@ -14,13 +14,13 @@ use super::reader::COMMON;
 use super::run::Folder;
 use super::scene::{Case, Scene};
 use super::{picture, plot, pressed, report, summary};
-use crate::common::console::{print, print_error, print_note};
-use crate::common::error::Error;
-use crate::common::file_names::{FIBRES, STRAIN, STRAINS};
-use crate::common::kept_file;
-use crate::common::progress::{self, Lines};
-use crate::common::run_directory::{RunDirectory, Writes};
 use crate::impact::summary::write_strains;
+use toron_shared::console::{print, print_error, print_note};
+use toron_shared::error::Error;
+use toron_shared::file_names::{FIBRES, STRAIN, STRAINS};
+use toron_shared::kept_file;
+use toron_shared::progress::{self, Lines};
+use toron_shared::run_directory::{RunDirectory, Writes};
 
 const SUMMARY: &str = "summary.csv";
 /// The file for the identification.

@@ -4,7 +4,7 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use super::scene::Walls;
-use crate::common::toml_file::{Unused, over};
+use toron_shared::toml_file::{Unused, over};
 
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
 #[serde(rename_all = "kebab-case")]

@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use super::model::Model;
-use crate::common::error::Error;
-use crate::common::run_directory::file_error;
+use toron_shared::error::Error;
+use toron_shared::run_directory::file_error;
 
 /// All beads of the fibres, layer by layer.
 #[derive(Clone, Debug, Default)]

@@ -5,8 +5,8 @@ use std::path::Path;
 use super::input::{COLUMNS, STATION_COLUMNS};
 use super::model::{Model, Striking};
 use super::pressed;
-use crate::common::error::Error;
-use crate::common::run_directory::file_error;
+use toron_shared::error::Error;
+use toron_shared::run_directory::file_error;
 
 /// A line.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

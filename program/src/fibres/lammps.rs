@@ -8,9 +8,9 @@ use std::process::{Child, Command, ExitStatus, Stdio};
 use std::time::Duration;
 
 use super::input::{INPUT, RESTART};
-use crate::common::bound_child;
-use crate::common::error::Error;
-use crate::common::run_directory::file_error;
+use toron_shared::bound_child;
+use toron_shared::error::Error;
+use toron_shared::run_directory::file_error;
 
 /// The variable that names the program where no option does.
 pub const VARIABLE: &str = "TORON_LMP";

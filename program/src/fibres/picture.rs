@@ -9,7 +9,6 @@ use super::frame::Frame;
 use super::model::{Model, Striking, micro};
 use super::outcome::Outcome;
 use super::scene::{Case, Scene};
-use crate::common::error::Error;
 use crate::common::units::{LENGTH, TIME, time};
 use crate::impact::outcome::STATIONS;
 use crate::picture::colour_scale::{Colours, Scale};
@@ -17,6 +16,7 @@ use crate::picture::page::{self, Area, Drawn};
 use crate::picture::ruler;
 use crate::picture::style::{GREY, INK, TEXT, TITLE, fine, stroke, text};
 use crate::picture::view::View;
+use toron_shared::error::Error;
 
 const WIDTH: i32 = 1280;
 /// Air beside all that is drawn.

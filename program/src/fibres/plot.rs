@@ -7,12 +7,12 @@ use super::frame::Frame;
 use super::model::{Striking, micro};
 use super::outcome::{Outcome, Sample};
 use super::scene::{Case, Scene};
-use crate::common::error::Error;
 use crate::common::units::{ENERGY, LENGTH, SPEED, TIME, time, unit};
 use crate::impact::outcome::STATIONS;
 use crate::picture::history;
 use crate::picture::panel::{self, Panel, Series, tidy};
 use crate::picture::style::{COLOURS, INK};
+use toron_shared::error::Error;
 
 /// Speed, energies, strain and widths of a case over time, as far as they change.
 ///

@@ -1,5 +1,6 @@
 //! A scene from its TOML file. The format is described in `docs/guides/fibres.md`.
 
+use crate::explicit::control_keys::zero_or_more;
 use std::ops::Range;
 use std::path::Path;
 
@@ -7,12 +8,12 @@ use toml::Spanned;
 
 use super::file::{CaseFile, FibreFile, PackingName, SceneFile, SectionName, StrikerName};
 use super::scene::{Case, Contact, Fibre, Outline, Packing, Scene, SectionLaw, Striker, Walls};
-use crate::common::error::Error;
-use crate::common::toml_file::{self, Source};
-use crate::common::units::SPEED;
+use crate::common::units::{self, SPEED};
 use crate::material::laws::Laws;
 use crate::material::preset::Preset;
 use toron::host::units::UnitSystem;
+use toron_shared::error::Error;
+use toron_shared::toml_file::{self, Source};
 
 /// A bead takes some 600 bytes in LAMMPS, and its identifiers have 31 bits.
 const MOST_BEADS: f64 = 1e9;
@@ -48,7 +49,7 @@ impl Scene {
     pub fn parse(name: &str, text: &str) -> Result<Scene, Error> {
         let source = Source { name, text };
         let file: SceneFile = source.parse()?;
-        let units = source.units(&file.units)?;
+        let units = units::system(&source, &file.units)?;
         let base = file.scene.get_ref();
         if let Some(name) = &base.name {
             return Err(source.error(name.span(), "name in [scene]; allowed: in a [[case]]"));
@@ -126,7 +127,7 @@ impl Reader<'_> {
             outline: self.outline()?,
             packing: self.packing()?,
             contact: self.contact(&fibre, fibres)?,
-            friction: self.source.zero_or_more("friction", &file.friction, 0.0)?,
+            friction: zero_or_more(self.source, "friction", &file.friction, 0.0)?,
             striker: self.striker(&fibre, spacing)?,
             speed: if is_pressed { 0.0 } else { self.positive("speed", &file.speed)? },
             end,
@@ -277,7 +278,7 @@ impl Reader<'_> {
         let file = self.file;
         if file.striker() == StrikerName::Driven {
             let default = RAMP * spacing / (fibre.modulus / fibre.density).sqrt();
-            return Ok(Striker::Driven { ramp: self.source.zero_or_more("ramp", &file.ramp, default)? });
+            return Ok(Striker::Driven { ramp: zero_or_more(self.source, "ramp", &file.ramp, default)? });
         }
         if file.striker() == StrikerName::Walls {
             let closing = file.closing.as_ref();
@@ -289,7 +290,7 @@ impl Reader<'_> {
             return Ok(Striker::Walls {
                 walls: file.walls.as_ref().map_or(Walls::AllSides, |walls| *walls.get_ref()),
                 closing: share,
-                damping: self.source.zero_or_more("damping", &file.damping, DAMPING)?,
+                damping: zero_or_more(self.source, "damping", &file.damping, DAMPING)?,
                 law: file.preset.as_ref().map(|name| self.law(name)).transpose()?,
             });
         }
@@ -298,7 +299,7 @@ impl Reader<'_> {
             radius: self.positive("radius", &file.radius)?,
             mass: if held && file.mass.is_none() { 0.0 } else { self.positive("mass", &file.mass)? },
             held,
-            friction: self.source.zero_or_more("projectile-friction", &file.projectile_friction, 0.0)?,
+            friction: zero_or_more(self.source, "projectile-friction", &file.projectile_friction, 0.0)?,
             stiffness: self.positive("projectile-stiffness", &file.projectile_stiffness)?,
         })
     }

@@ -9,10 +9,10 @@ use super::history;
 use super::input::{self, BEADS, DONE, FRAMES, HISTORY, INPUT, RESTARTS};
 use super::lammps::{LOG, Lammps};
 use super::model::{Model, Striking};
-use crate::common::error::Error;
-use crate::common::folder;
-use crate::common::kept_file;
-use crate::common::run_directory::{file_error, is_file};
+use toron_shared::error::Error;
+use toron_shared::folder;
+use toron_shared::kept_file;
+use toron_shared::run_directory::{file_error, is_file};
 
 /// What a run has left.
 #[derive(Clone, Debug)]

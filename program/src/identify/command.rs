@@ -6,11 +6,11 @@ use std::path::{Path, PathBuf};
 use super::file::Job;
 use super::strength::file::StrengthJob;
 use super::{output, plot, region, report, strength, worth};
-use crate::common::console::print;
-use crate::common::error::Error;
-use crate::common::folder;
-use crate::common::kept_file;
 use crate::impact::scene::Scene;
+use toron_shared::console::print;
+use toron_shared::error::Error;
+use toron_shared::folder;
+use toron_shared::kept_file;
 
 /// Fits the parameters to the data of a file and writes what came of it to the directory `output`; with a scene, also what it
 /// makes of them.

@@ -5,7 +5,7 @@ use nalgebra::Matrix3;
 use super::parameter::{ALL, PARAMETERS, Parameter, Values};
 use super::path_response::PathResponse;
 use super::response::{Measured, Modes, Response};
-use crate::common::error::Error;
+use toron_shared::error::Error;
 
 /// The fibre direction of the prescribed states: the first axis.
 const FIBRE: [f64; 3] = [1.0, 0.0, 0.0];

@@ -5,12 +5,12 @@ use toml::Spanned;
 
 use super::equivalence::{Constant, Fibre};
 use super::report::digits;
-use crate::common::error::Error;
-use crate::common::toml_file::Source;
 use crate::common::unit_expression::{self, Unit};
 use crate::common::units::{LENGTH, unit};
 use toron::host::units::UnitSystem;
 use toron::law::parameters::{DENSITY, Dimension, NUMBER, STRESS};
+use toron_shared::error::Error;
+use toron_shared::toml_file::Source;
 
 const LINEAR_DENSITY: Dimension = Dimension { mass: 1, length: -1, time: 0, name: "linear density" };
 /// Force by linear density, of which the density makes a stress.

@@ -14,13 +14,14 @@ use super::fit::Problem;
 use super::parameter::{ALL, PARAMETERS, Parameter, Values};
 use super::reader::{Reader, plain_name};
 use super::strength::file::SetFile;
-use crate::common::error::Error;
-use crate::common::nearest;
-use crate::common::toml_file::{self, Numbers, Source};
+use crate::common::units;
 use crate::material::laws::{LawName, Laws};
 use crate::material::preset::{LONGEST_NAME, Preset};
 use toron::host::units::UnitSystem;
 use toron::law::parameters::HYPERELASTIC;
+use toron_shared::error::Error;
+use toron_shared::nearest;
+use toron_shared::toml_file::{self, Numbers, Source};
 
 /// Two densities of a yarn are the same within this, which is more than rounding and less than a slip.
 const SAME_DENSITY: f64 = 0.005;
@@ -141,7 +142,7 @@ impl Job {
         let (name, text) = toml_file::read(path)?;
         let source = Source { name: &name, text: &text };
         let file: FitFile = source.parse()?;
-        let units = source.units(&file.units)?;
+        let units = units::system(&source, &file.units)?;
         let folder = path.parent().unwrap_or(Path::new(""));
         if file.data.is_empty() && file.fibre.is_none() && file.data_sheet.is_none() {
             return Err(source.error(
@@ -154,10 +155,10 @@ impl Job {
             return Err(source.error(sheet.span(), message));
         }
         let sheet = file.data_sheet.as_ref().map(|sheet| DataSheet::read(&source, sheet)).transpose()?;
-        let fibre = file.fibre.as_ref().map(|fibre| source.known_fibre(fibre)).transpose()?;
+        let fibre = file.fibre.as_ref().map(|fibre| known_fibre(&source, fibre)).transpose()?;
         let fibre = fibre.or_else(|| sheet.as_ref().map(|sheet| sheet.fibre(&units)));
-        let base = file.yarn.preset.as_ref().map(|name| source.base(name, folder)).transpose()?;
-        let mut preset = source.preset_to_be(&file, units)?;
+        let base = file.yarn.preset.as_ref().map(|name| base(&source, name, folder)).transpose()?;
+        let mut preset = preset_to_be(&source, &file, units)?;
         if let Some(sheet) = &sheet {
             let of_sheet = sheet.density(&units);
             if let Some(given) =
@@ -218,79 +219,73 @@ fn start(known: &[Option<f64>; PARAMETERS], base: Option<&Preset>, units: &UnitS
     ALL.map(value)
 }
 
-impl Source<'_> {
-    fn known_fibre(&self, file: &Spanned<FibreFile>) -> Result<Fibre, Error> {
-        let file = file.get_ref();
-        let constant = |name: &str, value: &Spanned<f64>, deviation: &Option<Spanned<f64>>| {
-            let number = self.positive(name, *value.get_ref(), value.span())?;
-            let deviation = deviation.as_ref().map_or(Ok(0.0), |deviation| {
-                self.positive(&format!("{name}_deviation"), *deviation.get_ref(), deviation.span())
-            })?;
-            Ok(Constant { value: number, deviation })
-        };
-        let fibre = Fibre {
-            modulus: constant("modulus", &file.modulus, &file.modulus_deviation)?,
-            volume_fraction: constant("volume_fraction", &file.volume_fraction, &file.volume_fraction_deviation)?,
-            strain_at_failure: constant(
-                "strain_at_failure",
-                &file.strain_at_failure,
-                &file.strain_at_failure_deviation,
-            )?,
-        };
-        for (name, value, span) in [
-            ("volume_fraction", fibre.volume_fraction.value, file.volume_fraction.span()),
-            ("strain_at_failure", fibre.strain_at_failure.value, file.strain_at_failure.span()),
-        ] {
-            if value > 1.0 {
-                return Err(self.error(span, &format!("{name} is {value}; allowed: a number > 0, at most 1")));
-            }
+fn known_fibre(source: &Source<'_>, file: &Spanned<FibreFile>) -> Result<Fibre, Error> {
+    let file = file.get_ref();
+    let constant = |name: &str, value: &Spanned<f64>, deviation: &Option<Spanned<f64>>| {
+        let number = source.positive(name, *value.get_ref(), value.span())?;
+        let deviation = deviation.as_ref().map_or(Ok(0.0), |deviation| {
+            source.positive(&format!("{name}_deviation"), *deviation.get_ref(), deviation.span())
+        })?;
+        Ok(Constant { value: number, deviation })
+    };
+    let fibre = Fibre {
+        modulus: constant("modulus", &file.modulus, &file.modulus_deviation)?,
+        volume_fraction: constant("volume_fraction", &file.volume_fraction, &file.volume_fraction_deviation)?,
+        strain_at_failure: constant("strain_at_failure", &file.strain_at_failure, &file.strain_at_failure_deviation)?,
+    };
+    for (name, value, span) in [
+        ("volume_fraction", fibre.volume_fraction.value, file.volume_fraction.span()),
+        ("strain_at_failure", fibre.strain_at_failure.value, file.strain_at_failure.span()),
+    ] {
+        if value > 1.0 {
+            return Err(source.error(span, &format!("{name} is {value}; allowed: a number > 0, at most 1")));
         }
-        Ok(fibre)
     }
+    Ok(fibre)
+}
 
-    /// The preset that fills in what nothing else gives.
-    fn base(&self, name: &Spanned<String>, folder: &Path) -> Result<Preset, Error> {
-        let preset = Preset::find(Laws::Toron, name.get_ref(), folder, |message| self.error(name.span(), message))?;
-        if preset.law != LawName::Hyperelastic {
-            let message =
-                format!("preset \"{}\" belongs to the linear elastic law; allowed: a hyperelastic one", preset.name);
-            return Err(self.error(name.span(), &message));
-        }
-        Ok(preset)
+/// The preset that fills in what nothing else gives.
+fn base(source: &Source<'_>, name: &Spanned<String>, folder: &Path) -> Result<Preset, Error> {
+    let preset = Preset::find(Laws::Toron, name.get_ref(), folder, |message| source.error(name.span(), message))?;
+    if preset.law != LawName::Hyperelastic {
+        let message =
+            format!("preset \"{}\" belongs to the linear elastic law; allowed: a hyperelastic one", preset.name);
+        return Err(source.error(name.span(), &message));
     }
+    Ok(preset)
+}
 
-    /// The preset that comes out, with the values that the file gives.
-    fn preset_to_be(&self, file: &FitFile, units: UnitSystem) -> Result<Preset, Error> {
-        let text = |value: &Option<Spanned<String>>| value.as_ref().map(|text| text.get_ref().clone());
-        let name = text(&file.yarn.name).unwrap_or_else(|| "my-yarn".to_string());
-        if !plain_name(&name) || name.len() > LONGEST_NAME || toron::preset(&name).is_some() {
-            let span = file.yarn.name.as_ref().map_or(0..0, Spanned::span);
-            let allowed = "up to 80 letters, digits and - _ ., and no name of the library's presets";
-            return Err(self.error(span, &format!("name is \"{name}\"; allowed: {allowed}")));
-        }
-        let source = text(&file.yarn.source).or_else(|| file.title.clone());
-        let mut preset = Preset::new(&name, &source.unwrap_or_else(|| name.clone()), LawName::Hyperelastic, units);
-        if let Some(density) = &file.yarn.density {
-            preset.density = Some(self.positive("density", *density.get_ref(), density.span())?);
-        }
-        for (name, value) in &file.yarn.properties {
-            let index = self.property(name.get_ref(), name.span())?;
-            let (property, number) = (&HYPERELASTIC[index], *value.get_ref());
-            let above = if property.minimum_excluded { number > property.minimum } else { number >= property.minimum };
-            if !(above && number <= property.maximum && number.is_finite()) {
-                let message = format!("{} is {number}; allowed: {}", property.name, property.allowed);
-                return Err(self.error(value.span(), &message));
-            }
-            preset.values[index] = Some(number);
-        }
-        Ok(preset)
+/// The preset that comes out, with the values that the file gives.
+fn preset_to_be(source: &Source<'_>, file: &FitFile, units: UnitSystem) -> Result<Preset, Error> {
+    let text = |value: &Option<Spanned<String>>| value.as_ref().map(|text| text.get_ref().clone());
+    let name = text(&file.yarn.name).unwrap_or_else(|| "my-yarn".to_string());
+    if !plain_name(&name) || name.len() > LONGEST_NAME || toron::preset(&name).is_some() {
+        let span = file.yarn.name.as_ref().map_or(0..0, Spanned::span);
+        let allowed = "up to 80 letters, digits and - _ ., and no name of the library's presets";
+        return Err(source.error(span, &format!("name is \"{name}\"; allowed: {allowed}")));
     }
+    let origin = text(&file.yarn.source).or_else(|| file.title.clone());
+    let mut preset = Preset::new(&name, &origin.unwrap_or_else(|| name.clone()), LawName::Hyperelastic, units);
+    if let Some(density) = &file.yarn.density {
+        preset.density = Some(source.positive("density", *density.get_ref(), density.span())?);
+    }
+    for (name, value) in &file.yarn.properties {
+        let index = property(source, name.get_ref(), name.span())?;
+        let (property, number) = (&HYPERELASTIC[index], *value.get_ref());
+        let above = if property.minimum_excluded { number > property.minimum } else { number >= property.minimum };
+        if !(above && number <= property.maximum && number.is_finite()) {
+            let message = format!("{} is {number}; allowed: {}", property.name, property.allowed);
+            return Err(source.error(value.span(), &message));
+        }
+        preset.values[index] = Some(number);
+    }
+    Ok(preset)
+}
 
-    fn property(&self, name: &str, span: Range<usize>) -> Result<usize, Error> {
-        HYPERELASTIC.iter().position(|property| property.name == name).ok_or_else(|| {
-            let known: Vec<&str> = HYPERELASTIC.iter().map(|property| property.name).collect();
-            let hint = nearest::hint(name, known.iter().copied());
-            self.error(span, &format!("property \"{name}\"{hint}; allowed: {}", known.join(" ")))
-        })
-    }
+fn property(source: &Source<'_>, name: &str, span: Range<usize>) -> Result<usize, Error> {
+    HYPERELASTIC.iter().position(|property| property.name == name).ok_or_else(|| {
+        let known: Vec<&str> = HYPERELASTIC.iter().map(|property| property.name).collect();
+        let hint = nearest::hint(name, known.iter().copied());
+        source.error(span, &format!("property \"{name}\"{hint}; allowed: {}", known.join(" ")))
+    })
 }

@@ -9,8 +9,8 @@ use super::data::DataSet;
 use super::least_squares::{self, Solution, Weighted};
 use super::parameter::{PARAMETERS, Parameter, Values};
 use super::uncertainty::{Estimate, Source, Uncertainty};
-use crate::common::error::Error;
 use toron::host::units::UnitSystem;
+use toron_shared::error::Error;
 
 /// Data sets and what is known besides.
 #[derive(Clone, Debug)]

@@ -8,7 +8,6 @@ use super::path_response::PathResponse;
 use super::reader::{Reader, wrong};
 use super::response::{Measured, Quantity};
 use crate::common::data_table::DataTable;
-use crate::common::error::Error;
 use crate::common::units::{ENERGY, FORCE, LENGTH};
 use crate::load_path::element::Hexahedron;
 use crate::load_path::newton::{COMPONENT_NAMES, COMPONENTS};
@@ -16,6 +15,7 @@ use crate::load_path::path::{LoadPath, Target};
 use crate::material::laws::Laws;
 use crate::material::model::Law;
 use toron::law::parameters::{Dimension, NUMBER, STRESS};
+use toron_shared::error::Error;
 
 /// Data at the very ends of a step may be off by this, as a part of it.
 const ROUNDING: f64 = 1e-9;

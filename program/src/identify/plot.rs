@@ -8,12 +8,12 @@ use super::data::{Axis, DataSet, Loading};
 use super::file::Job;
 use super::fit::{Fit, SetFit};
 use super::parameter::Parameter;
-use crate::common::error::Error;
 use crate::common::units::unit;
 use crate::picture::legend::{self, Mark};
 use crate::picture::page::{self, Area, Drawn};
 use crate::picture::panel::{bounds, chart, tick};
 use crate::picture::style::{COLOURS, GREY, HEADING, INK, TEXT, TITLE, fine, stroke, text};
+use toron_shared::error::Error;
 
 const WIDTH: u32 = 1280;
 /// A row of panels.

@@ -16,11 +16,11 @@ use super::quantities::{Abscissa, COMPACTED, DISTORTED, FAILED_AT, Invariant, Si
 use super::response::{Measured, Modes};
 use super::toe::{Curve, Found};
 use crate::common::data_table::DataTable;
-use crate::common::error::Error;
-use crate::common::toml_file::Source;
 use crate::common::units::unit;
 use toron::host::units::UnitSystem;
 use toron::law::parameters::{Dimension, ENERGY_DENSITY, NUMBER};
+use toron_shared::error::Error;
+use toron_shared::toml_file::Source;
 
 /// Weights beyond these leave nothing of the other sets, or of this one.
 const WEIGHTS: RangeInclusive<f64> = 1e-6..=1e6;

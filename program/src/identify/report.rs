@@ -7,10 +7,10 @@ use super::notes;
 use super::parameter::{ALL, Parameter};
 use super::ranges::{self, PARTS};
 use super::uncertainty::{self, Estimate};
-use crate::common::console::{is_json, value_record};
-use crate::common::text_table::{or_dash, plain_table};
 use crate::common::units::{number, unit};
 use toron::law::parameters::NUMBER;
+use toron_shared::console::{is_json, value_record};
+use toron_shared::text_table::{or_dash, plain_table};
 
 /// The width of the names.
 const NAMES: usize = 14;

@@ -6,14 +6,14 @@ use super::outcome::{Course, OfYarn, Outcome};
 use super::run::StruckYarn;
 use super::scene::{Case, Scene};
 use super::{judgement, plot, report, summary, yarn_picture};
-use crate::common::error::Error;
-use crate::common::file_names::{STRAINS, YARN};
 use crate::explicit::judgement::{Finding, verdict};
 use crate::struck::command;
 use crate::struck::history::Column;
 use crate::struck::run;
 use crate::struck::summary::Cells;
 use toron::host::units::UnitSystem;
+use toron_shared::error::Error;
+use toron_shared::file_names::{STRAINS, YARN};
 
 /// The plot of all cases.
 const COMPARISON: [&str; 2] = ["residual-speed.svg", "residual-speed.png"];

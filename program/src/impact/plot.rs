@@ -6,13 +6,13 @@ use plotters::prelude::*;
 
 use super::outcome::{Outcome, STATIONS, Sample};
 use super::scene::{Abscissa, Case, Scene, Striker};
-use crate::common::error::Error;
 use crate::common::units::{CONTACT_STIFFNESS, ENERGY, SPEED, TIME, unit};
 use crate::picture::history;
 use crate::picture::page::{self, Area, Drawn};
 use crate::picture::panel::{self, Panel, Series, tidy};
 use crate::picture::style::{COLOURS, HEADING, INK, TEXT, TITLE, fine, stroke, text};
 use toron::law::parameters::ENERGY_DENSITY;
+use toron_shared::error::Error;
 
 const COMPARISON: [u32; 2] = [760, 480];
 

@@ -1,17 +1,20 @@
 //! A scene from its TOML file. The format is described in `docs/guides/impact.md`.
 
+use crate::explicit::control_keys::zero_or_more;
+use crate::struck::shots::read_shots;
 use std::path::Path;
 
 use toml::Spanned;
 
 use super::file::{CaseFile, SceneFile, SectionName, StrikerName};
 use super::scene::{Abscissa, Case, Outputs, Scene, Striker};
-use crate::common::error::Error;
-use crate::common::toml_file::{self, Source};
+use crate::common::units;
 use crate::explicit::contact::{Rigid, Shape};
 use crate::explicit::mesh::{Section, Yarn};
 use crate::strength::scatter::Strength;
 use crate::struck::keys::{self, Reader};
+use toron_shared::error::Error;
+use toron_shared::toml_file::{self, Source};
 
 /// An element takes some 700 bytes: more do not fit most memories.
 const MOST_ELEMENTS: usize = 10_000_000;
@@ -39,7 +42,7 @@ impl Scene {
     pub fn parse(name: &str, text: &str) -> Result<Scene, Error> {
         let source = Source { name, text };
         let file: SceneFile = source.parse()?;
-        let units = source.units(&file.units)?;
+        let units = units::system(&source, &file.units)?;
         let cases = keys::cases(
             (&source, &units),
             (&file.scene, &file.case),
@@ -48,24 +51,22 @@ impl Scene {
             |reader, [file, _], name| reader.yarn_case(file, name),
         )?;
         let inner = || cases.iter().map(|case| case.zones.inner());
-        let shots = file.shots.as_ref().map(|shots| source.shots(shots, &units, inner())).transpose()?;
-        let abscissa = file.abscissa.map(|abscissa| source.abscissa_of(&abscissa, &cases)).transpose()?;
+        let shots = file.shots.as_ref().map(|shots| read_shots(&source, shots, &units, inner())).transpose()?;
+        let abscissa = file.abscissa.map(|abscissa| abscissa_of(&source, &abscissa, &cases)).transpose()?;
         Ok(Scene { title: file.title.unwrap_or_else(|| name.to_string()), units, cases, shots, abscissa })
     }
 }
 
-impl Source<'_> {
-    /// A contact has its stiffness only where there is one.
-    fn abscissa_of(&self, abscissa: &Spanned<Abscissa>, cases: &[Case]) -> Result<Abscissa, Error> {
-        let driven = cases.iter().find(|case| case.striker == Striker::Driven);
-        match (abscissa.get_ref(), driven) {
-            (Abscissa::ContactStiffness, Some(case)) => {
-                let message =
-                    format!("abscissa is contact-stiffness, but case \"{}\" is driven; allowed: elements", case.name);
-                Err(self.error(abscissa.span(), &message))
-            }
-            (&abscissa, _) => Ok(abscissa),
+/// A contact has its stiffness only where there is one.
+fn abscissa_of(source: &Source<'_>, abscissa: &Spanned<Abscissa>, cases: &[Case]) -> Result<Abscissa, Error> {
+    let driven = cases.iter().find(|case| case.striker == Striker::Driven);
+    match (abscissa.get_ref(), driven) {
+        (Abscissa::ContactStiffness, Some(case)) => {
+            let message =
+                format!("abscissa is contact-stiffness, but case \"{}\" is driven; allowed: elements", case.name);
+            Err(source.error(abscissa.span(), &message))
         }
+        (&abscissa, _) => Ok(abscissa),
     }
 }
 
@@ -139,7 +140,7 @@ impl Reader<'_> {
             shape: Shape::Cylinder,
             radius: self.positive("radius", &keys.radius)?,
             stiffness: self.positive("contact-stiffness", &keys.contact_stiffness)?,
-            friction: self.source.zero_or_more("friction", &keys.friction, 0.0)?,
+            friction: zero_or_more(self.source, "friction", &keys.friction, 0.0)?,
             aim: [0.0; 2],
         };
         let held = file.held.as_ref().is_some_and(|held| *held.get_ref());

@@ -2,7 +2,6 @@
 
 use super::outcome::{Course, OfYarn, Outcome, STATIONS, Sample};
 use super::scene::{Case, Outputs, Striker, Zones};
-use crate::common::error::Error;
 use crate::explicit::body::{Body, Support};
 use crate::explicit::contact::Contact;
 use crate::explicit::lanes::{Number, largest};
@@ -13,6 +12,7 @@ use crate::material::model::Material;
 use crate::material::smith::{LARGEST_STRAIN, Smith, Tension};
 use crate::struck::plan::Plan;
 use crate::struck::run::{self, Observer, Struck};
+use toron_shared::error::Error;
 
 /// The front of the elongation is where the strain has this part of what Smith's theory gives behind it.
 pub const FRONT: f64 = 0.5;

@@ -7,7 +7,6 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::outcome::Outcome;
 use super::scene::{Case, Scene, Zones};
-use crate::common::error::Error;
 use crate::common::units::{time, unit};
 use crate::explicit::mesh::Mesh;
 use crate::explicit::snapshot::Snapshot;
@@ -17,6 +16,7 @@ use crate::picture::page::{self, Area, Drawn};
 use crate::picture::ruler;
 use crate::picture::style::{GREY, INK, TEXT, TITLE, fine, stroke, text};
 use toron::law::parameters::ENERGY_DENSITY;
+use toron_shared::error::Error;
 
 const WIDTH: i32 = 1280;
 /// Air beside all that is drawn.

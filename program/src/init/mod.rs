@@ -4,14 +4,14 @@ use std::collections::BTreeMap;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use crate::common::console::print;
-use crate::common::error::Error;
-use crate::common::text_table::plain_table;
 use crate::common::units::unit;
-use crate::common::{folder, kept_file, nearest, shell};
 use crate::material::preset::Preset;
 use toron::host::units::UnitSystem;
 use toron::law::parameters::{DENSITY, FIBRE, HYPERELASTIC};
+use toron_shared::console::print;
+use toron_shared::error::Error;
+use toron_shared::text_table::plain_table;
+use toron_shared::{folder, kept_file, nearest, shell};
 
 /// A scene and the command that runs it.
 struct Start {

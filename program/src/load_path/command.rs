@@ -10,12 +10,12 @@ use indicatif::ProgressDrawTarget;
 use super::path::{LoadPath, Point};
 use super::run::{self, End, History};
 use super::{plot, report, table};
-use crate::common::console::{is_quiet, print};
-use crate::common::error::Error;
-use crate::common::progress;
-use crate::common::run_directory::{RunDirectory, Writes};
-use crate::common::text_table::value_line;
 use crate::material::laws::Laws;
+use toron_shared::console::{is_quiet, print};
+use toron_shared::error::Error;
+use toron_shared::progress;
+use toron_shared::run_directory::{RunDirectory, Writes};
+use toron_shared::text_table::value_line;
 
 const DEMONSTRATION: &str = include_str!("../../assets/compaction-then-tension.toml");
 /// A run that is over before this needs no progress bar.

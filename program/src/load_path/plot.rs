@@ -10,7 +10,6 @@ use super::path::LoadPath;
 use super::report::MODE_NAMES;
 use super::run::{History, Increment};
 use super::table;
-use crate::common::error::Error;
 use crate::common::units::{ENERGY, unit};
 use crate::material::model::Law;
 use crate::picture::page::{self, Area, Drawn};
@@ -18,6 +17,7 @@ use crate::picture::panel::{Abscissa, Panel, Series, tidy};
 use crate::picture::style::{COLOURS, GREY, INK, TEXT, TITLE, fine, text};
 use toron::law::parameters::{ENERGY_DENSITY, NUMBER, STRESS};
 use toron::law::state::{ENERGIES, INVARIANTS};
+use toron_shared::error::Error;
 
 /// Width and height of the picture.
 const SIZE: [u32; 2] = [1280, 840];

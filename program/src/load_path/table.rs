@@ -9,9 +9,9 @@ use super::element::Hexahedron;
 use super::newton::COMPONENTS;
 use super::path::LoadPath;
 use super::run::{History, Increment};
-use crate::common::error::Error;
 use crate::material::model::{Law, Material};
 use toron::law::wave_speed::wave_speed;
+use toron_shared::error::Error;
 
 /// The columns that say where on the path the line stands; they are whole numbers.
 const PLACE: [&str; 3] = ["step", "cycle", "increment"];

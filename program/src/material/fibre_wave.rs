@@ -64,9 +64,9 @@ impl FibreWave {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::common::toml_file::Source;
-    use crate::material::file::MaterialFile;
+    use crate::material::file::{MaterialFile, read_material};
     use crate::material::laws::Laws;
+    use toron_shared::toml_file::Source;
 
     /// The wave of the preset, but for these keys of its table.
     fn wave(units: &str, preset: &str, keys: &str) -> (Option<FibreWave>, UnitSystem) {
@@ -74,7 +74,7 @@ mod tests {
         let source = Source { name: "material.toml", text: &text };
         let units = UnitSystem::parse(units).expect("a unit system");
         let file: MaterialFile = source.parse().expect("the keys exist");
-        let material = source.material(Laws::Toron, &file, &units, 0..0).expect("the material is valid");
+        let material = read_material(&source, Laws::Toron, &file, &units, 0..0).expect("the material is valid");
         (FibreWave::of(&material, &units), units)
     }
 

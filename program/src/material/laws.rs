@@ -6,9 +6,9 @@ use toron::law::description::{self, Description};
 use toron::law::parameters::{self, PRESETS, Property};
 
 use super::own_law::OwnLaw;
-use crate::common::error::Error;
-use crate::common::toml_error::shortened;
-use crate::common::toml_file::Source;
+use toron_shared::error::Error;
+use toron_shared::toml_error::shortened;
+use toron_shared::toml_file::Source;
 
 /// A law by its name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -119,14 +119,12 @@ impl<'de> Deserialize<'de> for LawText {
     }
 }
 
-impl Source<'_> {
-    /// # Errors
-    /// None of the laws has this name.
-    pub fn law(&self, laws: Laws, name: &Spanned<LawText>) -> Result<LawName, Error> {
-        laws.find(&name.get_ref().0).ok_or_else(|| {
-            let names: Vec<&str> = laws.names().into_iter().map(LawName::text).collect();
-            let found = shortened(self.text.get(name.span()).unwrap_or(&name.get_ref().0));
-            self.error(name.span(), &format!("law is {found}; allowed: {}", names.join(" or ")))
-        })
-    }
+/// # Errors
+/// None of the laws has this name.
+pub fn law(source: &Source<'_>, laws: Laws, name: &Spanned<LawText>) -> Result<LawName, Error> {
+    laws.find(&name.get_ref().0).ok_or_else(|| {
+        let names: Vec<&str> = laws.names().into_iter().map(LawName::text).collect();
+        let found = shortened(source.text.get(name.span()).unwrap_or(&name.get_ref().0));
+        source.error(name.span(), &format!("law is {found}; allowed: {}", names.join(" or ")))
+    })
 }

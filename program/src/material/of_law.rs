@@ -1,5 +1,6 @@
 //! The materials of a scene that is struck: one of each law, its failure chosen by the case.
 
+use crate::material::file::read_material;
 use std::ops::Range;
 
 use serde::Deserialize;
@@ -8,11 +9,11 @@ use toml::Spanned;
 use super::file::MaterialFile;
 use super::laws::Laws;
 use super::model::{Law, Material};
-use crate::common::error::Error;
-use crate::common::toml_file::{Source, Unused};
 use toron::Rotation;
 use toron::host::units::UnitSystem;
 use toron::law::parameters::{ALPHA, BETA, EPS_LIM, SIGMA_LIM};
+use toron_shared::error::Error;
+use toron_shared::toml_file::{Source, Unused};
 
 /// Numbers closer than this part of themselves are the same.
 const ROUNDING: f64 = 1e-9;
@@ -88,100 +89,96 @@ pub struct Choice<'a> {
     pub span: Range<usize>,
 }
 
-impl Source<'_> {
-    /// Leaves out the limits and weights that the case's failure has no use for; those that it needs must be there.
-    fn choose_failure(
-        &self,
-        choice: &Choice,
-        material: &mut Material,
-        file: &MaterialFile,
-        span: &Range<usize>,
-    ) -> Result<(), Error> {
-        let failure = choice.failure;
-        // A property of the scene is wrong only beside the failure of a case: that is the line to change.
-        let place = |name: &str| (choice.place)(name).or(file.given(name).map(Spanned::span)).unwrap_or(span.clone());
-        let (table, mut values) = (material.table(), material.values());
-        let (limit, weights): (usize, &[usize]) = match material.law {
-            Law::Hyperelastic { .. } => (EPS_LIM, &[ALPHA, BETA]),
-            Law::LinearElastic { .. } => (SIGMA_LIM, &[]),
-            Law::Own(_) => return Ok(()), // of no case
-        };
-        let (off, allowed): (&[usize], &str) = match failure {
-            FailureName::None => (&[limit], "uniaxial or multiaxial"),
-            FailureName::Uniaxial => (weights, "multiaxial"),
-            FailureName::Multiaxial => (&[], ""),
-        };
-        for &index in off {
-            values[index] = 0.0;
-            let name = table[index].name;
-            if let Some(given) = file.given(name).filter(|given| *given.get_ref() != 0.0) {
-                let message = format!(
-                    "{name} is {}, which the failure leaves out; allowed: 0, or failure {allowed}",
-                    given.get_ref()
-                );
-                return Err(self.error(place(name), &message));
-            }
-        }
-        if failure != FailureName::None && values[limit] == 0.0 {
-            let name = table[limit].name;
-            let message = format!("{name} is 0, with which nothing fails; allowed: a number > 0, or failure none");
-            return Err(self.error(place(name), &message));
-        }
-        if failure == FailureName::Multiaxial
-            && !weights.is_empty()
-            && weights.iter().all(|&weight| values[weight] == 0.0)
-        {
-            let message = "alpha and beta are 0; allowed: one of them > 0, or failure uniaxial";
-            return Err(self.error(place(table[ALPHA].name), message));
-        }
-        material.law = material.law.with(&values).map_err(|error| self.error(span.clone(), &error.to_string()))?;
-        Ok(())
-    }
-
-    /// The material of this law's table, which its preset completes, with the failure that the case asks for.
-    ///
-    /// # Errors
-    /// An input error that names file, line, value and what is allowed.
-    pub fn material_of_law(
-        &self,
-        choice: &Choice,
-        table: &Option<Spanned<MaterialFile>>,
-        units: &UnitSystem,
-    ) -> Result<Material, Error> {
-        let law = choice.law;
-        let preset = LawName::default_yarn(law);
-        let names_none = table.as_ref().is_none_or(|table| table.get_ref().yarn().is_none());
-        if let Some(own) = choice.own_yarn.filter(|_| names_none) {
-            let span = table.as_ref().map_or(choice.span.clone(), Spanned::span);
+/// Leaves out the limits and weights that the case's failure has no use for; those that it needs must be there.
+fn choose_failure(
+    source: &Source<'_>,
+    choice: &Choice,
+    material: &mut Material,
+    file: &MaterialFile,
+    span: &Range<usize>,
+) -> Result<(), Error> {
+    let failure = choice.failure;
+    // A property of the scene is wrong only beside the failure of a case: that is the line to change.
+    let place = |name: &str| (choice.place)(name).or(file.given(name).map(Spanned::span)).unwrap_or(span.clone());
+    let (table, mut values) = (material.table(), material.values());
+    let (limit, weights): (usize, &[usize]) = match material.law {
+        Law::Hyperelastic { .. } => (EPS_LIM, &[ALPHA, BETA]),
+        Law::LinearElastic { .. } => (SIGMA_LIM, &[]),
+        Law::Own(_) => return Ok(()), // of no case
+    };
+    let (off, allowed): (&[usize], &str) = match failure {
+        FailureName::None => (&[limit], "uniaxial or multiaxial"),
+        FailureName::Uniaxial => (weights, "multiaxial"),
+        FailureName::Multiaxial => (&[], ""),
+    };
+    for &index in off {
+        values[index] = 0.0;
+        let name = table[index].name;
+        if let Some(given) = file.given(name).filter(|given| *given.get_ref() != 0.0) {
             let message = format!(
-                "{law} names no yarn, and the scene has one of its own, {own}; allowed: {law}.preset or {law}.law \
-                 (the default is {law}.preset = \"{preset}\")"
+                "{name} is {}, which the failure leaves out; allowed: 0, or failure {allowed}",
+                given.get_ref()
             );
-            return Err(self.error(span, &message));
+            return Err(source.error(place(name), &message));
         }
-        let default = MaterialFile::of_preset(preset, choice.span.clone());
-        let (file, span) = match table {
-            Some(table) => (table.get_ref().over(&default), table.span()),
-            None => (default, choice.span.clone()),
-        };
-        let mut material = self.material(Laws::Toron, &file, units, span.clone())?;
-        let found = material.law.name().text();
-        if found != law {
-            return Err(self.error(span, &format!("{law} has a material of the law {found}; allowed: {law}")));
-        }
-        let fibre = material.fibre();
-        if fibre.x.abs() < 1.0 - ROUNDING {
-            let [x, y, z] = fibre.into();
-            let message = format!("{law} has its fibres along [{x}, {y}, {z}]; allowed: along the yarn, [1, 0, 0]");
-            return Err(self.error(span, &message));
-        }
-        self.choose_failure(choice, &mut material, &file, &span)?;
-        if let Law::LinearElastic { frame: Rotation::Spin, .. } = material.law {
-            return Err(self.error(span, "frame is \"spin\"; allowed here: fibre, polar"));
-        }
-        if material.density.is_none() {
-            return Err(self.error(span, "density is missing; allowed: a finite number > 0"));
-        }
-        Ok(material)
     }
+    if failure != FailureName::None && values[limit] == 0.0 {
+        let name = table[limit].name;
+        let message = format!("{name} is 0, with which nothing fails; allowed: a number > 0, or failure none");
+        return Err(source.error(place(name), &message));
+    }
+    if failure == FailureName::Multiaxial && !weights.is_empty() && weights.iter().all(|&weight| values[weight] == 0.0)
+    {
+        let message = "alpha and beta are 0; allowed: one of them > 0, or failure uniaxial";
+        return Err(source.error(place(table[ALPHA].name), message));
+    }
+    material.law = material.law.with(&values).map_err(|error| source.error(span.clone(), &error.to_string()))?;
+    Ok(())
+}
+
+/// The material of this law's table, which its preset completes, with the failure that the case asks for.
+///
+/// # Errors
+/// An input error that names file, line, value and what is allowed.
+pub fn material_of_law(
+    source: &Source<'_>,
+    choice: &Choice,
+    table: &Option<Spanned<MaterialFile>>,
+    units: &UnitSystem,
+) -> Result<Material, Error> {
+    let law = choice.law;
+    let preset = LawName::default_yarn(law);
+    let names_none = table.as_ref().is_none_or(|table| table.get_ref().yarn().is_none());
+    if let Some(own) = choice.own_yarn.filter(|_| names_none) {
+        let span = table.as_ref().map_or(choice.span.clone(), Spanned::span);
+        let message = format!(
+            "{law} names no yarn, and the scene has one of its own, {own}; allowed: {law}.preset or {law}.law \
+             (the default is {law}.preset = \"{preset}\")"
+        );
+        return Err(source.error(span, &message));
+    }
+    let default = MaterialFile::of_preset(preset, choice.span.clone());
+    let (file, span) = match table {
+        Some(table) => (table.get_ref().over(&default), table.span()),
+        None => (default, choice.span.clone()),
+    };
+    let mut material = read_material(source, Laws::Toron, &file, units, span.clone())?;
+    let found = material.law.name().text();
+    if found != law {
+        return Err(source.error(span, &format!("{law} has a material of the law {found}; allowed: {law}")));
+    }
+    let fibre = material.fibre();
+    if fibre.x.abs() < 1.0 - ROUNDING {
+        let [x, y, z] = fibre.into();
+        let message = format!("{law} has its fibres along [{x}, {y}, {z}]; allowed: along the yarn, [1, 0, 0]");
+        return Err(source.error(span, &message));
+    }
+    choose_failure(source, choice, &mut material, &file, &span)?;
+    if let Law::LinearElastic { frame: Rotation::Spin, .. } = material.law {
+        return Err(source.error(span, "frame is \"spin\"; allowed here: fibre, polar"));
+    }
+    if material.density.is_none() {
+        return Err(source.error(span, "density is missing; allowed: a finite number > 0"));
+    }
+    Ok(material)
 }

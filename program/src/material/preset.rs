@@ -1,5 +1,6 @@
 //! Presets: those of the library and those of a user's own files, which are used alike. `docs/guides/load-paths.md` has the keys.
 
+use crate::material::laws::law;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::path::Path;
@@ -8,15 +9,15 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use super::laws::{LawName, LawText, Laws};
-use crate::common::error::Error;
-use crate::common::nearest;
-use crate::common::text_table::grouped;
-use crate::common::toml_error::shortened;
-use crate::common::toml_file::Source;
-use crate::common::units::{plain, with_unit};
+use crate::common::units::{self, plain, with_unit};
 use toron::host::units::UnitSystem;
 use toron::law::bounds;
 use toron::law::parameters::{self, DENSITY, Dimension, Property};
+use toron_shared::error::Error;
+use toron_shared::nearest;
+use toron_shared::text_table::grouped;
+use toron_shared::toml_error::shortened;
+use toron_shared::toml_file::Source;
 
 /// Decks name the material by the preset, and Abaqus takes names of up to 80 characters.
 pub const LONGEST_NAME: usize = 80;
@@ -143,18 +144,18 @@ impl Preset {
     pub fn parse(laws: Laws, name: &str, text: &str) -> Result<Preset, Error> {
         let source = Source { name, text };
         let file: PresetFile = source.parse()?;
-        let law = file.law.as_ref().map(|name| source.law(laws, name)).transpose()?.unwrap_or(laws.first());
-        let (values, properties) = source.preset_values(&file, law.table())?;
+        let law = file.law.as_ref().map(|name| law(&source, laws, name)).transpose()?.unwrap_or(laws.first());
+        let (values, properties) = preset_values(&source, &file, law.table())?;
         let density = file.density.as_ref();
         let density = density.map(|value| source.positive("density", *value.get_ref(), value.span())).transpose()?;
-        let label = source.preset_name(&file)?;
-        let given = file.source.as_ref().map(|text| source.one_line("source", text)).transpose()?;
+        let label = preset_name(&source, &file)?;
+        let given = file.source.as_ref().map(|text| one_line(&source, "source", text)).transpose()?;
         Ok(Preset {
             source: given.unwrap_or(&label).to_string(),
-            guesses: source.guesses(&file, law, &values)?,
+            guesses: guesses(&source, &file, law, &values)?,
             name: label,
             law,
-            units: source.units(&file.units)?,
+            units: units::system(&source, &file.units)?,
             values,
             density,
             file: Some(properties),
@@ -270,77 +271,79 @@ impl Preset {
     }
 }
 
-impl Source<'_> {
-    /// The values of a preset's properties, and where they are in its file.
-    fn preset_values(&self, file: &PresetFile, table: &'static [Property]) -> Result<(Vec<Option<f64>>, File), Error> {
-        let (mut values, mut lines) = (vec![None; table.len()], vec![None; table.len()]);
-        for (name, value) in &file.properties {
-            let index = self.property_index(table, name)?;
-            check(table, index, *value.get_ref()).map_err(|error| self.error(value.span(), &error.to_string()))?;
-            values[index] = Some(*value.get_ref());
-            lines[index] = Some(self.line(value.span()));
-        }
-        Ok((values, File { name: self.name.to_string(), lines }))
+/// The values of a preset's properties, and where they are in its file.
+fn preset_values(
+    source: &Source<'_>,
+    file: &PresetFile,
+    table: &'static [Property],
+) -> Result<(Vec<Option<f64>>, File), Error> {
+    let (mut values, mut lines) = (vec![None; table.len()], vec![None; table.len()]);
+    for (name, value) in &file.properties {
+        let index = property_index(source, table, name)?;
+        check(table, index, *value.get_ref()).map_err(|error| source.error(value.span(), &error.to_string()))?;
+        values[index] = Some(*value.get_ref());
+        lines[index] = Some(source.line(value.span()));
     }
+    Ok((values, File { name: source.name.to_string(), lines }))
+}
 
-    /// Where the table has the property of this name.
-    pub fn property_index(&self, table: &[Property], name: &Spanned<String>) -> Result<usize, Error> {
-        table.iter().position(|property| property.name == name.get_ref()).ok_or_else(|| {
-            let known: Vec<&str> = table.iter().map(|property| property.name).collect();
-            let hint = nearest::hint(name.get_ref(), known.iter().copied());
-            let message = format!("property \"{}\"{hint}; allowed: {}", name.get_ref(), known.join(" "));
-            self.error(name.span(), &message)
-        })
+/// Where the table has the property of this name.
+pub fn property_index(source: &Source<'_>, table: &[Property], name: &Spanned<String>) -> Result<usize, Error> {
+    table.iter().position(|property| property.name == name.get_ref()).ok_or_else(|| {
+        let known: Vec<&str> = table.iter().map(|property| property.name).collect();
+        let hint = nearest::hint(name.get_ref(), known.iter().copied());
+        let message = format!("property \"{}\"{hint}; allowed: {}", name.get_ref(), known.join(" "));
+        source.error(name.span(), &message)
+    })
+}
+
+/// The preset's name, or its file's.
+fn preset_name(source: &Source<'_>, file: &PresetFile) -> Result<String, Error> {
+    let plain = |c: char| c.is_ascii_alphanumeric() || "-_.".contains(c);
+    let allowed = |name: &str| {
+        (1..=LONGEST_NAME).contains(&name.len()) && name.chars().all(plain) && parameters::preset(name).is_none()
+    };
+    let stem = Path::new(source.name).file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into());
+    let (name, span, what) = match &file.name {
+        Some(name) => (name.get_ref().clone(), name.span(), "name"),
+        None => (stem, 0..0, "without a name, the preset has that of its file,"),
+    };
+    if allowed(&name) {
+        return Ok(name);
     }
+    let message = format!(
+        "{what} \"{}\"; allowed: up to {LONGEST_NAME} letters, digits and - _ ., since decks have it, and not the name \
+         of a built-in preset",
+        shortened(&name)
+    );
+    Err(source.error(span, &message))
+}
 
-    /// The preset's name, or its file's.
-    fn preset_name(&self, file: &PresetFile) -> Result<String, Error> {
-        let plain = |c: char| c.is_ascii_alphanumeric() || "-_.".contains(c);
-        let allowed = |name: &str| {
-            (1..=LONGEST_NAME).contains(&name.len()) && name.chars().all(plain) && parameters::preset(name).is_none()
+/// A text that decks have as a comment, which a line break would end.
+fn one_line<'a>(source: &Source<'_>, key: &str, text: &'a Spanned<String>) -> Result<&'a str, Error> {
+    if text.get_ref().chars().any(char::is_control) {
+        let message = format!("{key} has a line break or another control character; allowed: one line of text");
+        return Err(source.error(text.span(), &message));
+    }
+    Ok(text.get_ref())
+}
+
+/// Which of the file's values are guesses.
+fn guesses(source: &Source<'_>, file: &PresetFile, law: LawName, values: &[Option<f64>]) -> Result<Guesses, Error> {
+    let mut guesses = Guesses::default();
+    for (name, origin) in &file.guesses {
+        let has_value = match name.get_ref().as_str() {
+            "density" => file.density.is_some(),
+            _ => values[property_index(source, law.table(), name)?].is_some(),
         };
-        let stem = Path::new(self.name).file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into());
-        let (name, span, what) = match &file.name {
-            Some(name) => (name.get_ref().clone(), name.span(), "name"),
-            None => (stem, 0..0, "without a name, the preset has that of its file,"),
-        };
-        if allowed(&name) {
-            return Ok(name);
+        if !has_value {
+            let message =
+                format!("a guess of {}, which the file does not give; allowed: a property of it", name.get_ref());
+            return Err(source.error(name.span(), &message));
         }
-        let message = format!(
-            "{what} \"{}\"; allowed: up to {LONGEST_NAME} letters, digits and - _ ., since decks have it, and not the name \
-             of a built-in preset",
-            shortened(&name)
-        );
-        Err(self.error(span, &message))
+        guesses.insert(name.get_ref(), one_line(source, name.get_ref(), origin)?);
     }
-
-    /// A text that decks have as a comment, which a line break would end.
-    fn one_line<'a>(&self, key: &str, text: &'a Spanned<String>) -> Result<&'a str, Error> {
-        if text.get_ref().chars().any(char::is_control) {
-            let message = format!("{key} has a line break or another control character; allowed: one line of text");
-            return Err(self.error(text.span(), &message));
-        }
-        Ok(text.get_ref())
-    }
-
-    /// Which of the file's values are guesses.
-    fn guesses(&self, file: &PresetFile, law: LawName, values: &[Option<f64>]) -> Result<Guesses, Error> {
-        let mut guesses = Guesses::default();
-        for (name, origin) in &file.guesses {
-            let has_value = match name.get_ref().as_str() {
-                "density" => file.density.is_some(),
-                _ => values[self.property_index(law.table(), name)?].is_some(),
-            };
-            if !has_value {
-                let message =
-                    format!("a guess of {}, which the file does not give; allowed: a property of it", name.get_ref());
-                return Err(self.error(name.span(), &message));
-            }
-            guesses.insert(name.get_ref(), self.one_line(name.get_ref(), origin)?);
-        }
-        Ok(guesses)
-    }
+    Ok(guesses)
 }
 
 /// The property that a law refuses, the first of a direction's three.

@@ -9,10 +9,10 @@ use std::ops::Range;
 
 use super::fibre_wave::FibreWave;
 use super::model::{Law, Material};
-use crate::common::error::Error;
-use crate::common::toml_file::Source;
 use crate::common::units::number;
 use toron::host::units::UnitSystem;
+use toron_shared::error::Error;
+use toron_shared::toml_file::Source;
 
 /// Steps of the integral, and of the bisection for the strain.
 const STEPS: usize = 1000;
@@ -123,20 +123,18 @@ impl Material {
     }
 }
 
-impl Source<'_> {
-    /// The speed of a strike, given there, if a yarn of this material bears it.
-    ///
-    /// # Errors
-    /// As for [`Material::bears_strike`], with file and line.
-    pub fn strike_speed(
-        &self,
-        speed: f64,
-        place: Range<usize>,
-        material: &Material,
-        units: &UnitSystem,
-    ) -> Result<f64, Error> {
-        material.bears_strike("speed", speed, units).map(|()| speed).map_err(|message| self.error(place, &message))
-    }
+/// The speed of a strike, given there, if a yarn of this material bears it.
+///
+/// # Errors
+/// As for [`Material::bears_strike`], with file and line.
+pub fn strike_speed(
+    source: &Source<'_>,
+    speed: f64,
+    place: Range<usize>,
+    material: &Material,
+    units: &UnitSystem,
+) -> Result<f64, Error> {
+    material.bears_strike("speed", speed, units).map(|()| speed).map_err(|message| source.error(place, &message))
 }
 
 #[cfg(test)]

@@ -5,7 +5,7 @@ use std::path::Path;
 use super::page;
 use super::panel::{Abscissa, Panel};
 use super::style::{GREY, INK, TEXT, TITLE, fine, text};
-use crate::common::error::Error;
+use toron_shared::error::Error;
 
 /// Width of the page, height of its titles and of a row of panels, and the panels of a row.
 const WIDTH: u32 = 1280;

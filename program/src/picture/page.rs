@@ -6,8 +6,8 @@ use plotters::coord::Shift;
 use plotters::prelude::*;
 
 use super::sheet::Sheet;
-use crate::common::console::print_error;
-use crate::common::error::Error;
+use toron_shared::console::print_error;
+use toron_shared::error::Error;
 
 pub type Area<'a> = DrawingArea<&'a mut Sheet, Shift>;
 pub type Drawn<T> = Result<T, Box<dyn std::error::Error>>;

@@ -8,9 +8,9 @@ use std::path::Path;
 use super::command::{Naming, file};
 use super::model::{COLLAPSED, Contact, HOURGLASS, Mesh, Model, STEP_FACTOR, Strike};
 use super::striker::{Striker, Surface};
-use crate::common::error::Error;
-use crate::common::short_number::short;
 use crate::deck::abaqus::{self, Solver, card};
+use toron_shared::error::Error;
+use toron_shared::short_number::short;
 
 /// Whole numbers a line.
 const PER_LINE: usize = 16;

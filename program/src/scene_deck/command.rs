@@ -9,13 +9,13 @@ use toron::host::units::UnitSystem;
 
 use super::model::{Conversion, Model};
 use super::{abaqus, ls_dyna, of_fabric, of_impact, openradioss};
-use crate::common::console::{print, print_error};
-use crate::common::error::Error;
-use crate::common::folder;
-use crate::common::kept_file;
 use crate::common::units::number;
 use crate::deck::openradioss::FibreFrom;
 use crate::{fabric, impact, weave};
+use toron_shared::console::{print, print_error};
+use toron_shared::error::Error;
+use toron_shared::folder;
+use toron_shared::kept_file;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Host {

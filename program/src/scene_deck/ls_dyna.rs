@@ -9,8 +9,8 @@ use super::command::{Naming, file};
 use super::fields::number;
 use super::model::{COLLAPSED, Contact, Mesh, Model, Part, STEP_FACTOR, Strike};
 use super::striker::{Striker, Surface};
-use crate::common::error::Error;
 use crate::deck::ls_dyna::{Fibre, card, lines, number_of};
+use toron_shared::error::Error;
 
 /// Node and element numbers have eight columns.
 const LARGEST: u64 = 99_999_999;

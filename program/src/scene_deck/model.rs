@@ -5,9 +5,9 @@ use toron::law::parameters::{Dimension, STRESS};
 
 use super::origin::Origin;
 use super::striker::Striker;
-use crate::common::error::Error;
 use crate::deck::material::Material;
 use crate::explicit::medium::{Control, Medium};
+use toron_shared::error::Error;
 
 /// One case of a scene.
 pub struct Model {

@@ -9,11 +9,11 @@ use super::command::{Naming, file};
 use super::fields::number;
 use super::model::{COLLAPSED, Contact, HOURGLASS, Model, Part, STEP_FACTOR, Strike};
 use super::striker::{Striker, Surface};
-use crate::common::error::Error;
-use crate::common::short_number::short;
 use crate::deck::openradioss::{Control, FibreFrom, lines, material_card, property_card};
 use toron::host::units::UnitSystem;
 use toron::law::parameters::STRESS;
+use toron_shared::error::Error;
+use toron_shared::short_number::short;
 
 /// Whole numbers a line.
 const PER_LINE: usize = 10;

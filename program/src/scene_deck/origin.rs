@@ -6,7 +6,7 @@ use std::path::Path;
 
 use toron::host::units::UnitSystem;
 
-use crate::common::error::Error;
+use toron_shared::error::Error;
 
 /// What the comment begins with.
 const MARK: &str = "toron compare: units ";

@@ -3,7 +3,7 @@
 use serde::Deserialize;
 use toml::Spanned;
 
-use crate::common::toml_file::over;
+use toron_shared::toml_file::over;
 
 /// The table as it is written.
 #[derive(Deserialize)]

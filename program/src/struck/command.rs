@@ -14,19 +14,19 @@ use super::pace::Estimate;
 use super::run::{self, End, Observer, Outcome, Struck};
 use super::sample::Sample;
 use super::summary::Cells;
-use crate::common::console::{print, print_error, print_note};
-use crate::common::error::Error;
-use crate::common::folder;
-use crate::common::interrupt::Interrupt;
-use crate::common::kept_file;
-use crate::common::progress::{self, Lines};
-use crate::common::run_directory::{RunDirectory, Writes, file_error, is_file};
-use crate::common::shell;
-use crate::common::text_table::write_csv;
 use crate::common::units::{SPEED, TIME, number, one_digit, unit};
 use crate::common::vtk::Frames;
 use crate::explicit::judgement::{Finding, warnings};
 use toron::host::units::UnitSystem;
+use toron_shared::console::{print, print_error, print_note};
+use toron_shared::error::Error;
+use toron_shared::folder;
+use toron_shared::interrupt::Interrupt;
+use toron_shared::kept_file;
+use toron_shared::progress::{self, Lines};
+use toron_shared::run_directory::{RunDirectory, Writes, file_error, is_file};
+use toron_shared::shell;
+use toron_shared::text_table::write_csv;
 
 /// Ticks of the progress bar for each case.
 const TICKS: u64 = 1000;

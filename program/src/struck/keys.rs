@@ -1,5 +1,8 @@
 //! The keys that all struck scenes have: a table that a scene adds its own keys to, and what is read from it.
 
+use crate::explicit::control_keys::control;
+use crate::material::of_law::material_of_law;
+use crate::material::smith::strike_speed;
 use std::ops::Range;
 
 use serde::Deserialize;
@@ -7,14 +10,14 @@ use toml::Spanned;
 
 use super::plan::Plan;
 use super::zones::Zones;
-use crate::common::error::Error;
-use crate::common::toml_file::{Source, Unused, over};
 use crate::explicit::medium::Control;
 use crate::material::file::MaterialFile;
 use crate::material::model::Material;
 use crate::material::of_law::{Choice, FailureName, HYPERELASTIC, LINEAR_ELASTIC, LawName, own_yarn, unused_material};
 use crate::strength::file::StrengthFile;
 use toron::host::units::UnitSystem;
+use toron_shared::error::Error;
+use toron_shared::toml_file::{Source, Unused, over};
 
 /// Files for ParaView are numbered by four digits.
 const MOST_FILES: usize = 9999;
@@ -55,7 +58,7 @@ macro_rules! with_common_keys {
                 friction: toml::Spanned<f64>,
                 contact_stiffness: toml::Spanned<f64>,
                 hourglass: toml::Spanned<f64>,
-                viscosity: toml::Spanned<$crate::common::toml_file::Numbers<3>>,
+                viscosity: toml::Spanned<toron_shared::toml_file::Numbers<3>>,
                 end: toml::Spanned<f64>,
                 until: $crate::struck::keys::Until,
                 sample: toml::Spanned<f64>,
@@ -285,14 +288,14 @@ impl Reader<'_> {
     }
 
     pub fn control(&self) -> Result<Control, Error> {
-        self.source.control(&self.keys.hourglass, &self.keys.viscosity)
+        control(self.source, &self.keys.hourglass, &self.keys.viscosity)
     }
 
     /// The speed of what strikes this material.
     pub fn speed(&self, material: &Material) -> Result<f64, Error> {
         let speed = self.positive("speed", &self.keys.speed)?;
         let place = self.keys.speed.as_ref().map_or(self.span.clone(), Spanned::span);
-        self.source.strike_speed(speed, place, material, self.units)
+        strike_speed(self.source, speed, place, material, self.units)
     }
 
     /// The materials of the case's law; `distance` is how far the first of two reaches.
@@ -315,6 +318,6 @@ impl Reader<'_> {
         let place = |name: &str| self.own.given(law, name).or(self.own.failure.as_ref().map(Spanned::span));
         let failure = self.keys.failure.as_ref().map_or(FailureName::None, |failure| *failure.get_ref());
         let choice = Choice { law, failure, own_yarn: self.own_yarn, place: &place, span: self.span.clone() };
-        self.source.material_of_law(&choice, table, self.units)
+        material_of_law(self.source, &choice, table, self.units)
     }
 }

@@ -1,13 +1,14 @@
 //! The table `[shots]` of a scene: how a series of shots differs from the one that the scene describes. `docs/guides/v50.md` has the keys;
 //! `toron v50` fires them.
 
+use crate::explicit::control_keys::zero_or_more;
 use serde::Deserialize;
 use toml::Spanned;
 
-use crate::common::error::Error;
-use crate::common::toml_file::{Numbers, Source};
 use crate::material::model::Material;
 use toron::host::units::UnitSystem;
+use toron_shared::error::Error;
+use toron_shared::toml_file::{Numbers, Source};
 
 /// Shots of a series, at most: files number them.
 const MOST_SHOTS: i64 = 1_000_000;
@@ -84,84 +85,82 @@ pub struct Shots {
     pub spread: Option<f64>,
 }
 
-impl Source<'_> {
-    /// The series of a scene whose cases begin with these materials under the blow.
-    ///
-    /// # Errors
-    /// An input error that names file, line, value and what is allowed.
-    pub fn shots<'m>(
-        &self,
-        file: &ShotsFile,
-        units: &UnitSystem,
-        materials: impl Iterator<Item = &'m Material>,
-    ) -> Result<Shots, Error> {
-        let Numbers([low, high]) = *file.speeds.get_ref();
-        let error = |key: &str, value: &dyn std::fmt::Display, span, allowed: &str| {
-            Err(self.error(span, &format!("{key} is {value}; allowed: {allowed}")))
-        };
-        if !(low > 0.0 && low < high && high.is_finite()) {
-            let allowed = "the slowest and then the fastest speed, two different finite numbers > 0";
-            return error("speeds", &format!("[{low}, {high}]"), file.speeds.span(), allowed);
-        }
-        for material in materials {
-            let bears = material.bears_strike("the fastest of speeds", high, units);
-            bears.map_err(|message| self.error(file.speeds.span(), &message))?;
-        }
-        let number = *file.number.get_ref();
-        if !(FEWEST_SHOTS..=MOST_SHOTS).contains(&number) {
-            let allowed = format!(
-                "{FEWEST_SHOTS} to {MOST_SHOTS}; 20 or more give an interval that is of use (toron v50 --simulate \
-                 shows how wide it is)"
-            );
-            return error("number", &number, file.number.span(), &allowed);
-        }
-        let design = file.design.unwrap_or_default();
-        for (key, value, of) in
-            [("step", &file.step, DesignName::UpAndDown), ("deviation", &file.deviation, DesignName::DOptimal)]
-        {
-            if let Some(value) = value.as_ref().filter(|_| design != of) {
-                let with = if of == DesignName::UpAndDown { "up-and-down" } else { "d-optimal" };
-                return error(key, value.get_ref(), value.span(), &format!("with design = \"{with}\""));
-            }
-        }
-        let positive = |key: &str, value: &Option<Spanned<f64>>, default: f64| match value {
-            Some(value) => self.positive(key, *value.get_ref(), value.span()),
-            None => Ok(default),
-        };
-        let range = high - low;
-        let extension = positive("extension", &file.extension, EXTENSION)?;
-        if let Some(given) = file.extension.as_ref().filter(|_| !(1.0..=MOST_EXTENSION).contains(&extension)) {
-            return error("extension", &extension, given.span(), &format!("1 to {MOST_EXTENSION}"));
-        }
-        let tolerance = positive("tolerance", &file.tolerance, TOLERANCE * range)?;
-        let least = LEAST_TOLERANCE * high;
-        if let Some(given) = file.tolerance.as_ref().filter(|_| !(least..range).contains(&tolerance)) {
-            let allowed = format!("{least:.3e} or more, and less than the range of speeds, {range}");
-            return error("tolerance", &tolerance, given.span(), &allowed);
-        }
-        let scatter = self.zero_or_more("scatter", &file.scatter, 0.0)?;
-        let step = positive("step", &file.step, STEP * range)?;
-        for (key, value, given, most, what) in [
-            ("scatter", scatter, &file.scatter, 0.5 * range, "half of the range of speeds"),
-            ("step", step, &file.step, range, "the range of speeds"),
-        ] {
-            if let Some(given) = given.as_ref().filter(|_| value > most) {
-                return error(key, &value, given.span(), &format!("up to {most}, {what}"));
-            }
-        }
-        let seed = file.seed.as_ref().map_or(Ok(SEED), |seed| self.seed(seed))?;
-        Ok(Shots {
-            number: number as usize,
-            speeds: [low, high],
-            design,
-            step,
-            deviation: positive("deviation", &file.deviation, DEVIATION * range)?,
-            scatter,
-            aim: file.aim.unwrap_or_default(),
-            seed,
-            extension,
-            tolerance: tolerance.max(least),
-            spread: file.spread.as_ref().map(|_| positive("spread", &file.spread, 0.0)).transpose()?,
-        })
+/// The series of a scene whose cases begin with these materials under the blow.
+///
+/// # Errors
+/// An input error that names file, line, value and what is allowed.
+pub fn read_shots<'m>(
+    source: &Source<'_>,
+    file: &ShotsFile,
+    units: &UnitSystem,
+    materials: impl Iterator<Item = &'m Material>,
+) -> Result<Shots, Error> {
+    let Numbers([low, high]) = *file.speeds.get_ref();
+    let error = |key: &str, value: &dyn std::fmt::Display, span, allowed: &str| {
+        Err(source.error(span, &format!("{key} is {value}; allowed: {allowed}")))
+    };
+    if !(low > 0.0 && low < high && high.is_finite()) {
+        let allowed = "the slowest and then the fastest speed, two different finite numbers > 0";
+        return error("speeds", &format!("[{low}, {high}]"), file.speeds.span(), allowed);
     }
+    for material in materials {
+        let bears = material.bears_strike("the fastest of speeds", high, units);
+        bears.map_err(|message| source.error(file.speeds.span(), &message))?;
+    }
+    let number = *file.number.get_ref();
+    if !(FEWEST_SHOTS..=MOST_SHOTS).contains(&number) {
+        let allowed = format!(
+            "{FEWEST_SHOTS} to {MOST_SHOTS}; 20 or more give an interval that is of use (toron v50 --simulate \
+             shows how wide it is)"
+        );
+        return error("number", &number, file.number.span(), &allowed);
+    }
+    let design = file.design.unwrap_or_default();
+    for (key, value, of) in
+        [("step", &file.step, DesignName::UpAndDown), ("deviation", &file.deviation, DesignName::DOptimal)]
+    {
+        if let Some(value) = value.as_ref().filter(|_| design != of) {
+            let with = if of == DesignName::UpAndDown { "up-and-down" } else { "d-optimal" };
+            return error(key, value.get_ref(), value.span(), &format!("with design = \"{with}\""));
+        }
+    }
+    let positive = |key: &str, value: &Option<Spanned<f64>>, default: f64| match value {
+        Some(value) => source.positive(key, *value.get_ref(), value.span()),
+        None => Ok(default),
+    };
+    let range = high - low;
+    let extension = positive("extension", &file.extension, EXTENSION)?;
+    if let Some(given) = file.extension.as_ref().filter(|_| !(1.0..=MOST_EXTENSION).contains(&extension)) {
+        return error("extension", &extension, given.span(), &format!("1 to {MOST_EXTENSION}"));
+    }
+    let tolerance = positive("tolerance", &file.tolerance, TOLERANCE * range)?;
+    let least = LEAST_TOLERANCE * high;
+    if let Some(given) = file.tolerance.as_ref().filter(|_| !(least..range).contains(&tolerance)) {
+        let allowed = format!("{least:.3e} or more, and less than the range of speeds, {range}");
+        return error("tolerance", &tolerance, given.span(), &allowed);
+    }
+    let scatter = zero_or_more(source, "scatter", &file.scatter, 0.0)?;
+    let step = positive("step", &file.step, STEP * range)?;
+    for (key, value, given, most, what) in [
+        ("scatter", scatter, &file.scatter, 0.5 * range, "half of the range of speeds"),
+        ("step", step, &file.step, range, "the range of speeds"),
+    ] {
+        if let Some(given) = given.as_ref().filter(|_| value > most) {
+            return error(key, &value, given.span(), &format!("up to {most}, {what}"));
+        }
+    }
+    let seed = file.seed.as_ref().map_or(Ok(SEED), |seed| source.seed(seed))?;
+    Ok(Shots {
+        number: number as usize,
+        speeds: [low, high],
+        design,
+        step,
+        deviation: positive("deviation", &file.deviation, DEVIATION * range)?,
+        scatter,
+        aim: file.aim.unwrap_or_default(),
+        seed,
+        extension,
+        tolerance: tolerance.max(least),
+        spread: file.spread.as_ref().map(|_| positive("spread", &file.spread, 0.0)).transpose()?,
+    })
 }

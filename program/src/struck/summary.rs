@@ -3,12 +3,12 @@
 use std::fmt::Display;
 
 use super::history::title;
-use crate::common::text_table::or_dash;
 use crate::common::units::number;
 use toron::host::units::UnitSystem;
 use toron::law::parameters::Dimension;
+use toron_shared::text_table::or_dash;
 
-/// Titles and entries, as [`write_csv`](crate::common::text_table::write_csv) takes them.
+/// Titles and entries, as [`write_csv`](toron_shared::text_table::write_csv) takes them.
 pub type Cells = Vec<(String, String)>;
 
 /// A line that is being built.

@@ -13,13 +13,13 @@ use super::series::Series;
 use super::shot::Ended;
 use super::simulation::{Experiment, Truth};
 use super::{limit, plot, report, shot};
-use crate::common::console::{print, print_error, print_note};
-use crate::common::error::Error;
-use crate::common::interrupt::Interrupt;
-use crate::common::run_directory::{RunDirectory, Writes, is_file};
-use crate::common::shell;
 use crate::explicit::judgement::warnings;
 use crate::struck::shots::Shots;
+use toron_shared::console::{print, print_error, print_note};
+use toron_shared::error::Error;
+use toron_shared::interrupt::Interrupt;
+use toron_shared::run_directory::{RunDirectory, Writes, is_file};
+use toron_shared::shell;
 
 /// The tables of a series' shots, and of those of a limit.
 const SHOTS: &str = "shots.csv";

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use crate::common::toml_error::shortened;
+use toron_shared::toml_error::shortened;
 
 /// Keys of a scene on which no shot's outcome depends.
 pub const MAY_DIFFER: [&str; 8] =

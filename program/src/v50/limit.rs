@@ -8,8 +8,8 @@ use super::records::Records;
 use super::run::{FiringRange, stays};
 use super::scene::Shot;
 use super::shot::{Ended, Ending};
-use crate::common::error::Error;
 use crate::common::units::number;
+use toron_shared::error::Error;
 
 /// How many tolerances from the limit it is probed, on either side.
 const PROBES: [f64; 4] = [1.5, 3.0, 6.0, 12.0];
@@ -157,9 +157,9 @@ mod tests {
     use std::path::Path;
 
     use super::*;
-    use crate::common::interrupt::Interrupt;
     use crate::v50::report;
     use crate::v50::scene::{Scene, YARN};
+    use toron_shared::interrupt::Interrupt;
 
     /// Of a table with a shot for every speed that is looked at, so that none is fired: what is found, and said, where these go through.
     fn found(through: impl Fn(f64) -> bool) -> (Limit, String) {

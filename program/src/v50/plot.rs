@@ -9,13 +9,13 @@ use super::link::Link;
 use super::scene::Scene;
 use super::series::Series;
 use super::shot::{Ended, Ending};
-use crate::common::error::Error;
 use crate::common::units::{SPEED, unit};
 use crate::explicit::judgement::SOUND;
 use crate::picture::legend::{self, BAND, Mark};
 use crate::picture::page::{self, Area, Drawn};
 use crate::picture::panel::{bounds, chart, tick};
 use crate::picture::style::{COLOURS, GREY, HEADING, INK, TEXT, TITLE, fine, stroke, text};
+use toron_shared::error::Error;
 
 const WIDTH: i32 = 1280;
 const HEAD: i32 = 84;

@@ -11,12 +11,12 @@ use super::difference;
 use super::scene::{Scene, Shot};
 use super::shot::{Ended, Ending};
 use crate::common::build;
-use crate::common::error::Error;
-use crate::common::run_directory::file_error;
-use crate::common::text_table::{NONE, or_dash};
-use crate::common::toml_error::shortened;
 use crate::common::units::{LENGTH, SPEED, TIME};
 use crate::struck::history::title;
+use toron_shared::error::Error;
+use toron_shared::run_directory::file_error;
+use toron_shared::text_table::{NONE, or_dash};
+use toron_shared::toml_error::shortened;
 
 /// The ending of the name of the file in which the scene stands that shots are of.
 const SCENE: &str = "scene.toml";

@@ -9,12 +9,12 @@ use super::series::Series;
 use super::shot::{self, Ending};
 use super::simulation::Coverage;
 use super::test_houses::Mean;
-use crate::common::error::Error;
-use crate::common::text_table::{Column, NONE, files, folded, grouped, or_dash, table, write_csv};
 use crate::common::units::{SPEED, TIME, number, unit};
 use crate::explicit::judgement::SOUND;
 use crate::strength::scatter::{self, Strength};
 use crate::struck::history::title;
+use toron_shared::error::Error;
+use toron_shared::text_table::{Column, NONE, files, folded, grouped, or_dash, table, write_csv};
 
 /// Columns of a terminal.
 const WIDTH: usize = 129;

@@ -12,11 +12,11 @@ use super::designs::Fired;
 use super::records::Records;
 use super::scene::{Scene, Shot};
 use super::shot::{Ended, Ending, Watch, fire};
-use crate::common::console::print_note;
-use crate::common::error::Error;
-use crate::common::interrupt::Interrupt;
-use crate::common::progress;
 use crate::common::units::{SPEED, number, unit};
+use toron_shared::console::print_note;
+use toron_shared::error::Error;
+use toron_shared::interrupt::Interrupt;
+use toron_shared::progress;
 
 /// Ticks of the progress bar for each shot.
 const TICKS: u64 = 1000;

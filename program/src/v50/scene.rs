@@ -4,8 +4,6 @@ use std::path::Path;
 
 use super::designs::{Design, scattered};
 use crate::common::chance::uniform;
-use crate::common::error::Error;
-use crate::common::toml_file::{self, Source};
 use crate::common::units::number;
 use crate::impact::scene::Striker;
 use crate::material::model::Material;
@@ -15,6 +13,8 @@ use crate::struck::shots::{AimName, DesignName, Shots};
 use crate::weave::panel::Part;
 use crate::{fabric, impact};
 use toron::host::units::UnitSystem;
+use toron_shared::error::Error;
+use toron_shared::toml_file::{self, Source};
 
 /// Tables that a scene of a panel has, one at least.
 const OF_PANELS: [&str; 2] = ["weave", "mesh"];

@@ -5,8 +5,6 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use super::curve::Fate;
 use super::scene::{Scene, Shot, Target};
-use crate::common::error::Error;
-use crate::common::text_table::NONE;
 use crate::explicit::judgement::{Finding, verdict};
 use crate::fabric::run::StruckPanel;
 use crate::fabric::summary::Figures;
@@ -14,6 +12,8 @@ use crate::impact::run::StruckYarn;
 use crate::struck::run::{self, End, Observer};
 use crate::struck::sample::Sample;
 use crate::{fabric, impact};
+use toron_shared::error::Error;
+use toron_shared::text_table::NONE;
 
 /// How a shot ended.
 #[derive(Clone, Debug, PartialEq)]

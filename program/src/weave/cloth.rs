@@ -1,5 +1,7 @@
 //! What is struck: a panel that is woven here, or one of a mesh file.
 
+use crate::weave::foreign::reader::foreign;
+use crate::weave::reader::layup;
 use toml::Spanned;
 
 use super::figures::Figures;
@@ -9,10 +11,10 @@ use super::foreign::reader::Foreign;
 use super::layup::{Layup, Ply};
 use super::model::Model;
 use super::panel::{Outline, Part};
-use crate::common::error::Error;
-use crate::common::toml_file::Source;
 use crate::common::units::number;
 use toron::host::units::UnitSystem;
+use toron_shared::error::Error;
+use toron_shared::toml_file::Source;
 
 #[derive(Clone, Debug)]
 pub enum Cloth {
@@ -139,26 +141,24 @@ impl Cloth {
     }
 }
 
-impl Source<'_> {
-    /// The table `[weave]` with its `[[ply]]`, or `[mesh]`.
-    ///
-    /// # Errors
-    /// Neither or both are there, or what is wrong with the one.
-    pub fn cloth(
-        &self,
-        weave: Option<&Spanned<WeaveFile>>,
-        plies: &[Spanned<PlyFile>],
-        mesh: Option<&Spanned<MeshFile>>,
-        units: &UnitSystem,
-    ) -> Result<Cloth, Error> {
-        match (weave, mesh) {
-            (Some(weave), None) => self.layup(weave, plies, units, None).map(Cloth::Woven),
-            (None, Some(mesh)) => match plies.first() {
-                Some(ply) => Err(self.error(ply.span(), "[[ply]] beside [mesh]; allowed: with [weave]")),
-                None => self.foreign(mesh, units).map(|foreign| Cloth::Foreign(Box::new(foreign))),
-            },
-            (Some(_), Some(mesh)) => Err(self.error(mesh.span(), "[mesh] beside [weave]; allowed: one of them")),
-            (None, None) => Err(self.error(0..0, "[weave] is missing; allowed: [weave], or [mesh] with a file")),
-        }
+/// The table `[weave]` with its `[[ply]]`, or `[mesh]`.
+///
+/// # Errors
+/// Neither or both are there, or what is wrong with the one.
+pub fn read_cloth(
+    source: &Source<'_>,
+    weave: Option<&Spanned<WeaveFile>>,
+    plies: &[Spanned<PlyFile>],
+    mesh: Option<&Spanned<MeshFile>>,
+    units: &UnitSystem,
+) -> Result<Cloth, Error> {
+    match (weave, mesh) {
+        (Some(weave), None) => layup(source, weave, plies, units, None).map(Cloth::Woven),
+        (None, Some(mesh)) => match plies.first() {
+            Some(ply) => Err(source.error(ply.span(), "[[ply]] beside [mesh]; allowed: with [weave]")),
+            None => foreign(source, mesh, units).map(|foreign| Cloth::Foreign(Box::new(foreign))),
+        },
+        (Some(_), Some(mesh)) => Err(source.error(mesh.span(), "[mesh] beside [weave]; allowed: one of them")),
+        (None, None) => Err(source.error(0..0, "[weave] is missing; allowed: [weave], or [mesh] with a file")),
     }
 }

@@ -5,9 +5,9 @@ use std::path::Path;
 
 use super::reader::Scene;
 use super::{picture, report, vtu};
-use crate::common::console::print;
-use crate::common::error::Error;
-use crate::common::run_directory::{RunDirectory, Writes, file_error};
+use toron_shared::console::print;
+use toron_shared::error::Error;
+use toron_shared::run_directory::{RunDirectory, Writes, file_error};
 
 /// What the files are called.
 const NAME: &str = "weave";

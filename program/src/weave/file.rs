@@ -10,8 +10,8 @@ use super::foreign::file::MeshFile;
 use super::geometry::Family;
 use super::panel::{Centre, Part};
 use super::section::Section;
-use crate::common::toml_file::{Numbers, over};
 use crate::material::file::MaterialFile;
+use toron_shared::toml_file::{Numbers, over};
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]

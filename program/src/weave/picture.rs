@@ -12,11 +12,11 @@ use super::model::Model;
 use super::projection::{self, FACING, Lit};
 use super::reader::Scene;
 use super::surface::{self, Visible};
-use crate::common::error::Error;
 use crate::picture::page::{self, Area, Drawn};
 use crate::picture::ruler;
 use crate::picture::style::{COLOURS, GREY, HEADING, INK, TEXT, TITLE, fine, text};
 use crate::picture::view::View;
+use toron_shared::error::Error;
 
 const WIDTH: i32 = 1280;
 const LEFT: i32 = 24;

@@ -1,5 +1,6 @@
 //! The mesh as a whole: no yarn goes into another, and all are as far apart as was asked for.
 
+use crate::weave::reader::layup;
 use std::collections::HashSet;
 
 use serde::Deserialize;
@@ -16,8 +17,8 @@ use super::pattern::Pattern;
 use super::preset::Preset;
 use super::reader::Scene;
 use super::section::{Section, Thread};
-use crate::common::toml_file::Source;
 use toron::host::units::UnitSystem;
+use toron_shared::toml_file::Source;
 
 fn millimetres() -> UnitSystem {
     UnitSystem::parse("mm-tonne-s").expect("a unit system")
@@ -318,7 +319,7 @@ fn a_case_s_weave_goes_over_the_scene_s() {
         let source = Source { name: "both.toml", text: &text };
         let both: Both = source.parse().unwrap_or_else(|error| panic!("{error}"));
         let table = Spanned::new(both.own.span(), both.own.get_ref().over(both.base.get_ref()));
-        match source.layup(&table, &[], &units, Some(both.own.span())) {
+        match layup(&source, &table, &[], &units, Some(both.own.span())) {
             Ok(layup) => format!("{:?} {:?}", layup.plies[0].woven.geometry.weave, layup.plies[0].woven.panel),
             Err(error) => error.to_string(),
         }

@@ -28,8 +28,8 @@ use toron_program::cell::report::largest_spring_share;
 use toron_program::cell::run::{self, Outcome};
 use toron_program::cell::scene::{Arrangement, BoxOf, Load, Packing, Scene};
 use toron_program::cell::solver::Job;
-use toron_program::common::error::Error;
 use toron_program::struck::run::Observer;
+use toron_shared::error::Error;
 
 use crate::calculix_decks::SOLVER;
 

@@ -549,7 +549,7 @@ fn slack_yarn(normal: &mut Normal, zero: f64) -> String {
     format!("strain (-),force (N)\n{}", rows.collect::<String>())
 }
 
-fn tensile_job(name: &str, table: &str, more: &str) -> Result<Job, toron_program::common::error::Error> {
+fn tensile_job(name: &str, table: &str, more: &str) -> Result<Job, toron_shared::error::Error> {
     let folder = new_folder(name);
     std::fs::write(folder.join("data.csv"), table).expect("a file");
     let text = format!(

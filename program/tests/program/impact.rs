@@ -16,7 +16,6 @@
 use std::path::{Path, PathBuf};
 
 use toron::Rotation;
-use toron_program::common::error::Error;
 use toron_program::explicit::judgement::Finding;
 use toron_program::identify::parameter::Parameter;
 use toron_program::impact::judgement::{contact, hourglass};
@@ -26,6 +25,7 @@ use toron_program::impact::scene::{Case, Outputs, Scene, Striker, Zones};
 use toron_program::material::model::Law;
 use toron_program::struck::run::Observer;
 use toron_program::struck::{self, checkpoint};
+use toron_shared::error::Error;
 
 fn folder() -> PathBuf {
     Path::new(crate::library::ROOT).join("examples/yarn_impact")

@@ -39,7 +39,7 @@ fn linked(packages: &[&str]) -> BTreeSet<(String, String, String)> {
     let crates = tree.lines().filter_map(|line| {
         let (package, licence) = line.trim_end_matches(" (*)").split_once('|')?;
         let [name, version] = package.split(' ').take(2).collect::<Vec<_>>()[..] else { return None };
-        let own = name == "toron" || name.starts_with("toron-");
+        let own = name == "toron" || name.starts_with("toron-") || name == "umat-check";
         (!own).then(|| (name.to_string(), version.trim_start_matches('v').to_string(), licence.replace('/', " OR ")))
     });
     crates.collect()

@@ -1,12 +1,12 @@
 //! The driver: mixed control, work, rotation, parallel points, and what its errors say.
 
 use nalgebra::{Matrix3, Rotation3, Unit, Vector3};
-use toron_program::common::error::Error;
 use toron_program::load_path::element::Hexahedron;
 use toron_program::load_path::path::LoadPath;
 use toron_program::load_path::report;
 use toron_program::load_path::run::{self, End, History};
 use toron_program::material::laws::Laws;
+use toron_shared::error::Error;
 
 const HEAD: &str = "units = \"mm-tonne-s\"\n[material]\npreset = \"kevlar-km2-600\"\n";
 

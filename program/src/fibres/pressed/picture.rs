@@ -5,7 +5,6 @@ use std::path::Path;
 use plotters::prelude::*;
 
 use super::outcome::Pressed;
-use crate::common::error::Error;
 use crate::common::units::{LENGTH, TIME, time, unit};
 use crate::fibres::frame::Frame;
 use crate::fibres::model::micro;
@@ -16,6 +15,7 @@ use crate::picture::ruler;
 use crate::picture::style::{GREY, INK, TEXT, TITLE, fine, stroke, text};
 use crate::picture::view::View;
 use toron::law::parameters::STRESS;
+use toron_shared::error::Error;
 
 const WIDTH: i32 = 760;
 const LEFT: i32 = 24;

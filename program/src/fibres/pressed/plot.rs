@@ -3,13 +3,13 @@
 use std::path::Path;
 
 use super::outcome::{Pressed, Sample};
-use crate::common::error::Error;
 use crate::common::units::unit;
 use crate::fibres::scene::{Case, Scene, Striker};
 use crate::picture::history;
 use crate::picture::panel::{self, Panel, Series, tidy};
 use crate::picture::style::COLOURS;
 use toron::law::parameters::STRESS;
+use toron_shared::error::Error;
 
 /// Energies, where the work went, and invariants.
 ///

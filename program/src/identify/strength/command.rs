@@ -5,13 +5,13 @@ use std::path::Path;
 
 use super::file::{Set, StrengthJob};
 use super::report;
-use crate::common::console::print;
-use crate::common::error::Error;
-use crate::common::folder;
-use crate::common::kept_file;
-use crate::common::text_table::write_csv;
 use crate::identify::command::require_new;
 use crate::identify::report::line;
+use toron_shared::console::print;
+use toron_shared::error::Error;
+use toron_shared::folder;
+use toron_shared::kept_file;
+use toron_shared::text_table::write_csv;
 
 const FIGURES: &str = "strengths.csv";
 

@@ -7,15 +7,15 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use crate::common::data_table::{Cell, DataTable};
-use crate::common::error::Error;
-use crate::common::toml_file::{self, Source};
-use crate::common::units::LENGTH;
+use crate::common::units::{self, LENGTH};
 use crate::identify::file::FitFile;
 use crate::identify::reader::plain_name;
 use crate::strength::fit::{self, Fit, Test};
 use crate::strength::scales::{self, ScaleFit};
 use toron::host::units::UnitSystem;
 use toron::law::parameters::{Dimension, NUMBER, STRESS};
+use toron_shared::error::Error;
+use toron_shared::toml_file::{self, Source};
 
 /// A table `[[strength]]`.
 #[derive(Deserialize)]
@@ -87,10 +87,10 @@ impl StrengthJob {
                 "[[strength]] beside tables for the law's properties; allowed: a file of its own, with title and units";
             return Err(source.error(first.span(), message));
         }
-        let units = source.units(&file.units)?;
+        let units = units::system(&source, &file.units)?;
         let (mut sets, mut inputs) = (Vec::new(), vec![path.to_path_buf()]);
         for (number, table) in (1..).zip(&file.strength) {
-            let set = source.strengths(number, table, &units)?;
+            let set = strengths(&source, number, table, &units)?;
             if sets.iter().any(|other: &Set| other.name == set.name) {
                 let message = format!("set \"{}\" is there twice; allowed: a name of its own for each", set.name);
                 return Err(source.error(table.span(), &message));
@@ -158,68 +158,65 @@ impl Columns<'_> {
     }
 }
 
-impl Source<'_> {
-    fn strengths(&self, number: usize, table: &Spanned<SetFile>, units: &UnitSystem) -> Result<Set, Error> {
-        let (span, file) = (table.span(), table.get_ref());
-        let name = file.name.as_ref().map_or_else(|| format!("strength-{number}"), |name| name.get_ref().clone());
-        if !plain_name(&name) {
-            let message = format!("set \"{name}\"; allowed: letters, digits and - _ ., since files are named by it");
-            return Err(self.error(file.name.as_ref().map_or(span, Spanned::span), &message));
-        }
-        if let Some((key, _)) = file.columns.iter().find(|(key, _)| !QUANTITIES.contains(&key.get_ref().as_str())) {
-            let message = format!("columns has {}; allowed: {}", key.get_ref(), QUANTITIES.join(", "));
-            return Err(self.error(key.span(), &message));
-        }
-        let path = self.folder().join(file.file.get_ref());
-        if !path.is_file() {
-            let message = format!("file {}: there is no such file", path.display());
-            return Err(self.error(file.file.span(), &message));
-        }
-        let columns = Columns { table: DataTable::read(&path)?, file, units };
-        let positive = |key: &str, value: &Option<Spanned<f64>>| {
-            value.as_ref().map(|value| self.positive(key, *value.get_ref(), value.span())).transpose()
-        };
-        let (length, reference) =
-            (positive("length", &file.length)?, positive("reference_length", &file.reference_length)?);
-        if let (Some(given), true) = (&file.length, columns.has(LENGTHS)) {
-            return Err(self.error(given.span(), "length beside a column length; allowed: one of them"));
-        }
-        let lengths = |count: usize| match length {
-            Some(length) => Ok(vec![length; count]),
-            None if columns.has(LENGTHS) => columns.positive(LENGTHS, LENGTH),
-            None => {
-                let message =
-                    format!("set \"{name}\" has no length; allowed: length, or a column of it, as \"length (mm)\"");
-                Err(self.error(span.clone(), &message))
-            }
-        };
-        // The shortest has the most of the scatter's strengths.
-        let reference = |lengths: &[f64]| reference.unwrap_or(lengths.iter().copied().fold(f64::INFINITY, f64::min));
-        let refused = |message: String| self.error(span.clone(), &format!("set \"{name}\": {message}"));
-        let of_scales = columns.has(SCALE);
-        if of_scales == columns.has(STRENGTH) {
-            let message = "one column of the two: strength of each test, or scale at each length".to_string();
-            return Err(refused(message));
-        }
-        let (values, dimension) = columns.strengths(if of_scales { SCALE } else { STRENGTH })?;
-        let lengths = lengths(values.len())?;
-        let reference = reference(&lengths);
-        let found = if of_scales {
-            let fit = scales::fit(&lengths, &values, reference).map_err(refused)?;
-            let cell = 0.5 * lengths.iter().copied().fold(0.0, f64::max);
-            let longer: Vec<f64> = lengths.iter().map(|length| length + cell).collect();
-            let longer = scales::fit(&longer, &values, reference).ok().map(|fit| (cell, fit));
-            let moduli = if columns.has(MODULUS) { columns.positive(MODULUS, NUMBER)? } else { Vec::new() };
-            Found::Scales { lengths, fit, longer, moduli }
-        } else {
-            let tests = values.iter().zip(&lengths).zip(columns.broken(values.len())?);
-            let tests: Vec<Test> =
-                tests.map(|((&strength, &length), broken)| Test { strength, length, broken }).collect();
-            let fit = fit::fit(&tests, reference).map_err(refused)?;
-            Found::Tests { tests, fit }
-        };
-        Ok(Set { name: name.clone(), dimension, found })
+fn strengths(source: &Source<'_>, number: usize, table: &Spanned<SetFile>, units: &UnitSystem) -> Result<Set, Error> {
+    let (span, file) = (table.span(), table.get_ref());
+    let name = file.name.as_ref().map_or_else(|| format!("strength-{number}"), |name| name.get_ref().clone());
+    if !plain_name(&name) {
+        let message = format!("set \"{name}\"; allowed: letters, digits and - _ ., since files are named by it");
+        return Err(source.error(file.name.as_ref().map_or(span, Spanned::span), &message));
     }
+    if let Some((key, _)) = file.columns.iter().find(|(key, _)| !QUANTITIES.contains(&key.get_ref().as_str())) {
+        let message = format!("columns has {}; allowed: {}", key.get_ref(), QUANTITIES.join(", "));
+        return Err(source.error(key.span(), &message));
+    }
+    let path = source.folder().join(file.file.get_ref());
+    if !path.is_file() {
+        let message = format!("file {}: there is no such file", path.display());
+        return Err(source.error(file.file.span(), &message));
+    }
+    let columns = Columns { table: DataTable::read(&path)?, file, units };
+    let positive = |key: &str, value: &Option<Spanned<f64>>| {
+        value.as_ref().map(|value| source.positive(key, *value.get_ref(), value.span())).transpose()
+    };
+    let (length, reference) =
+        (positive("length", &file.length)?, positive("reference_length", &file.reference_length)?);
+    if let (Some(given), true) = (&file.length, columns.has(LENGTHS)) {
+        return Err(source.error(given.span(), "length beside a column length; allowed: one of them"));
+    }
+    let lengths = |count: usize| match length {
+        Some(length) => Ok(vec![length; count]),
+        None if columns.has(LENGTHS) => columns.positive(LENGTHS, LENGTH),
+        None => {
+            let message =
+                format!("set \"{name}\" has no length; allowed: length, or a column of it, as \"length (mm)\"");
+            Err(source.error(span.clone(), &message))
+        }
+    };
+    // The shortest has the most of the scatter's strengths.
+    let reference = |lengths: &[f64]| reference.unwrap_or(lengths.iter().copied().fold(f64::INFINITY, f64::min));
+    let refused = |message: String| source.error(span.clone(), &format!("set \"{name}\": {message}"));
+    let of_scales = columns.has(SCALE);
+    if of_scales == columns.has(STRENGTH) {
+        let message = "one column of the two: strength of each test, or scale at each length".to_string();
+        return Err(refused(message));
+    }
+    let (values, dimension) = columns.strengths(if of_scales { SCALE } else { STRENGTH })?;
+    let lengths = lengths(values.len())?;
+    let reference = reference(&lengths);
+    let found = if of_scales {
+        let fit = scales::fit(&lengths, &values, reference).map_err(refused)?;
+        let cell = 0.5 * lengths.iter().copied().fold(0.0, f64::max);
+        let longer: Vec<f64> = lengths.iter().map(|length| length + cell).collect();
+        let longer = scales::fit(&longer, &values, reference).ok().map(|fit| (cell, fit));
+        let moduli = if columns.has(MODULUS) { columns.positive(MODULUS, NUMBER)? } else { Vec::new() };
+        Found::Scales { lengths, fit, longer, moduli }
+    } else {
+        let tests = values.iter().zip(&lengths).zip(columns.broken(values.len())?);
+        let tests: Vec<Test> = tests.map(|((&strength, &length), broken)| Test { strength, length, broken }).collect();
+        let fit = fit::fit(&tests, reference).map_err(refused)?;
+        Found::Tests { tests, fit }
+    };
+    Ok(Set { name: name.clone(), dimension, found })
 }
 
 impl Set {

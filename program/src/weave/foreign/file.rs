@@ -3,8 +3,8 @@
 use serde::Deserialize;
 use toml::Spanned;
 
-use crate::common::toml_file::Numbers;
 use crate::weave::panel::Part;
+use toron_shared::toml_file::Numbers;
 
 /// The table, and what a case has otherwise.
 #[derive(Clone, Default, Deserialize)]

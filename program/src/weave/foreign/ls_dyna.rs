@@ -3,9 +3,9 @@
 use std::collections::HashMap;
 
 use super::raw::{Numbered, Raw};
-use crate::common::error::Error;
-use crate::common::keyword_file::line::{Line, Place};
-use crate::common::keyword_file::ls_dyna::{self, Card, Keyword, Transform};
+use toron_shared::error::Error;
+use toron_shared::keyword_file::line::{Line, Place};
+use toron_shared::keyword_file::ls_dyna::{self, Card, Keyword, Transform};
 
 const PARTS: &str = "elements of a part";
 

@@ -2,8 +2,8 @@
 
 use std::collections::HashMap;
 
-use crate::common::error::Error;
-use crate::common::keyword_file::line::{Line, Place};
+use toron_shared::error::Error;
+use toron_shared::keyword_file::line::{Line, Place};
 
 /// Nodes and elements of a file, with numbers from 0.
 #[derive(Clone, Debug, Default, PartialEq)]

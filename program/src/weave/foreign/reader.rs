@@ -8,9 +8,6 @@ use super::checks::Checks;
 use super::file::MeshFile;
 use super::raw::Raw;
 use super::{abaqus, ls_dyna, vtu};
-use crate::common::error::Error;
-use crate::common::keyword_file::files::text;
-use crate::common::toml_file::Source;
 use crate::common::unit_expression::Unit;
 use crate::common::units::{LENGTH, number};
 use crate::weave::figures::Figures;
@@ -18,6 +15,9 @@ use crate::weave::geometry::Family;
 use crate::weave::model::{Model, Yarn};
 use crate::weave::panel::{MOST_ELEMENTS, Part};
 use toron::host::units::UnitSystem;
+use toron_shared::error::Error;
+use toron_shared::keyword_file::files::text;
+use toron_shared::toml_file::Source;
 
 /// Volume over area of woven fabrics in m: ten times less and more than the thinnest and the thickest ones.
 const THICKNESS: [f64; 2] = [3e-6, 3e-2];
@@ -105,73 +105,71 @@ impl Foreign {
     }
 }
 
-impl Source<'_> {
-    /// The table `[mesh]`: reads its file and checks what is in it.
-    ///
-    /// # Errors
-    /// What is wrong with the table or the file, with file, line, value and what is allowed.
-    pub fn foreign(&self, table: &Spanned<MeshFile>, units: &UnitSystem) -> Result<Foreign, Error> {
-        let keys = table.get_ref();
-        let missing = "file is missing; allowed: the name of a mesh file, .inp, .k, .key or .vtu";
-        let name = keys.file.as_ref().ok_or_else(|| self.error(table.span(), missing))?;
-        let place = self.folder().join(name.get_ref());
-        let file = place.display().to_string();
-        let bytes = std::fs::read(&place).map_err(|error| self.error(name.span(), &format!("{file}: {error}")))?;
-        let ending = place.extension().and_then(|ending| ending.to_str()).unwrap_or_default().to_lowercase();
-        let mut raw = match ending.as_str() {
-            "inp" => abaqus::read(&file, &text(&bytes))?,
-            "k" | "key" | "dyn" => ls_dyna::read(&file, &text(&bytes))?,
-            "vtu" => vtu::read(&file, &bytes)?,
-            _ => {
-                let message = format!("mesh.file is \"{}\"; allowed: .inp, .k, .key or .vtu", name.get_ref());
-                return Err(self.error(name.span(), &message));
-            }
-        };
-        let factor = keys.units.as_ref().map_or(Ok(1.0), |unit| self.length_unit(unit, units))?;
-        let shift = keys.shift.as_ref().map_or([0.0; 2], |shift| shift.get_ref().0);
-        place_nodes(&mut raw, factor, shift).map_err(|message| Error::Input(format!("{file}: {message}")))?;
-        let part = keys.part.unwrap_or_default();
-        let model = raw.model(part).map_err(|message| Error::Input(format!("{file}: {message}")))?;
-        let checks = Checks::of(&model);
-        checks.refuse().map_err(|message| Error::Input(format!("{file}: {message}")))?;
-        let pitch = pitch(&model);
-        let figures = Figures::with(&model, 0, crimp(&model), covered(&model, pitch));
-        let thickness = figures.volume_by_area() / units.from_si(1.0, LENGTH);
-        if !(THICKNESS[0]..=THICKNESS[1]).contains(&thickness) {
-            let [least, most] = THICKNESS.map(|size| number(1e3 * size));
-            let span = keys.units.as_ref().map_or(name.span(), Spanned::span);
-            let message = format!(
-                "{file} has yarns of {} mm³ on a mm²; allowed: {least} to {most}, in mesh.units = \"{}\"",
-                number(1e3 * thickness),
-                keys.units.as_ref().map_or(units.names()[0], |units| units.get_ref())
-            );
-            return Err(self.error(span, &message));
+/// The table `[mesh]`: reads its file and checks what is in it.
+///
+/// # Errors
+/// What is wrong with the table or the file, with file, line, value and what is allowed.
+pub fn foreign(source: &Source<'_>, table: &Spanned<MeshFile>, units: &UnitSystem) -> Result<Foreign, Error> {
+    let keys = table.get_ref();
+    let missing = "file is missing; allowed: the name of a mesh file, .inp, .k, .key or .vtu";
+    let name = keys.file.as_ref().ok_or_else(|| source.error(table.span(), missing))?;
+    let place = source.folder().join(name.get_ref());
+    let file = place.display().to_string();
+    let bytes = std::fs::read(&place).map_err(|error| source.error(name.span(), &format!("{file}: {error}")))?;
+    let ending = place.extension().and_then(|ending| ending.to_str()).unwrap_or_default().to_lowercase();
+    let mut raw = match ending.as_str() {
+        "inp" => abaqus::read(&file, &text(&bytes))?,
+        "k" | "key" | "dyn" => ls_dyna::read(&file, &text(&bytes))?,
+        "vtu" => vtu::read(&file, &bytes)?,
+        _ => {
+            let message = format!("mesh.file is \"{}\"; allowed: .inp, .k, .key or .vtu", name.get_ref());
+            return Err(source.error(name.span(), &message));
         }
-        let own = |key: &str, value: &Option<Spanned<f64>>| {
-            value.as_ref().map(|value| self.positive(key, *value.get_ref(), value.span())).transpose()
-        };
-        let height = own("height", &keys.height)?;
-        Ok(Foreign {
-            part,
-            clearance: own("clearance", &keys.clearance)?.unwrap_or(checks.clearance),
-            heights: height.map_or(checks.heights, |height| [height; 2]),
-            pitch,
-            file,
-            model,
-            figures,
-            checks,
-        })
+    };
+    let factor = keys.units.as_ref().map_or(Ok(1.0), |unit| length_unit(source, unit, units))?;
+    let shift = keys.shift.as_ref().map_or([0.0; 2], |shift| shift.get_ref().0);
+    place_nodes(&mut raw, factor, shift).map_err(|message| Error::Input(format!("{file}: {message}")))?;
+    let part = keys.part.unwrap_or_default();
+    let model = raw.model(part).map_err(|message| Error::Input(format!("{file}: {message}")))?;
+    let checks = Checks::of(&model);
+    checks.refuse().map_err(|message| Error::Input(format!("{file}: {message}")))?;
+    let pitch = pitch(&model);
+    let figures = Figures::with(&model, 0, crimp(&model), covered(&model, pitch));
+    let thickness = figures.volume_by_area() / units.from_si(1.0, LENGTH);
+    if !(THICKNESS[0]..=THICKNESS[1]).contains(&thickness) {
+        let [least, most] = THICKNESS.map(|size| number(1e3 * size));
+        let span = keys.units.as_ref().map_or(name.span(), Spanned::span);
+        let message = format!(
+            "{file} has yarns of {} mm³ on a mm²; allowed: {least} to {most}, in mesh.units = \"{}\"",
+            number(1e3 * thickness),
+            keys.units.as_ref().map_or(units.names()[0], |units| units.get_ref())
+        );
+        return Err(source.error(span, &message));
     }
+    let own = |key: &str, value: &Option<Spanned<f64>>| {
+        value.as_ref().map(|value| source.positive(key, *value.get_ref(), value.span())).transpose()
+    };
+    let height = own("height", &keys.height)?;
+    Ok(Foreign {
+        part,
+        clearance: own("clearance", &keys.clearance)?.unwrap_or(checks.clearance),
+        heights: height.map_or(checks.heights, |height| [height; 2]),
+        pitch,
+        file,
+        model,
+        figures,
+        checks,
+    })
+}
 
-    /// The unit of the file's lengths in the scene's.
-    fn length_unit(&self, name: &Spanned<String>, units: &UnitSystem) -> Result<f64, Error> {
-        let unit = Unit::parse(name.get_ref()).ok().filter(|unit| unit.measures(LENGTH));
-        let unit = unit.ok_or_else(|| {
-            let message = format!("mesh.units is \"{}\"; allowed: a unit of length, as mm, m, um, in", name.get_ref());
-            self.error(name.span(), &message)
-        })?;
-        Ok(unit.convert(1.0, units))
-    }
+/// The unit of the file's lengths in the scene's.
+fn length_unit(source: &Source<'_>, name: &Spanned<String>, units: &UnitSystem) -> Result<f64, Error> {
+    let unit = Unit::parse(name.get_ref()).ok().filter(|unit| unit.measures(LENGTH));
+    let unit = unit.ok_or_else(|| {
+        let message = format!("mesh.units is \"{}\"; allowed: a unit of length, as mm, m, um, in", name.get_ref());
+        source.error(name.span(), &message)
+    })?;
+    Ok(unit.convert(1.0, units))
 }
 
 /// Brings the nodes into the scene's units, and then to their place.

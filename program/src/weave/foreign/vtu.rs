@@ -6,9 +6,9 @@ use roxmltree::{Document, Node};
 
 use super::raw::{Element, Raw, of_wedge};
 use super::vtu_data::{Appended, Encoding};
-use crate::common::error::Error;
-use crate::common::keyword_file::files::text;
-use crate::common::keyword_file::line::{Line, Place};
+use toron_shared::error::Error;
+use toron_shared::keyword_file::files::text;
+use toron_shared::keyword_file::line::{Line, Place};
 
 const HEXAHEDRON: u64 = 12;
 const WEDGE: u64 = 13;

@@ -1,7 +1,7 @@
 //! Which keywords may stand beside a mesh, and which elements.
 
-use crate::common::error::Error;
-use crate::common::keyword_file::abaqus::Keyword;
+use toron_shared::error::Error;
+use toron_shared::keyword_file::abaqus::Keyword;
 
 /// Keywords that change neither nodes nor elements nor the fibres in them: laws with all that belongs to them, sections
 /// of what is no solid, surfaces, contact, constraints, loads, results, and sets of nodes. In a step there are others,

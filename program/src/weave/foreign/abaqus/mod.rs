@@ -12,11 +12,11 @@ mod yarns;
 use std::collections::HashMap;
 
 use super::raw::Raw;
-use crate::common::error::Error;
-use crate::common::keyword_file::abaqus::{self, Keyword, fields, label};
-use crate::common::keyword_file::line::Line;
 use motion::Motion;
 use scope::{Elements, Kind, Member, Scope, range};
+use toron_shared::error::Error;
+use toron_shared::keyword_file::abaqus::{self, Keyword, fields, label};
+use toron_shared::keyword_file::line::Line;
 use yarns::PARTS;
 
 /// # Errors

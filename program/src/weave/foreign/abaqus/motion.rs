@@ -2,8 +2,8 @@
 
 use nalgebra::{Rotation3, Unit, Vector3};
 
-use crate::common::error::Error;
-use crate::common::keyword_file::line::Line;
+use toron_shared::error::Error;
+use toron_shared::keyword_file::line::Line;
 
 #[derive(Clone, Default)]
 pub struct Motion {

@@ -5,9 +5,9 @@ use std::collections::HashMap;
 use nalgebra::{Rotation3, Unit, Vector3};
 
 use super::scope::Member;
-use crate::common::error::Error;
-use crate::common::keyword_file::abaqus::{Keyword, label};
-use crate::common::keyword_file::line::{Line, Place};
+use toron_shared::error::Error;
+use toron_shared::keyword_file::abaqus::{Keyword, label};
+use toron_shared::keyword_file::line::{Line, Place};
 
 /// Points a and b of a system whose origin is c, from there; b is not always given.
 pub type Points = ([f64; 3], Option<[f64; 3]>);

@@ -6,10 +6,10 @@ use super::Block;
 use super::keywords::nodes_of;
 use super::motion::Motion;
 use super::orientation::{Distribution, Orientation};
-use crate::common::error::Error;
-use crate::common::keyword_file::abaqus::{Keyword, label};
-use crate::common::keyword_file::line::{Line, Place};
 use crate::weave::foreign::raw::{Numbered, of_wedge};
+use toron_shared::error::Error;
+use toron_shared::keyword_file::abaqus::{Keyword, label};
+use toron_shared::keyword_file::line::{Line, Place};
 
 /// What has names and numbers of its own: a flat file, a part, an instance.
 #[derive(Clone, Default)]

@@ -6,9 +6,9 @@ use std::collections::hash_map::Entry;
 use super::motion::Motion;
 use super::orientation::{Distribution, Orientation, Points};
 use super::scope::{Kind, Member, Scope, Section};
-use crate::common::error::Error;
-use crate::common::keyword_file::line::Place;
 use crate::weave::foreign::raw::Raw;
+use toron_shared::error::Error;
+use toron_shared::keyword_file::line::Place;
 
 pub const PARTS: &str =
     "elements of the set of one *SOLID SECTION or, without sections, of *ELEMENT, ELSET=NAME or of *ELSET";

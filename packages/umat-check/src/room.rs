@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::common::error::Error;
+use toron_shared::error::Error;
 
 pub struct Room {
     pub path: PathBuf,

@@ -9,7 +9,7 @@ use super::super::material::{Material, Reads};
 use super::super::shared::Shared;
 use super::call::{Law, Precision, Session};
 use super::{blocks, deletion, energy, frame, process, single};
-use crate::check::child::Said;
+use crate::child::Said;
 
 /// Answers what is asked of a law; none where it is asked of a UMAT alone.
 ///

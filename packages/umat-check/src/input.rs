@@ -8,8 +8,8 @@ use toml::Spanned;
 
 use super::line::Question;
 use super::material::{DEFAULT_NAME, Explicit, Material, Traits};
-use crate::common::error::Error;
-use crate::common::toml_file::{Source, read};
+use toron_shared::error::Error;
+use toron_shared::toml_file::{Source, read};
 
 /// The keys of a file.
 #[derive(Clone, Debug, Default, Deserialize)]

@@ -13,8 +13,8 @@ use super::line::{Line, Question, Verdict};
 use super::material::{Material, Reads};
 use super::shared::{self, SIGNALLED, Seen, Shared};
 use super::{energy, objectivity, process, rest, room, steps, tangent, vumat};
-use crate::common::bound_child;
-use crate::common::error::Error;
+use toron_shared::bound_child;
+use toron_shared::error::Error;
 
 /// A call that takes longer has no end.
 pub const LONGEST_CALL: Duration = Duration::from_secs(5);
@@ -87,7 +87,7 @@ pub struct Ending {
 /// None that come back: its exit code tells its own failures from the law's ends.
 pub fn answer(request: &Path) -> Result<(), Error> {
     if let Err(error) = answered(request) {
-        crate::common::console::print_error(&error.to_string());
+        toron_shared::console::print_error(&error.to_string());
         std::process::exit(FAILED);
     }
     Ok(())
@@ -132,7 +132,7 @@ fn answered(request: &Path) -> Result<(), Error> {
 /// What is loaded; where it cannot be, this process has nothing to do.
 fn loaded<T>(law: Result<T, String>) -> T {
     law.unwrap_or_else(|reason| {
-        crate::common::console::print_error(&reason);
+        toron_shared::console::print_error(&reason);
         std::process::exit(NOT_LOADED)
     })
 }

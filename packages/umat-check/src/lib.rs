@@ -1,8 +1,10 @@
-//! What is wrong with a UMAT, one's own or anybody's: `toron check`.
+//! What is wrong with a UMAT, one's own or anybody's: the program `umat-check`, and `toron check`.
 //!
 //! The file becomes a library ([`compile`]) that a child process loads and calls as Abaqus/Standard does ([`child`], [`call`],
 //! [`point`]). One question a module: [`tangent`] (with [`differences`], [`judgement`], [`hypotheses`]), [`objectivity`], [`steps`],
 //! [`energy`], [`rest`], [`process`]. Answers are lines ([`mod@line`]) of a [`report`]. [`vumat`] has what differs in Abaqus/Explicit.
+
+#![cfg(target_os = "linux")]
 
 pub mod call;
 pub mod child;

@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use super::files::Files;
 use super::line::{Line, lines};
-use crate::common::error::Error;
+use crate::error::Error;
 
 /// What takes the tokens.
 pub trait Reader {

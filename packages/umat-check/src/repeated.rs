@@ -10,9 +10,9 @@ use super::compile;
 use super::guarded::Fence;
 use super::line::Question;
 use super::material::Material;
-use crate::common::console::print;
-use crate::common::error::Error;
-use crate::common::folder;
+use toron_shared::console::print;
+use toron_shared::error::Error;
+use toron_shared::folder;
 
 /// What is needed to repeat a call.
 pub struct Repeated {

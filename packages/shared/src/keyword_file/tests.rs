@@ -3,7 +3,7 @@
 use super::abaqus;
 use super::files::text;
 use super::ls_dyna::{self, Transform};
-use crate::common::error::Error;
+use crate::error::Error;
 
 /// Writes down what it is given; keywords that begin with `SKIP` want no lines.
 #[derive(Default)]

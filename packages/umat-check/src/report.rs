@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::line::{Line, Verdict};
-use crate::common::text_table::folded;
+use toron_shared::text_table::folded;
 
 /// All that was found of a file.
 #[derive(Serialize)]

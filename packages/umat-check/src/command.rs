@@ -18,8 +18,8 @@ use super::repeated::Repeated;
 use super::report::{OfMaterial, Report};
 use super::room::Room;
 use super::shared;
-use crate::common::console::print;
-use crate::common::error::Error;
+use toron_shared::console::print;
+use toron_shared::error::Error;
 
 #[derive(Args)]
 pub struct Arguments {

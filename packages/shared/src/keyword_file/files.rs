@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::line::Line;
-use crate::common::error::Error;
+use crate::error::Error;
 
 /// A text, whatever system wrote it: without the mark of its encoding, lines end with a line feed.
 pub fn text(bytes: &[u8]) -> String {

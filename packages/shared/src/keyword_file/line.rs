@@ -3,7 +3,7 @@
 use std::str::FromStr;
 use std::sync::Arc;
 
-use crate::common::error::Error;
+use crate::error::Error;
 
 /// Where something stands in a file.
 #[derive(Clone, Debug, PartialEq)]

@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use super::files::Files;
 use super::line::{Line, Place, lines};
-use crate::common::error::Error;
+use crate::error::Error;
 
 /// What takes the tokens.
 pub trait Reader {

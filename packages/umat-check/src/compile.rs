@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use super::room;
-use crate::common::error::Error;
+use toron_shared::error::Error;
 
 /// The routines of Abaqus that subroutines call.
 const UTILITIES: &str = include_str!("utilities.c");

@@ -12,7 +12,6 @@ use toml::de::DeTable;
 use super::error::Error;
 use super::file_names::collide;
 use super::toml_error;
-use toron::host::units::UnitSystem;
 
 /// The text and its name, for messages.
 pub struct Source<'a> {
@@ -47,13 +46,6 @@ impl Source<'_> {
         let parse_error =
             |error: toml::de::Error| self.error(error.span().unwrap_or(0..0), &toml_error::message(self.text, &error));
         toml::from_str(self.text).map_err(parse_error)
-    }
-
-    pub fn units(&self, name: &Spanned<String>) -> Result<UnitSystem, Error> {
-        UnitSystem::parse(name.get_ref()).ok_or_else(|| {
-            let message = format!("unit system \"{}\"; allowed: {}", name.get_ref(), UnitSystem::ALLOWED);
-            self.error(name.span(), &message)
-        })
     }
 
     /// The name of a case, or of another of several `what`, out of which its files' names are made; `taken` are the
