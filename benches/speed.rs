@@ -72,7 +72,7 @@ fn main() {
     let mut report = Report::new(Machine::new(processor(), compiler), SIZES.to_vec(), rows);
     report.compare(|above, below, n| in_turn(&kernels[above], &kernels[below], n));
     print!("\n{}", report.summary());
-    report.write(&Path::new(env!("CARGO_MANIFEST_DIR")).join("benches/results")).expect("the results are written");
+    report.write(&Path::new(env!("CARGO_MANIFEST_DIR")).join("results")).expect("the results are written");
 }
 
 fn implementations(has_fortran: bool) -> Vec<Implementation> {

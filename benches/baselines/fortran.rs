@@ -8,7 +8,7 @@ use libloading::Library;
 use toron_program::bench::scene::Scene;
 use toron_program::entries::hosts::OnePoint;
 
-const SOURCES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/benches/baselines");
+const SOURCES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/baselines");
 const BUILD: &str = env!("CARGO_TARGET_TMPDIR");
 
 /// One Fortran routine: the name of its row, file, symbol and flags, and the vectors that the compiler must report.

@@ -173,7 +173,7 @@ fn run(command: Command) -> Result<(), Error> {
         Command::Deck(arguments) => deck::command::run(Laws::Toron, &arguments),
         Command::Params(arguments) => params::print_tables(Laws::Toron, &arguments),
         #[cfg(target_os = "linux")]
-        Command::Check(arguments) => umat_check::command::run(&arguments),
+        Command::Check(arguments) => umat_check::command::run("toron check", &arguments),
         #[cfg(target_os = "linux")]
         Command::CheckChild { request } => umat_check::child::answer(&request),
         Command::Compare(arguments) => compare::command::run(&arguments),

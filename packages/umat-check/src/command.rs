@@ -86,11 +86,11 @@ fn allowance(text: &str) -> Result<(String, f64), String> {
     }
 }
 
-/// Checks a law, and prints the report.
+/// Checks a law, and prints the report; `program` is the command that was called, for what can be called next.
 ///
 /// # Errors
 /// The input is invalid, or a line is wrong.
-pub fn run(arguments: &Arguments) -> Result<(), Error> {
+pub fn run(program: &str, arguments: &Arguments) -> Result<(), Error> {
     let room = Room::new()?;
     if let Some(again) = &arguments.again {
         return Repeated::read(again)?.run(&room.path);
@@ -129,7 +129,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Error> {
         print(&format!("{text}\n"));
     } else {
         let colours = std::io::stdout().is_terminal() && std::env::var_os("NO_COLOR").is_none();
-        print(&report.as_text(colours));
+        print(&report.as_text(program, colours));
     }
     if wrong.is_empty() { Ok(()) } else { Err(Error::Evaluation(format!("{}: wrong: {wrong}", file.display()))) }
 }

@@ -8,7 +8,7 @@ fn main() -> std::process::ExitCode {
     /// Check a UMAT or VUMAT of Abaqus, yours or anybody's: tangent, objectivity, energy, memory, threads.
     #[derive(Parser)]
     #[command(name = "umat-check", version, args_conflicts_with_subcommands = true)]
-    struct Arguments {
+    struct CommandLine {
         #[command(subcommand)]
         child: Option<Child>,
         #[command(flatten)]
@@ -22,9 +22,10 @@ fn main() -> std::process::ExitCode {
         CheckChild { request: std::path::PathBuf },
     }
 
-    toron_shared::command_line::run(Arguments::command(), &[], |arguments: Arguments| match arguments.child {
+    let command = CommandLine::command().mut_arg("output", |output| output.default_value("umat-check-out"));
+    toron_shared::command_line::run(command, &[], |arguments: CommandLine| match arguments.child {
         Some(Child::CheckChild { request }) => child::answer(&request),
-        None => command::run(&arguments.check),
+        None => command::run("umat-check", &arguments.check),
     })
 }
 

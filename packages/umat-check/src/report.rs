@@ -34,16 +34,17 @@ impl Report {
         names
     }
 
-    pub fn as_text(&self, colours: bool) -> String {
-        self.materials.iter().map(|material| self.of_material(material, colours)).collect()
+    /// For the terminal; `program` is the command that repeats a call.
+    pub fn as_text(&self, program: &str, colours: bool) -> String {
+        self.materials.iter().map(|material| self.of_material(material, program, colours)).collect()
     }
 
-    fn of_material(&self, material: &OfMaterial, colours: bool) -> String {
+    fn of_material(&self, material: &OfMaterial, program: &str, colours: bool) -> String {
         let law = material.law.as_ref().map_or(String::new(), |law| format!(", a {law} law"));
         let mut text = format!("{}: {}{law}\n\n", self.file, material.name);
         let shown = gathered(&material.lines);
         for line in &shown {
-            text.push_str(&written(line, colours));
+            text.push_str(&written(line, program, colours));
         }
         let count = |verdict: Verdict| material.lines.iter().filter(|line| line.verdict == verdict).count();
         let counts =
@@ -93,7 +94,7 @@ const FIGURE: usize = 8;
 const VERDICT: usize = 13;
 const WORDS: usize = 78;
 
-fn written(line: &Line, colours: bool) -> String {
+fn written(line: &Line, program: &str, colours: bool) -> String {
     let figure = line.figure.map_or(String::new(), short);
     let verdict = format!("{:<VERDICT$}", line.verdict.name());
     let verdict = match (colours, line.verdict) {
@@ -105,7 +106,7 @@ fn written(line: &Line, colours: bool) -> String {
     };
     let mut words = line.text.clone();
     if let Some(call) = &line.call {
-        words.push_str(&format!("; toron check --again {call}"));
+        words.push_str(&format!("; {program} --again {call}"));
     }
     let indent = " ".repeat(NAME + FIGURE + 2 + VERDICT);
     let words = folded(&words, WORDS).replace("\n  ", &format!("\n{indent}"));
@@ -148,11 +149,11 @@ mod tests {
         let right = Line::new(Question::Rest, Verdict::Right, Some(0.0), "no stress at rest");
         let long = "a sentence of many words ".repeat(8);
         let wrong = Line::new(Question::Tangent, Verdict::Wrong, Some(0.25), long.trim());
-        let plain = [written(&right, false), written(&wrong, false)].concat();
+        let plain = [written(&right, "umat-check", false), written(&wrong, "umat-check", false)].concat();
         let columns: Vec<usize> = plain.lines().map(|line| line.len() - line.trim_start().len()).collect();
         assert_eq!(columns[..2], [0, 0]);
         assert!(columns[2..].iter().all(|&column| column == NAME + FIGURE + 2 + VERDICT));
-        let coloured = written(&right, true);
-        assert_eq!(coloured.replace("\x1b[32m", "").replace("\x1b[0m", ""), written(&right, false));
+        let coloured = written(&right, "umat-check", true);
+        assert_eq!(coloured.replace("\x1b[32m", "").replace("\x1b[0m", ""), written(&right, "umat-check", false));
     }
 }

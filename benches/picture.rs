@@ -1,14 +1,14 @@
 //! The picture of the speed report, drawn from the report that lies in `benches/results`.
 //! `TORON_WRITE_PICTURES=1` writes it anew there: no bench is needed.
 
-#[path = "../benches/report/plot.rs"]
+#[path = "report/plot.rs"]
 mod plot;
 
 use std::path::Path;
 
 #[test]
 fn the_speed_report_has_its_picture() {
-    let results = Path::new(env!("CARGO_MANIFEST_DIR")).join("benches/results");
+    let results = Path::new(env!("CARGO_MANIFEST_DIR")).join("results");
     let report = std::fs::read_to_string(results.join("speed.json")).expect("the report, which `cargo bench` writes");
     let writes = std::env::var_os("TORON_WRITE_PICTURES").is_some();
     let folder = if writes { results.clone() } else { Path::new(env!("CARGO_TARGET_TMPDIR")).to_path_buf() };
@@ -23,7 +23,7 @@ fn the_speed_report_has_its_picture() {
 /// The README's and the documents' ratios are those of the report.
 #[test]
 fn documents_have_the_ratios_of_the_report() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let root = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/.."));
     let text = |file: &str| {
         let text = std::fs::read_to_string(root.join(file)).expect("a file of the repository");
         text.split_whitespace().collect::<Vec<_>>().join(" ")
