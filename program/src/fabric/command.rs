@@ -19,8 +19,8 @@ use crate::struck::summary::Cells;
 use crate::weave;
 use toron::host::units::UnitSystem;
 
-/// Runs the cases of a scene, one after another, and writes what came of them to the directory `output`. With `restart`, cases
-/// go on from their checkpoints there.
+/// Runs the cases of a scene, one after another, and writes what came of them to the directory `output`. With
+/// `restart`, cases go on from their checkpoints there.
 ///
 /// # Errors
 /// As for [`command::run`].

@@ -178,8 +178,8 @@ fn coarse(units: &UnitSystem, case: &Case, panel: &Model) -> Option<Finding> {
 
 /// A run that has ended, or broken, while the blow still shakes the mesh where the sphere has hit it.
 ///
-/// There is hardly any internal energy then that hourglass modes and shear could be held against: in sound runs they have half of
-/// it and more at first.
+/// There is hardly any internal energy then that hourglass modes and shear could be held against: in sound runs they
+/// have half of it and more at first.
 fn transient(units: &UnitSystem, case: &Case, measures: &Measures) -> Option<Finding> {
     let much = judgement::hourglass(measures.hourglass, "").is_some() || shear(case, measures).is_some();
     much.then(|| {

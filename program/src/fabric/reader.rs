@@ -87,7 +87,8 @@ impl Scene {
 type Threads = Vec<[Option<Box<Material>>; 2]>;
 
 impl Reader<'_> {
-    /// What a case strikes: the scene's weave or mesh, with what the case has otherwise, and the materials of its own yarns.
+    /// What a case strikes: the scene's weave or mesh, with what the case has otherwise, and the materials of its own
+    /// yarns.
     fn cloth_of_case(
         &self,
         scene: &SceneFile,

@@ -181,9 +181,9 @@ pub trait Table: Clone {
     fn over(&self, base: &Self) -> Self;
 }
 
-/// Reads the cases of a scene, or the scene as the only one: `read` gets the reader of the common keys, the case's keys over the
-/// scene's, its own ones alone and its name. The files that cases have in common are called as `common` says, without
-/// their endings.
+/// Reads the cases of a scene, or the scene as the only one: `read` gets the reader of the common keys, the case's keys
+/// over the scene's, its own ones alone and its name. The files that cases have in common are called as `common` says,
+/// without their endings.
 ///
 /// # Errors
 /// A key that no case reads, as `unused` finds it; a name that cannot be; what `read` refuses.
@@ -263,7 +263,8 @@ impl Reader<'_> {
         }
     }
 
-    /// What the case of this name is going to do, with so many samples in its history where the file does not say otherwise.
+    /// What the case of this name is going to do, with so many samples in its history where the file does not say
+    /// otherwise.
     pub fn plan(&self, name: &str, samples: f64) -> Result<Plan, Error> {
         let keys = self.keys;
         let end = self.positive("end", &keys.end)?;

@@ -51,7 +51,8 @@ fn name(curve: &Curve) -> String {
     format!("{}{}", curve.link.name(), if curve.firth { ", Firth" } else { "" })
 }
 
-/// What came of the series; `missing` is how many of its shots have not been fired, and `beside` how many others stand in the table.
+/// What came of the series; `missing` is how many of its shots have not been fired, and `beside` how many others stand
+/// in the table.
 pub fn report(scene: &Scene, series: &Series, [missing, beside]: [usize; 2], output: &Path) -> String {
     let [stopped, through, undecided, errors] = series.counts();
     let of_errors = if errors + undecided > 0 { ", which the curves leave out" } else { "" };
@@ -453,7 +454,8 @@ mod tests {
         Scene::parse("yarn.toml", YARN, None).expect("a scene")
     }
 
-    /// Shots that were stopped at these speeds, and then some that went through at those, with what was left, and errors with those messages.
+    /// Shots that were stopped at these speeds, and then some that went through at those, with what was left, and
+    /// errors with those messages.
     fn series(stops: &[f64], perforations: &[[f64; 2]], errors: &[&str]) -> Series {
         let stopped = stops.iter().map(|&speed| (speed, Ending::Stopped, 0.0));
         let through = perforations.iter().map(|&[speed, left]| (speed, Ending::Through, left));

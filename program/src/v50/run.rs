@@ -1,4 +1,5 @@
-//! Fires the shots of a series: side by side, one a core, or one after another where each needs the fates of those before it.
+//! Fires the shots of a series: side by side, one a core, or one after another where each needs the fates of those
+//! before it.
 
 use std::ops::RangeInclusive;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -122,7 +123,8 @@ impl<'a> FiringRange<'a> {
         records.lock().unwrap_or_else(PoisonError::into_inner).add(ended)
     }
 
-    /// What is said of a shot with which so many have ended in so many seconds, and how long the others take if they are like these.
+    /// What is said of a shot with which so many have ended in so many seconds, and how long the others take if they
+    /// are like these.
     fn line(&self, ended: &Ended, count: usize, seconds: f64) -> String {
         let seconds = seconds / count as f64 * self.all.saturating_sub(count) as f64;
         let speed = unit(&self.scene.units, SPEED);
@@ -175,8 +177,8 @@ pub fn stays(scene: &Scene, ended: &Ended) -> bool {
     }
 }
 
-/// Of the shots that are there those of the series: of its numbers, and of a sequential design up to the first that is missing or that the
-/// fates before it would have at another speed now.
+/// Of the shots that are there those of the series: of its numbers, and of a sequential design up to the first that is
+/// missing or that the fates before it would have at another speed now.
 pub fn confirmed(scene: &Scene, records: &Records) -> Vec<Ended> {
     let design = scene.design();
     let (mut shots, mut before): (Vec<Ended>, Vec<Fired>) = Default::default();
@@ -288,7 +290,8 @@ mod tests {
         assert_eq!(of(Ending::Through), [1]);
     }
 
-    /// What stays of a table are the shots that those of the scene equal to the bit; one with an error, or another aim, is fired anew.
+    /// What stays of a table are the shots that those of the scene equal to the bit; one with an error, or another aim,
+    /// is fired anew.
     #[test]
     fn shots_of_the_table_are_known_to_the_bit() {
         let scene = Scene::parse("yarn.toml", &format!("{YARN}design = \"even\"\n"), None).expect("a scene");

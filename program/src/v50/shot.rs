@@ -108,8 +108,8 @@ pub fn weights(scene: &Scene) -> Result<String, Error> {
     }
 }
 
-/// Fires a shot, in the threads of the pool that this is called in; none where it was interrupted. A shot that ends with an error, or in
-/// which the program fails, has ended too.
+/// Fires a shot, in the threads of the pool that this is called in; none where it was interrupted. A shot that ends
+/// with an error, or in which the program fails, has ended too.
 pub fn fire(scene: &Scene, shot: &Shot, watch: &dyn Watch) -> Option<Ended> {
     // Of a shot that fails nothing is used again.
     let struck = catch_unwind(AssertUnwindSafe(|| strike(scene, shot, &mut Watcher { watch, shot })));

@@ -86,8 +86,8 @@ impl Cloth {
         }
     }
 
-    /// The edges of the cell by which the ply that is struck repeats itself: along its warp and along its weft. The pattern of a mesh is
-    /// not known, and taken for plain.
+    /// The edges of the cell by which the ply that is struck repeats itself: along its warp and along its weft. The
+    /// pattern of a mesh is not known, and taken for plain.
     pub fn cell(&self) -> [[f64; 2]; 2] {
         match self {
             Cloth::Woven(layup) => {
@@ -101,7 +101,8 @@ impl Cloth {
         }
     }
 
-    /// That a place is within the panel's outline; of a mesh, whose outline is not known, within the box about its nodes.
+    /// That a place is within the panel's outline; of a mesh, whose outline is not known, within the box about its
+    /// nodes.
     ///
     /// # Errors
     /// It lies outside: what is allowed.

@@ -42,7 +42,8 @@ impl Ply {
 }
 
 impl Layup {
-    /// Lays each ply below the ones before it, with that distance between their nearest nodes' heights; that of the first is nothing.
+    /// Lays each ply below the ones before it, with that distance between their nearest nodes' heights; that of the
+    /// first is nothing.
     pub fn new(plies: Vec<Laid>) -> Layup {
         let mut layup = Layup { plies: Vec::with_capacity(plies.len()), clearance: f64::INFINITY };
         let several = plies.len() > 1;

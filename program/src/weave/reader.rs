@@ -97,8 +97,8 @@ impl Scene {
 }
 
 impl Source<'_> {
-    /// The table `[weave]` and the tables `[[ply]]`: none is one ply. `case` is the place of what a case has otherwise: what does not
-    /// go together is then its mistake.
+    /// The table `[weave]` and the tables `[[ply]]`: none is one ply. `case` is the place of what a case has otherwise:
+    /// what does not go together is then its mistake.
     pub fn layup(
         &self,
         table: &Spanned<WeaveFile>,

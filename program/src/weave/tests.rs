@@ -290,7 +290,8 @@ struct Both {
     own: Spanned<WeaveFile>,
 }
 
-/// A case's keys stand over the scene's one by one; a preset of its own brings its yarns, and a shape of its own has its own size.
+/// A case's keys stand over the scene's one by one; a preset of its own brings its yarns, and a shape of its own has
+/// its own size.
 #[test]
 fn a_case_s_weave_goes_over_the_scene_s() {
     const KEYS: [&str; 16] = [

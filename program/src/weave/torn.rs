@@ -2,8 +2,9 @@
 
 use super::model::{Piece, Yarn};
 
-/// Whether nothing joins a yarn's ends any more. Of a grid, in some piece of the yarn, every line of elements along it has lost one; else
-/// no way leads from one end to the other over intact elements that share nodes. Elements and their nodes are numbered in the yarn.
+/// Whether nothing joins a yarn's ends any more. Of a grid, in some piece of the yarn, every line of elements along it
+/// has lost one; else no way leads from one end to the other over intact elements that share nodes. Elements and their
+/// nodes are numbered in the yarn.
 pub fn is_torn(yarn: &Yarn, elements: &[[u32; 8]], intact: impl Fn(usize) -> bool) -> bool {
     if yarn.pieces.is_empty() {
         return ends_are_apart(yarn, elements, intact);
