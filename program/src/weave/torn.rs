@@ -41,15 +41,15 @@ pub fn pieces(nodes: usize, elements: &[[u32; 8]]) -> usize {
     (0..nodes as u32).filter(|&node| groups.of(node) == node).count()
 }
 
-/// Nodes that are joined have one number.
-struct Groups(Vec<u32>);
+/// Nodes that are joined have one number, that of one of them.
+pub struct Groups(Vec<u32>);
 
 impl Groups {
-    fn new(count: usize) -> Groups {
+    pub fn new(count: usize) -> Groups {
         Groups((0..count as u32).collect())
     }
 
-    fn of(&mut self, mut node: u32) -> u32 {
+    pub fn of(&mut self, mut node: u32) -> u32 {
         while self.0[node as usize] != node {
             let next = self.0[node as usize];
             self.0[node as usize] = self.0[next as usize];
@@ -58,7 +58,7 @@ impl Groups {
         node
     }
 
-    fn join(&mut self, a: u32, b: u32) {
+    pub fn join(&mut self, a: u32, b: u32) {
         let (a, b) = (self.of(a), self.of(b));
         self.0[a.max(b) as usize] = a.min(b);
     }

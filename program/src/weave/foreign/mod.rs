@@ -5,6 +5,7 @@ pub mod abaqus;
 pub mod bins;
 pub mod build;
 pub mod checks;
+pub mod crimp;
 pub mod file;
 #[cfg(test)]
 mod form_tests;
