@@ -391,8 +391,11 @@ mod tests {
         seeds.dedup();
         assert_eq!(seeds.len(), 2000);
 
-        // What is struck is that.
-        let Target::Panel(case) = scene.target.at(&shots[6], 3.0) else { panic!("a panel") };
+        // What is struck is that, and one cloth for all: its weave is solved once, and held against finer ones once.
+        let (Target::Panel(case), Target::Panel(own)) = (scene.target.at(&shots[6], 3.0), &scene.target) else {
+            panic!("a panel")
+        };
+        assert!(std::sync::Arc::ptr_eq(&case.cloth, &own.cloth));
         let seed = case.strength.map(|strength| strength.field.seed);
         assert_eq!(
             (case.speed, case.sphere.aim, seed, case.plan.end),

@@ -78,6 +78,14 @@ impl Cloth {
         }
     }
 
+    /// What to say of yarns that the mesh makes too long or too short.
+    pub fn crimp(&self) -> &[String] {
+        match self {
+            Cloth::Woven(layup) => &layup.crimp,
+            Cloth::Foreign(foreign) => &foreign.crimp,
+        }
+    }
+
     /// Elements that reach into another yarn.
     pub fn overlapping(&self) -> &[usize] {
         match self {
