@@ -266,7 +266,7 @@ fn weights(scene: &Scene) -> String {
 
 /// The shots whose runs are not sound, and those that are so up to their first failure only.
 fn unsound(series: &Series) -> String {
-    let behind = " (docs/guides/fabric.md says what to do)";
+    let behind = " (toron fabric or impact, of such a shot by its line in shots.csv, says what to change)";
     let before = series.verdicts().filter(|(_, before, _)| *before != SOUND);
     let after = series.verdicts().filter_map(|(ended, _, after)| Some((ended.shot.number, after?.to_string())));
     of_shots("warning: ", before.map(|(ended, before, _)| (ended.shot.number, before.to_string())), behind)

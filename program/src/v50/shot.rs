@@ -11,6 +11,7 @@ use crate::explicit::judgement::{Finding, verdict};
 use crate::fabric::run::StruckPanel;
 use crate::fabric::summary::Figures;
 use crate::impact::run::StruckYarn;
+use crate::struck::pace::Estimate;
 use crate::struck::run::{self, End, Observer};
 use crate::struck::sample::Sample;
 use crate::{fabric, impact};
@@ -60,6 +61,9 @@ impl Ended {
 pub trait Watch: Sync {
     fn progress(&self, shot: &Shot, fraction: f64);
     fn interrupts(&self) -> bool;
+
+    /// How long the shot will take, once; told in a thread of the pool that it has.
+    fn estimate(&self, _shot: &Shot, _estimate: &Estimate) {}
 }
 
 struct Watcher<'a> {
@@ -70,6 +74,10 @@ struct Watcher<'a> {
 impl<E> Observer<E> for Watcher<'_> {
     fn progress(&mut self, fraction: f64, _: &Sample<E>, _: f64) {
         self.watch.progress(self.shot, fraction);
+    }
+
+    fn estimate(&mut self, estimate: &Estimate) {
+        self.watch.estimate(self.shot, estimate);
     }
 
     fn interrupts(&self) -> bool {
