@@ -26,7 +26,7 @@ pub fn write(svg: &Path, png: &Path, histories: &[&History], units: &UnitSystem)
             let values = times.iter().map(|&time| curve.at(time).unwrap_or(f64::NAN)).collect();
             Some(Series { name: history.name.clone(), colour, values })
         });
-        Panel { title: row.title, unit: unit(units, row.dimension), series: lines.collect(), limit: None }
+        Panel::new(row.title, &unit(units, row.dimension), lines.collect())
     });
     // A name that says the host says it alone.
     let of_host = |history: &History| match history.name.contains(history.host) {

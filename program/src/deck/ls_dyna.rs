@@ -40,6 +40,7 @@ pub fn card(material: &Material, id: u32, number: Option<u32>, fibre: Fibre) -> 
         card += &format!("$ {comment}\n");
     }
     card += "$ bulk and shear set time step and contact stiffness: bulk + 4/3 shear is that of the wave along the fibre, or of a faster one at rest\n";
+    card += "$ ihyper = 1 goes with iortho = 0, -1 with 1: F and stress are global. 1 with 1 gives wrong stress without a message\n";
     let rounded: Vec<&str> = [("ro", density)]
         .into_iter()
         .chain(names.iter().copied().zip(constants.iter().copied()))

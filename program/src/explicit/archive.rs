@@ -1,7 +1,9 @@
-//! What a run has to remember, as bytes: a run that goes on from them has the same bits as one that was not interrupted.
+//! What a run has to remember, as bytes: a run that goes on from them has the same bits as one that was not
+//! interrupted.
 //!
-//! Writing and reading go the same way over the same states, so that they cannot differ in order. A state has no hand-written list of
-//! its fields: it is a structure apart from what follows from the scene (meshes, materials, supports), which is not written.
+//! Writing and reading go the same way over the same states, so that they cannot differ in order. A state has no
+//! hand-written list of its fields: it is a structure apart from what follows from the scene (meshes, materials,
+//! supports), which is not written.
 
 use serde::Serialize;
 use serde::de::DeserializeOwned;

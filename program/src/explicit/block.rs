@@ -18,8 +18,8 @@ use toron::host::c::{HyperelasticLaw, LinearElasticLaw, TORON_CRITERION_FIBRE};
 use toron::law::state::{FAILURE_INDEX, INVARIANTS, LINEAR_LARGEST, LINEAR_STRESS, LINEAR_WORK};
 use toron::law::status;
 
-/// Elements a block: large enough for the entry's preparation to cost nothing, small enough for its arrays to stay in the
-/// first cache (vector lengths of explicit solvers are of this order).
+/// Elements a block: large enough for the entry's preparation to cost nothing, small enough for its arrays to stay in
+/// the first cache (vector lengths of explicit solvers are of this order).
 pub const BLOCK: usize = 128;
 
 /// Working arrays for one block at a time; they carry nothing over to the next.
@@ -138,7 +138,8 @@ pub struct ElementBlock<T> {
     pub first: usize,
     pub medium: usize,
     pub history: History<T>,
-    /// ln(1 + ε_lim), or the linear elastic law's strength, of each element where they have limits of their own; else empty.
+    /// ln(1 + ε_lim), or the linear elastic law's strength, of each element where they have limits of their own; else
+    /// empty.
     limit: Vec<T>,
 }
 
@@ -199,8 +200,8 @@ impl<T: Number> ElementBlock<T> {
         let code = self.call_law(medium, scratch, options);
         sums.refused = sums.refused.or(refused(code));
         sums.law += start.elapsed();
-        // Elements that cannot be evaluated are deleted before their forces are assembled; those that have failed or collapsed
-        // exert their last stress.
+        // Elements that cannot be evaluated are deleted before their forces are assembled; those that have failed or
+        // collapsed exert their last stress.
         let others = sums.deleted.len();
         self.delete(medium, scratch, sums, |block, scratch, i| scratch.status[i] != status::OK && block.is_intact(i));
         sums.collapsed += sums.deleted.len() - others;
@@ -287,8 +288,8 @@ impl<T: Number> ElementBlock<T> {
         code
     }
 
-    /// The largest square of a frequency, from the law's bound of the wave speed, and the largest rate of damping; which
-    /// elements have collapsed.
+    /// The largest square of a frequency, from the law's bound of the wave speed, and the largest rate of damping;
+    /// which elements have collapsed.
     #[inline(always)]
     fn bound_step(&self, medium: &Medium<T>, scratch: &mut Scratch<T>, shortest: f64, sums: &mut Sums) {
         let (zero, one, four) = (Lanes::zero(), Lanes::constant(1.0), Lanes::constant(4.0));
@@ -358,8 +359,8 @@ impl<T: Number> ElementBlock<T> {
         self.history.state[row * self.shapes.stride + i].into()
     }
 
-    /// The law's Cauchy stress 11 22 33 12 23 31 of each element, without viscosity and hourglass control: evaluated again where
-    /// the nodes are now, since the host does not keep it. The history stays as it is.
+    /// The law's Cauchy stress 11 22 33 12 23 31 of each element, without viscosity and hourglass control: evaluated
+    /// again where the nodes are now, since the host does not keep it. The history stays as it is.
     ///
     /// # Errors
     /// The law's code where it refuses its call.
@@ -422,8 +423,8 @@ impl<T: Number> ElementBlock<T> {
         matches!(medium.entry, Entry::Solid(_)).then(|| self.variable(SOLID_VON_MISES, i))
     }
 
-    /// Logarithmic strain along the fibre: the invariant, or the linear elastic law's stress along it over E1; a solid does not keep
-    /// it.
+    /// Logarithmic strain along the fibre: the invariant, or the linear elastic law's stress along it over E1; a solid
+    /// does not keep it.
     pub fn elongation(&self, medium: &Medium<T>, i: usize) -> f64 {
         match &medium.entry {
             Entry::Hyperelastic(_) => self.variable(INVARIANTS, i),

@@ -179,8 +179,8 @@ impl<T: Number> Body<T> {
         }
     }
 
-    /// Releases the nodes of the elements that this step has deleted; a node without elements keeps its mass. Returns whether
-    /// there are any.
+    /// Releases the nodes of the elements that this step has deleted; a node without elements keeps its mass. Returns
+    /// whether there are any.
     pub fn release_nodes(&mut self) -> bool {
         for &element in &self.sums.deleted {
             for node in self.mesh.elements[element] {

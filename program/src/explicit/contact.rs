@@ -45,8 +45,8 @@ pub struct Rigid {
     pub stiffness: f64,
     /// Coulomb's coefficient.
     pub friction: f64,
-    /// Where its axis of motion passes the plane across it: x and y of what moves along z. That of a cylinder across a yarn passes the
-    /// origin.
+    /// Where its axis of motion passes the plane across it: x and y of what moves along z. That of a cylinder across a
+    /// yarn passes the origin.
     pub aim: [f64; 2],
 }
 
@@ -114,8 +114,8 @@ impl Contact {
         self.nodes.retain(|node| !gone(node.number as usize));
     }
 
-    /// Adds the contact's forces to the nodes' and returns the force on the striker along its direction. `centre` is where it
-    /// is on that axis, `moved` how far it has moved in the step that led here.
+    /// Adds the contact's forces to the nodes' and returns the force on the striker along its direction. `centre` is
+    /// where it is on that axis, `moved` how far it has moved in the step that led here.
     pub fn apply<T: Number>(&mut self, centre: f64, moved: f64, body: Nodes<'_, T>, forces: &mut [[T; 3]]) -> f64 {
         (self.stored, self.touching) = (self.released, 0.0);
         self.clear -= body.farthest + moved.abs();
@@ -151,8 +151,8 @@ impl Contact {
 }
 
 impl Rigid {
-    /// How deep a place is in it, and the normal of its surface there; its centre is here. Outside the depth is negative, and a place is
-    /// as far from it or farther.
+    /// How deep a place is in it, and the normal of its surface there; its centre is here. Outside the depth is
+    /// negative, and a place is as far from it or farther.
     #[inline(always)]
     fn meet(&self, centre: f64, place: Vector) -> (f64, Vector) {
         let direction = self.shape.direction();
@@ -185,8 +185,8 @@ impl Rigid {
 }
 
 impl Node {
-    /// The node is so deep in the striker, whose surface has this normal there, after a step like this; returns the force that presses
-    /// it outwards, if it is inside, and what slipping, or letting go, has dissipated.
+    /// The node is so deep in the striker, whose surface has this normal there, after a step like this; returns the
+    /// force that presses it outwards, if it is inside, and what slipping, or letting go, has dissipated.
     #[inline(always)]
     fn update(
         &mut self,

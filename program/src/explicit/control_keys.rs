@@ -6,8 +6,8 @@ use super::medium::Control;
 use toron_shared::error::Error;
 use toron_shared::toml_file::{Numbers, Source};
 
-/// Coefficients where the file gives none: an hourglass mode's share of the stiffness of a modulus, and viscosity, linear and
-/// quadratic as explicit solvers have them, and of the section's shape.
+/// Coefficients where the file gives none: an hourglass mode's share of the stiffness of a modulus, and viscosity,
+/// linear and quadratic as explicit solvers have them, and of the section's shape.
 const HOURGLASS: f64 = 0.1;
 const VISCOSITY: [f64; 3] = [0.06, 1.5, 0.2];
 

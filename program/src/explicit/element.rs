@@ -2,10 +2,10 @@
 //!
 //! Everything refers to the reference placement, so that nothing is computed anew in a step but what depends on the
 //! displacement. At an element's centre the gradient of a field is the sum of its nodal values, with the signs of ξ, η
-//! and ζ, times the inverse Jacobian. For the prisms that yarns are meshed with that is the mean over the element, which
-//! is what Flanagan and Belytschko take (Int. J. Numer. Meth. Eng. 17, 1981). Their four hourglass modes are the sums with
-//! the signs of ξη, ηζ, ζξ and ξηζ, less what a linear field has in them; the elastic force against them is theirs, with
-//! reference shapes: it vanishes in every rigid motion and uniform deformation, and has an energy.
+//! and ζ, times the inverse Jacobian. For the prisms that yarns are meshed with that is the mean over the element,
+//! which is what Flanagan and Belytschko take (Int. J. Numer. Meth. Eng. 17, 1981). Their four hourglass modes are the
+//! sums with the signs of ξη, ηζ, ζξ and ξηζ, less what a linear field has in them; the elastic force against them is
+//! theirs, with reference shapes: it vanishes in every rigid motion and uniform deformation, and has an energy.
 
 #![expect(clippy::needless_range_loop, reason = "what is inlined for certain: see Lanes")]
 
@@ -63,8 +63,8 @@ fn gather<T: Number>(nodes: &[[u32; 8]], displacement: &[[T; 3]], component: usi
     values
 }
 
-/// Rows of a block's constant data: ⅛ ∂ξ_k/∂X_j, entry k + 3j; mode α of X_j, entry α + 4j; reference volume; stiffness against
-/// the hourglass modes; 8 Σ over corners of ∂N/∂X_i ∂N/∂X_j, 11 22 33 12 23 31: what the stable step needs.
+/// Rows of a block's constant data: ⅛ ∂ξ_k/∂X_j, entry k + 3j; mode α of X_j, entry α + 4j; reference volume; stiffness
+/// against the hourglass modes; 8 Σ over corners of ∂N/∂X_i ∂N/∂X_j, 11 22 33 12 23 31: what the stable step needs.
 const INVERSE: usize = 0;
 const HOURGLASS_OF_X: usize = INVERSE + 9;
 const VOLUME: usize = HOURGLASS_OF_X + 12;
@@ -80,8 +80,8 @@ pub struct Shapes<T> {
     pub stride: usize,
     pub nodes: Vec<[u32; 8]>,
     constants: Rows<T>,
-    /// 9 components by columns, or none where they are those of the unit matrix in all elements: the axes that X refers to, the
-    /// fibre's first.
+    /// 9 components by columns, or none where they are those of the unit matrix in all elements: the axes that X refers
+    /// to, the fibre's first.
     axes: Rows<T>,
     /// The largest square of a frequency of the hourglass modes, times the density.
     pub hourglass_frequency: f64,
@@ -130,12 +130,12 @@ impl Shape {
 }
 
 impl<T: Number> Shapes<T> {
-    /// A block of elements. `fibre` is its unit direction in each, or empty where that is axis 0 in all; `coordinates` are the
-    /// nodes in the reference placement, `modulus` is what hourglass modes are held by.
+    /// A block of elements. `fibre` is its unit direction in each, or empty where that is axis 0 in all; `coordinates`
+    /// are the nodes in the reference placement, `modulus` is what hourglass modes are held by.
     ///
-    /// X is taken in axes of each element, of which the first is the fibre's: F then has the fibre's image as its first column,
-    /// which is what the laws take for it, and differs from the usual one by a rotation of the reference placement, which they do
-    /// not see otherwise.
+    /// X is taken in axes of each element, of which the first is the fibre's: F then has the fibre's image as its first
+    /// column, which is what the laws take for it, and differs from the usual one by a rotation of the reference
+    /// placement, which they do not see otherwise.
     pub fn new(elements: &[[u32; 8]], fibre: &[[f64; 3]], coordinates: &[[f64; 3]], modulus: f64) -> Self {
         let (n, stride) = (elements.len(), elements.len().next_multiple_of(LANES));
         let mut block = Shapes {
@@ -250,8 +250,8 @@ impl<T: Number> Shapes<T> {
         }
     }
 
-    /// Adds the elements' forces to the nodes', from P and the amplitudes of the hourglass modes, which only intact elements
-    /// (1, others 0) hold.
+    /// Adds the elements' forces to the nodes', from P and the amplitudes of the hourglass modes, which only intact
+    /// elements (1, others 0) hold.
     #[inline(always)]
     pub fn forces(&self, nominal: &[T], modal: &[T], intact: &[T], forces: &mut [[T; 3]]) {
         let stride = self.stride;
@@ -345,8 +345,8 @@ pub struct Measures<T> {
     /// m·∇N = ∂N/∂X over the stretch.
     pub spread: Vec<T>,
     pub spread_along: Vec<T>,
-    /// 3: the section's metric, 22 33 23, the products of F's second and third column without their parts along the first.
-    /// The cofactors of C have them, times the square of the stretch.
+    /// 3: the section's metric, 22 33 23, the products of F's second and third column without their parts along the
+    /// first. The cofactors of C have them, times the square of the stretch.
     pub metric: Vec<T>,
     /// The rate at which viscosity damps the highest frequency.
     pub damping: Vec<T>,

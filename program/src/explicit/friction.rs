@@ -15,9 +15,9 @@ pub struct Friction {
 
 /// From the force at the step's start to that at its end, after a motion `slip` of the point against what it touches.
 ///
-/// Sticking is a spring of this stiffness in the tangent plane; it slips where the force would be larger than `limit`, which is 0
-/// where nothing touches any more. What is dissipated is the force's work over the step, by the trapezoidal rule of central
-/// differences, less what the spring has gained.
+/// Sticking is a spring of this stiffness in the tangent plane; it slips where the force would be larger than `limit`,
+/// which is 0 where nothing touches any more. What is dissipated is the force's work over the step, by the trapezoidal
+/// rule of central differences, less what the spring has gained.
 #[inline(always)]
 pub fn rub(before: Vector, stiffness: f64, slip: Vector, normal: Vector, limit: f64) -> Friction {
     let trial = add(before, -stiffness, slip);

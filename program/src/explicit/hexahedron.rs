@@ -5,7 +5,8 @@
 use super::lanes::smallest;
 use super::vector::{Vector, add, cross, dot, minus};
 
-/// The corners at which the edges along each axis begin. Corner c stands on the upper side of its axis i where bit i of c is set.
+/// The corners at which the edges along each axis begin. Corner c stands on the upper side of its axis i where bit i of
+/// c is set.
 const BEGIN: [[usize; 4]; 3] = [[0, 2, 4, 6], [0, 1, 4, 5], [0, 1, 2, 3]];
 /// By the corner: the places of its three edges in the lists.
 const AT: [[usize; 3]; 8] = [[0, 0, 0], [0, 1, 1], [1, 0, 2], [1, 1, 3], [2, 2, 0], [2, 3, 1], [3, 2, 2], [3, 3, 3]];
@@ -65,8 +66,8 @@ impl Edges {
         jacobians
     }
 
-    /// The least Jacobian at such a corner over the lengths of its edges: 1 in a cuboid, negative where it is inside out, NaN where an
-    /// edge has no length.
+    /// The least Jacobian at such a corner over the lengths of its edges: 1 in a cuboid, negative where it is inside
+    /// out, NaN where an edge has no length.
     #[inline(always)]
     pub fn least_scaled_jacobian(&self, corners: [bool; 8]) -> f64 {
         let ([a, b, c], jacobians) = (self.lengths(), self.jacobians());

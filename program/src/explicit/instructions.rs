@@ -1,10 +1,11 @@
-//! Loops over elements in the widest instructions of the processor; the yarn takes a quarter longer in those that every processor
-//! has.
+//! Loops over elements in the widest instructions of the processor; the yarn takes a quarter longer in those that every
+//! processor has.
 
 #[cfg(target_arch = "x86_64")]
 use toron::Level;
 
-/// Work whose loops are to be compiled for each set of instructions: `run` and all that it calls must be `#[inline(always)]`.
+/// Work whose loops are to be compiled for each set of instructions: `run` and all that it calls must be
+/// `#[inline(always)]`.
 pub trait Loops {
     fn run(self);
 }

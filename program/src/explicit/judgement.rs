@@ -1,12 +1,14 @@
-//! What a run is judged by, in both scenes: what is wrong with it, and what to change. `docs/guides/fabric.md` has the thresholds.
+//! What a run is judged by, in both scenes: what is wrong with it, and what to change. `docs/guides/fabric.md` has the
+//! thresholds.
 
 use crate::material::fibre_wave::FibreWave;
 use crate::material::model::Material;
 use toron::host::units::UnitSystem;
 use toron_shared::text_table::{folded, grouped};
 
-/// Steps from one measurement to the next, whatever the history is asked for: what is said of a run, and whether it goes on, must
-/// not depend on that. The fastest vibration has at least π steps a period; what is looked for lasts longer.
+/// Steps from one measurement to the next, whatever the history is asked for: what is said of a run, and whether it
+/// goes on, must not depend on that. The fastest vibration has at least π steps a period; what is looked for lasts
+/// longer.
 pub const MEASURED_EVERY: u64 = 16;
 /// The largest part of the internal energy that hourglass modes may hold.
 const LARGEST_HOURGLASS: f64 = 0.1;

@@ -31,13 +31,14 @@ pub trait Number:
 impl Number for f64 {}
 impl Number for f32 {}
 
-/// Numbers of neighbouring elements, worked on together: one register where the processor's are wide enough. Plain arrays, which
-/// the compiler vectorises: registers as the law has them could only be made where their instructions are known to be there, by
-/// unsafe code.
+/// Numbers of neighbouring elements, worked on together: one register where the processor's are wide enough. Plain
+/// arrays, which the compiler vectorises: registers as the law has them could only be made where their instructions are
+/// known to be there, by unsafe code.
 ///
-/// The loops that run under [`run_widest`](super::instructions::run_widest) use its instructions only where they are inlined
-/// there. Therefore whatever they call is `#[inline(always)]`, down to the operators here, and they loop over indices: no
-/// closures, adaptors of iterators or `copy_from_slice`, which remain calls where the compiler does not choose to inline them.
+/// The loops that run under [`run_widest`](super::instructions::run_widest) use its instructions only where they are
+/// inlined there. Therefore whatever they call is `#[inline(always)]`, down to the operators here, and they loop over
+/// indices: no closures, adaptors of iterators or `copy_from_slice`, which remain calls where the compiler does not
+/// choose to inline them.
 #[derive(Clone, Copy)]
 #[repr(align(64))]
 pub struct Lanes<T>(pub [T; LANES]);

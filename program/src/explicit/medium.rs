@@ -1,5 +1,5 @@
-//! A material as the explicit host uses it: its law's properties, and the wave speeds and moduli that viscosity and hourglass
-//! control take from them.
+//! A material as the explicit host uses it: its law's properties, and the wave speeds and moduli that viscosity and
+//! hourglass control take from them.
 
 use super::lanes::Number;
 use super::solid::{SOLID_FAILED, SOLID_STATE, Solid};
@@ -26,8 +26,8 @@ pub struct Control {
     pub by_direction: bool,
 }
 
-/// Names of the energy densities: the hyperelastic law's modes, and the work of the linear elastic law and the solid, which have no
-/// modes.
+/// Names of the energy densities: the hyperelastic law's modes, and the work of the linear elastic law and the solid,
+/// which have no modes.
 pub const ENERGY_NAMES: [&str; 5] = ["w_el", "w_tc", "w_td", "w_ld", "work"];
 
 /// A law as its C entry takes it, or a solid of the host's own.
@@ -56,8 +56,8 @@ pub struct Medium<T> {
     /// Whether elements may fail, and the linear elastic law's stress at failure.
     pub fails: bool,
     pub strength: f64,
-    /// Wave speed at rest along the fibre, a bound of it for the wave that compacts the section, and that of the one that
-    /// changes its shape; for viscosity.
+    /// Wave speed at rest along the fibre, a bound of it for the wave that compacts the section, and that of the one
+    /// that changes its shape; for viscosity.
     pub wave_speed: f64,
     pub compaction_speed: f64,
     pub distortion_speed: f64,
@@ -71,8 +71,8 @@ impl<T: Number> Medium<T> {
         let (entry, along, across, shear, distortion, strength) = match material.law {
             Law::Hyperelastic { properties, .. } => {
                 let values = <[f64; HYPERELASTIC_PROPERTIES]>::from(properties);
-                // W = k_tc |I_tc|^p + ½ k_td I_td² by one transverse logarithmic strain, of which I_tc and I_td are half;
-                // with p >= 2 this is its stiffness at |I_tc| = 1, and less before. I_td is half of a shear, too.
+                // W = k_tc |I_tc|^p + ½ k_td I_td² by one transverse logarithmic strain, of which I_tc and I_td are
+                // half; with p >= 2 this is its stiffness at |I_tc| = 1, and less before. I_td is half of a shear, too.
                 let hyperelastic::Properties { k_el, k_tc, p, k_td, .. } = properties;
                 let across = (p * (p - 1.0) * k_tc + k_td) / 4.0;
                 let law = prepared(&values.map(T::from_f64)).map_err(Error::Input)?;

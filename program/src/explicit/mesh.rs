@@ -143,7 +143,8 @@ impl Points {
 }
 
 impl Mesh {
-    /// Gives those of a face's nodes their quarters of it; it lies between two points of the section and is one layer long.
+    /// Gives those of a face's nodes their quarters of it; it lies between two points of the section and is one layer
+    /// long.
     fn add_strip(&mut self, base: usize, ends: [usize; 2], shares: &[usize]) {
         let [a, b] = ends.map(|end| self.nodes[base + end]);
         let length = self.nodes[base + self.nodes_per_section][0] - a[0];

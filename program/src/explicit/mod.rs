@@ -1,5 +1,5 @@
-//! A small explicit host: bodies of hexahedra of one point, central differences, contact of the bodies with one another and
-//! with what strikes them.
+//! A small explicit host: bodies of hexahedra of one point, central differences, contact of the bodies with one another
+//! and with what strikes them.
 //!
 //! It calls the laws as a solver does, through their C entries: blocks of component-major arrays, history in place,
 //! deletion by the latch. The energies of its balance are those that the laws report, so that the balance tells whether

@@ -47,8 +47,8 @@ impl Projectile {
         };
     }
 
-    /// A bound of the square of the frequency that the penalty adds: every spring has a node at one end and at the other
-    /// a share of the projectile, in proportion to its stiffness.
+    /// A bound of the square of the frequency that the penalty adds: every spring has a node at one end and at the
+    /// other a share of the projectile, in proportion to its stiffness.
     pub fn frequency(&self) -> f64 {
         let touching: f64 = self.contacts.iter().map(|contact| contact.touching).sum();
         let own = if self.held { 0.0 } else { touching / self.mass };

@@ -1,6 +1,6 @@
-//! Numbers of a block's elements that go through memory in every step: those of [`LANES`] neighbours together, row by row, so that a
-//! loop over the elements reads one stream, which the processor fetches ahead. With a stream for each row a panel of 30 000 elements,
-//! whose numbers do not stay in the caches, waited for memory two fifths of its time.
+//! Numbers of a block's elements that go through memory in every step: those of [`LANES`] neighbours together, row by
+//! row, so that a loop over the elements reads one stream, which the processor fetches ahead. With a stream for each
+//! row a panel of 30 000 elements, whose numbers do not stay in the caches, waited for memory two fifths of its time.
 
 #![expect(clippy::needless_range_loop, reason = "what is inlined for certain: see Lanes")]
 

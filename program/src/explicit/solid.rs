@@ -1,16 +1,19 @@
-//! A St. Venant–Kirchhoff solid, transversely isotropic about the fibre: S = C E between the second Piola–Kirchhoff stress and
-//! Green's strain, with the energy ½ E:S. The laws of the library are for yarns; this is what yarns are made of.
+//! A St. Venant–Kirchhoff solid, transversely isotropic about the fibre: S = C E between the second Piola–Kirchhoff
+//! stress and Green's strain, with the energy ½ E:S. The laws of the library are for yarns; this is what yarns are made
+//! of.
 //!
-//! Pressed far, such a solid collapses: where the section has the stretch √c on all sides, its stiffness against shear falls from G to
-//! G c + ½ (C22 + C23)(c − 1), none at c = (C22 + C23)/(2 C22), which is a stretch of 0.79 for the thesis's fibres. Therefore strain
-//! in the section is that of Green down to the stretch √c0 at which a part of that stiffness is left, and logarithmic from there on,
-//! which does not soften: of the principal squares c it is ½ (c − 1), and then ½ (c0 − 1 + c0 ln(c/c0)), with the same slope at c0.
-//! The energy is ½ E:C E of this strain, the stress its slope.
+//! Pressed far, such a solid collapses: where the section has the stretch √c on all sides, its stiffness against shear
+//! falls from G to G c + ½ (C22 + C23)(c − 1), none at c = (C22 + C23)/(2 C22), which is a stretch of 0.79 for the
+//! thesis's fibres. Therefore strain in the section is that of Green down to the stretch √c0 at which a part of that
+//! stiffness is left, and logarithmic from there on, which does not soften: of the principal squares c it is ½ (c − 1),
+//! and then ½ (c0 − 1 + c0 ln(c/c0)), with the same slope at c0. The energy is ½ E:C E of this strain, the stress its
+//! slope.
 
 use super::lanes::Number;
 use toron::law::status;
 
-/// The strain is Green's down to the stretch at which, if all sides had it, this part of the stiffness against shear would be left.
+/// The strain is Green's down to the stretch at which, if all sides had it, this part of the stiffness against shear
+/// would be left.
 const KEPT: f64 = 0.05;
 /// Squares of the principal stretches that differ by less than twice this are taken for the same.
 const ALIKE: f64 = 1e-8;
@@ -95,7 +98,8 @@ impl Solid {
         let stress = [push(0, 0), push(1, 1), push(2, 2), push(0, 1), push(1, 2), push(2, 0)];
         let [xx, yy, zz, xy, yz, zx] = stress;
         let normal = (xx - yy) * (xx - yy) + (yy - zz) * (yy - zz) + (zz - xx) * (zz - xx);
-        // In the current placement the stiffness is that at rest times the fourth power of the stretch, and stress adds to it.
+        // In the current placement the stiffness is that at rest times the fourth power of the stretch, and stress adds
+        // to it.
         let square = (dot(b, b).max(dot(c, c)) + dot(b, c).abs()).max(1.0);
         let largest = (yy.abs() + xy.abs() + yz.abs()).max(zz.abs() + zx.abs() + yz.abs());
         Answer {
@@ -107,8 +111,8 @@ impl Solid {
         }
     }
 
-    /// For a block of elements, arrays component-major: stress, state and wave speed from F; in `status` whether F has turned
-    /// an element inside out.
+    /// For a block of elements, arrays component-major: stress, state and wave speed from F; in `status` whether F has
+    /// turned an element inside out.
     pub fn evaluate_block<T: Number>(&self, density: f64, f: &[T], n: usize, stride: usize, to: Block<T>) {
         for i in 0..n {
             let f: [f64; 9] = std::array::from_fn(|c| f[c * stride + i].into());
@@ -131,8 +135,8 @@ struct SectionStrain {
     turned: Option<Turned>,
 }
 
-/// In the metric's principal axes: their cosine and sine of twice the angle, the slopes 2 de/dc of the principal strains, and, for shear,
-/// the difference of these strains over half of that of the squares.
+/// In the metric's principal axes: their cosine and sine of twice the angle, the slopes 2 de/dc of the principal
+/// strains, and, for shear, the difference of these strains over half of that of the squares.
 struct Turned {
     twice: [f64; 2],
     slopes: [f64; 2],
@@ -226,7 +230,8 @@ mod tests {
         assert_slope(&Matrix3::new(1.1, -0.2, 0.1, 0.3, 0.9, -0.15, -0.1, 0.2, 0.8), 1e-6);
     }
 
-    /// As above, in sections that are pressed so far that the strain is logarithmic along one axis, along both, and alike.
+    /// As above, in sections that are pressed so far that the strain is logarithmic along one axis, along both, and
+    /// alike.
     #[test]
     fn stress_is_the_slope_of_the_energy_far_down() {
         let turned = Matrix3::new(1.0, 0.0, 0.0, 0.0, 0.8, -0.6, 0.0, 0.6, 0.8);
@@ -236,8 +241,8 @@ mod tests {
         }
     }
 
-    /// No stiffness is lost, however far a section is pressed: the energy of a small shear grows with its square, where a solid that
-    /// is linear in Green's strain throughout has none any more.
+    /// No stiffness is lost, however far a section is pressed: the energy of a small shear grows with its square, where
+    /// a solid that is linear in Green's strain throughout has none any more.
     #[test]
     fn a_section_that_is_pressed_from_all_sides_does_not_collapse() {
         let stiffness = |solid: &Solid, stretch: f64| {
@@ -258,7 +263,8 @@ mod tests {
         }
     }
 
-    /// In the plane of the section, ρ0 c² of a wave of direction n that moves along a is the second slope of the energy along a ⊗ Fᵀn.
+    /// In the plane of the section, ρ0 c² of a wave of direction n that moves along a is the second slope of the energy
+    /// along a ⊗ Fᵀn.
     #[test]
     fn no_wave_is_faster_than_the_bound() {
         // Nothing shears along the fibre, and its modulus, which is in the bound, would hide the others.
@@ -284,8 +290,8 @@ mod tests {
         assert!(nearest > 0.7, "{nearest}");
     }
 
-    /// Pressed along axis 2 with axes 1 and 3 held: S22 = C22 E22. And pressed with axis 3 free: S22 = E22/(S22 − S12²/S11 of the
-    /// compliances), the modulus of plane strain.
+    /// Pressed along axis 2 with axes 1 and 3 held: S22 = C22 E22. And pressed with axis 3 free: S22 = E22/(S22 −
+    /// S12²/S11 of the compliances), the modulus of plane strain.
     #[test]
     fn plane_strain_by_hand() {
         let Solid { c_12, c_22, c_23, .. } = solid();

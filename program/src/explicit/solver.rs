@@ -19,10 +19,12 @@ use toron_shared::error::Error;
 
 /// A step is this fraction of the longest one that the bounds of frequency and damping allow.
 const SAFETY: f64 = 0.9;
-/// An element that may fail has collapsed, and is deleted, when its own stable step is this fraction of the first one of all: it
-/// is a torn shred, which no neighbours hold any more. Before the break steps fall to 0.67 of the first, shreds go down to 0.02.
+/// An element that may fail has collapsed, and is deleted, when its own stable step is this fraction of the first one
+/// of all: it is a torn shred, which no neighbours hold any more. Before the break steps fall to 0.67 of the first,
+/// shreds go down to 0.02.
 const COLLAPSED: f64 = 0.2;
-/// The run ends with an error when the step is this fraction of the first one: elements that do not fail have collapsed.
+/// The run ends with an error when the step is this fraction of the first one: elements that do not fail have
+/// collapsed.
 const SHORTEST: f64 = 1e-4;
 
 /// Bodies with their motion, their history and their energies.

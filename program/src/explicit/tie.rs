@@ -1,8 +1,9 @@
 //! Nodes that move with the corners of a face, where a fine mesh meets a coarse one.
 //!
-//! What acts on a tied node acts on the corners, by its place on the face, and so does what it weighs: momentum is kept to rounding,
-//! and the work of every force is the same on both sides. On each corner rests the sum over a row of the masses that the tie gives it,
-//! which with shares that are not negative is no less than those themselves: no frequency rises.
+//! What acts on a tied node acts on the corners, by its place on the face, and so does what it weighs: momentum is kept
+//! to rounding, and the work of every force is the same on both sides. On each corner rests the sum over a row of the
+//! masses that the tie gives it, which with shares that are not negative is no less than those themselves: no frequency
+//! rises.
 
 /// A node in the middle of a face of four corners.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,8 +37,8 @@ pub fn hand_over(ties: &[Tie], numbers: &mut [f64]) {
     }
 }
 
-/// The masses that springs in these proportions act against, each on a node, so that no node has a higher frequency than its spring over
-/// its mass: corners have those of the nodes tied to them as well.
+/// The masses that springs in these proportions act against, each on a node, so that no node has a higher frequency
+/// than its spring over its mass: corners have those of the nodes tied to them as well.
 pub fn masses_of_springs(ties: &[Tie], masses: &[f64], springs: &[f64]) -> Vec<f64> {
     let mut carried = springs.to_vec();
     hand_over(ties, &mut carried);

@@ -1,4 +1,5 @@
-//! Vectors of three numbers, for loops over nodes: spelled out and inlined, since closures over arrays remain calls there.
+//! Vectors of three numbers, for loops over nodes: spelled out and inlined, since closures over arrays remain calls
+//! there.
 
 pub type Vector = [f64; 3];
 

@@ -1,17 +1,17 @@
 //! Artificial viscosity by direction: along the fibre, and of the section in area and in shape.
 //!
-//! A shock is spread over some elements by a stress that resists the rate of compression, in a quadratic term (von Neumann
-//! and Richtmyer, J. Appl. Phys. 21, 1950) and a linear one that has the speed of a wave (Landshoff, LA-1930, 1955). Of a
-//! yarn's waves that along the fibre is ten times as fast as that which compacts the section: one pressure for both would
-//! either let the first ring or hold the second up. Here the Cauchy stress is −q_m m ⊗ m − q_t (1 − m ⊗ m) + 2 η dev D̄, m
-//! being the fibre's direction and D̄ the rate of deformation across it, with q = ρ l (c2 l ⟨ε̇⟩² + c1 c ε̇), η = ρ l c3 c and
-//! the element's length or breadth l at rest: what has collapsed is damped all the more. Along the fibre ε̇ = −D_mm, and the
-//! linear term resists stretching as well, so that fronts do not ring. Across it ε̇ = −tr D̄ counts in compression only:
-//! swelling, which the law leaves free, stays so. A change of shape is resisted with the speed of distortion's wave, or the
-//! section would ring long after the kink has wrenched it.
+//! A shock is spread over some elements by a stress that resists the rate of compression, in a quadratic term (von
+//! Neumann and Richtmyer, J. Appl. Phys. 21, 1950) and a linear one that has the speed of a wave (Landshoff, LA-1930,
+//! 1955). Of a yarn's waves that along the fibre is ten times as fast as that which compacts the section: one pressure
+//! for both would either let the first ring or hold the second up. Here the Cauchy stress is −q_m m ⊗ m − q_t (1 − m ⊗
+//! m) + 2 η dev D̄, m being the fibre's direction and D̄ the rate of deformation across it, with q = ρ l (c2 l ⟨ε̇⟩² +
+//! c1 c ε̇), η = ρ l c3 c and the element's length or breadth l at rest: what has collapsed is damped all the more.
+//! Along the fibre ε̇ = −D_mm, and the linear term resists stretching as well, so that fronts do not ring. Across it ε̇
+//! = −tr D̄ counts in compression only: swelling, which the law leaves free, stays so. A change of shape is resisted
+//! with the speed of distortion's wave, or the section would ring long after the kink has wrenched it.
 //!
-//! D̄ follows from the metric of the section, C̄: the products of F's second and third column, less their parts along the first.
-//! With half its rate the stress R̄ is conjugate that is kept here.
+//! D̄ follows from the metric of the section, C̄: the products of F's second and third column, less their parts along
+//! the first. With half its rate the stress R̄ is conjugate that is kept here.
 
 use serde::{Deserialize, Serialize};
 
@@ -20,8 +20,8 @@ use super::lanes::{LANES, Lanes, Number, load};
 use super::medium::Medium;
 use super::rows::Rows;
 
-/// Rows of the viscosity's history. Its stress, compression positive: along the fibre as a multiple of F's first column, q_m J/Λ
-/// with the square Λ of the stretch, and 22 33 23 of the section's R̄. Then Λ and the section's metric.
+/// Rows of the viscosity's history. Its stress, compression positive: along the fibre as a multiple of F's first
+/// column, q_m J/Λ with the square Λ of the stretch, and 22 33 23 of the section's R̄. Then Λ and the section's metric.
 const STRESS: usize = 0;
 const STRETCH_SQUARE: usize = STRESS + 4;
 const METRIC: usize = STRETCH_SQUARE + 1;
@@ -79,8 +79,8 @@ impl<T: Number> Viscosity<T> {
         self.history.at(STRESS, first)
     }
 
-    /// The stresses at the end of a step of this length. Returns the energy dissipated in it, by the trapezoidal rule of
-    /// central differences; the rates at which elements are damped go to the measures.
+    /// The stresses at the end of a step of this length. Returns the energy dissipated in it, by the trapezoidal rule
+    /// of central differences; the rates at which elements are damped go to the measures.
     #[inline(always)]
     pub fn advance(
         &mut self,
@@ -116,7 +116,8 @@ impl<T: Number> Viscosity<T> {
             let (q_m, damping_along) = along.resist((square_old - square) / (square_old + square) * per_step);
             let (q_t, damping_across) = across.resist((zero - growth * per_step).max(zero));
             let eta = across.length * shape;
-            // R̄ = q_t J C̄⁻¹ − η J C̄⁻¹ Ē C̄⁻¹, where C̄⁻¹ Ē C̄⁻¹ det C̄ is less the adjugate of Ē, whose trace with C̄⁻¹ is 0.
+            // R̄ = q_t J C̄⁻¹ − η J C̄⁻¹ Ē C̄⁻¹, where C̄⁻¹ Ē C̄⁻¹ det C̄ is less the adjugate of Ē, whose trace with
+            // C̄⁻¹ is 0.
             let (scale, turning) = (density * per_area, eta * per_step);
             let r22 = (scale * (q_t * c33 + turning * e33)).only_where(active);
             let r33 = (scale * (q_t * c22 + turning * e22)).only_where(active);
@@ -170,8 +171,8 @@ mod tests {
         Medium::new(&material, density, CONTROL).expect("valid")
     }
 
-    /// The Cauchy stress after a step from one deformation gradient to another, and what was dissipated in it by volume at
-    /// rest with the stress that was there before.
+    /// The Cauchy stress after a step from one deformation gradient to another, and what was dissipated in it by volume
+    /// at rest with the stress that was there before.
     fn resist(from: Matrix3<f64>, to: Matrix3<f64>) -> (Matrix3<f64>, f64) {
         let corner = |i: usize, size: f64, bit: usize| if i >> bit & 1 == 1 { size } else { 0.0 };
         let nodes: Vec<[f64; 3]> =

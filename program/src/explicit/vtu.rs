@@ -23,9 +23,10 @@ struct Cell {
     limit: Option<f64>,
 }
 
-/// The bodies as they stand, as the text of a VTU file: intact elements only, with displacement and velocity of the nodes, and
-/// of the elements the energy densities, the law's Cauchy stress, the invariants and the failure index, by the names of the laws'
-/// tables, and the failure limits where elements have their own; of several bodies, which are yarns, also their numbers from 0.
+/// The bodies as they stand, as the text of a VTU file: intact elements only, with displacement and velocity of the
+/// nodes, and of the elements the energy densities, the law's Cauchy stress, the invariants and the failure index, by
+/// the names of the laws' tables, and the failure limits where elements have their own; of several bodies, which are
+/// yarns, also their numbers from 0.
 ///
 /// # Errors
 /// The law refuses its call.

@@ -106,8 +106,8 @@ mod tests {
             .map(|lanes| lanes.0[0])
     }
 
-    /// No rate of deformation h, a wave's u ⊗ n or another one, meets more stiffness than A |h m|² + B |h|². Returns how near one
-    /// came.
+    /// No rate of deformation h, a wave's u ⊗ n or another one, meets more stiffness than A |h m|² + B |h|². Returns
+    /// how near one came.
     fn check(material: &Material, spread: f64) -> f64 {
         let mut random = Rng::with_seed(7);
         let mut nearest: f64 = 0.0;

@@ -19,8 +19,8 @@ use toron_shared::console::print_error;
 use toron_shared::error::Error;
 use toron_shared::file_names::PANEL;
 
-/// Runs the cases of a scene, one after another, and writes what came of them to the directory `output`. With `restart`, cases
-/// go on from their checkpoints there.
+/// Runs the cases of a scene, one after another, and writes what came of them to the directory `output`. With
+/// `restart`, cases go on from their checkpoints there.
 ///
 /// # Errors
 /// As for [`command::run`].

@@ -1,10 +1,10 @@
 //! Whether it is certain that what strikes goes through, although torn ends still rub on it.
 //!
-//! Two bounds together, since neither is one of mechanics alone, and at some looks in a row. What still acts on it: the mean force since
-//! the last look would have to be kept up for `REACH` radii to stop it. And what might still bear: yarns ahead of it
-//! that are not torn where it strikes. Of each kind, a family of a ply, as many must be torn, and each of those ahead may take as much
-//! energy as if the torn ones of its kind had taken all that the striker has lost. Where both leave it moving, nothing that was seen in
-//! this shot stops it.
+//! Two bounds together, since neither is one of mechanics alone, and at some looks in a row. What still acts on it: the
+//! mean force since the last look would have to be kept up for `REACH` radii to stop it. And what might still bear:
+//! yarns ahead of it that are not torn where it strikes. Of each kind, a family of a ply, as many must be torn, and
+//! each of those ahead may take as much energy as if the torn ones of its kind had taken all that the striker has lost.
+//! Where both leave it moving, nothing that was seen in this shot stops it.
 
 use serde::{Deserialize, Serialize};
 
@@ -54,7 +54,8 @@ impl Fate {
     }
 }
 
-/// What yarns ahead might take, over all that has been taken; infinity where of some kind more are ahead than torn, or nothing is torn.
+/// What yarns ahead might take, over all that has been taken; infinity where of some kind more are ahead than torn, or
+/// nothing is torn.
 fn may_take<T: Number>(panel: &Model, solver: &Solver<T>, striker: &Projectile, rigid: &Rigid) -> f64 {
     let kind = |yarn: &Yarn| 2 * yarn.ply + yarn.family as usize;
     let kinds = panel.yarns.iter().map(kind).max().map_or(0, |last| last + 1);
@@ -148,7 +149,8 @@ mod tests {
             self
         }
 
-        /// Whether it is decided when it was struck at this speed, loses so much from look to look, and has been looked at so many times.
+        /// Whether it is decided when it was struck at this speed, loses so much from look to look, and has been looked
+        /// at so many times.
         fn decided(mut self, struck_at: f64, slower: f64, looks: u32) -> bool {
             let (mut fate, sphere) = (Fate::default(), &self.scene.cases[0].sphere);
             fate.follow(&self.panel, &self.solver, sphere, struck_at);
@@ -174,7 +176,8 @@ mod tests {
 
     #[test]
     fn yarns_ahead_that_might_take_the_rest_leave_it_open() {
-        // Of each family the yarns at 0, which is halved, and at 0.75 and 1.49 mm are torn where it strikes; one of 0.75 mm is not.
+        // Of each family the yarns at 0, which is halved, and at 0.75 and 1.49 mm are torn where it strikes; one of
+        // 0.75 mm is not.
         let most = |yarn: &Yarn| yarn.family == Family::Warp || yarn.number != 1;
         let shot = || Shot::new("").tear(most, false);
         // One over those torn of its kind: so much of what was lost is less than what is left, or more.

@@ -64,7 +64,8 @@ impl CaseFile {
         self.shape.unwrap_or_default()
     }
 
-    /// A material or a radius of this table that none of these cases has a law for, or a length that none has a cylinder for.
+    /// A material or a radius of this table that none of these cases has a law for, or a length that none has a
+    /// cylinder for.
     pub fn unused(&self, cases: &[&CaseFile]) -> Unused {
         let keys: Vec<&Keys> = cases.iter().map(|case| &case.keys).collect();
         let length = self.length.as_ref().filter(|_| cases.iter().all(|case| case.shape() == ShapeName::Sphere));

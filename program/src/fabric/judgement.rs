@@ -14,7 +14,6 @@ use crate::common::units::{LENGTH, TIME, number, unit};
 use crate::explicit::judgement::{self, Finding};
 use crate::explicit::lanes::{largest, smallest};
 use crate::weave::cloth::Cloth;
-use crate::weave::crimp;
 use crate::weave::model::Model;
 use toron::host::units::UnitSystem;
 
@@ -91,10 +90,8 @@ pub fn before(units: &UnitSystem, case: &Case, panel: &Model) -> Vec<Finding> {
 
 /// Yarns that the mesh makes too long, and a blow beside the middle of a mesh of others.
 fn of_mesh(units: &UnitSystem, case: &Case) -> Vec<Finding> {
-    let mut crimp: Vec<String> =
-        case.cloth.plies().iter().filter_map(|ply| crimp::warning(&ply.woven.geometry)).collect();
-    crimp.dedup();
-    let mut findings: Vec<Finding> = crimp.into_iter().map(|text| Finding::new("crimp", text)).collect();
+    let mut findings: Vec<Finding> =
+        case.cloth.crimp().iter().map(|text| Finding::new("crimp", text.clone())).collect();
     if let Cloth::Foreign(foreign) = &*case.cloth {
         let beside = foreign.off_middle(case.sphere.aim, &unit(units, LENGTH));
         findings.extend(beside.map(|text| Finding::new("aim", text)));
@@ -178,8 +175,8 @@ fn coarse(units: &UnitSystem, case: &Case, panel: &Model) -> Option<Finding> {
 
 /// A run that has ended, or broken, while the blow still shakes the mesh where the sphere has hit it.
 ///
-/// There is hardly any internal energy then that hourglass modes and shear could be held against: in sound runs they have half of
-/// it and more at first.
+/// There is hardly any internal energy then that hourglass modes and shear could be held against: in sound runs they
+/// have half of it and more at first.
 fn transient(units: &UnitSystem, case: &Case, measures: &Measures) -> Option<Finding> {
     let much = judgement::hourglass(measures.hourglass, "").is_some() || shear(case, measures).is_some();
     much.then(|| {
@@ -311,6 +308,28 @@ mod tests {
             wall: Default::default(),
         };
         verdict(&judge(&scene.units, case, &panel, &outcome, [&measures, &whole], front_at_rim))
+    }
+
+    /// The cloth knows it: no run, and no shot, solves the finer weaves again by which a mesh is judged.
+    #[test]
+    fn what_is_said_of_crimp_comes_with_the_cloth() {
+        let weave = "units = \"mm-g-ms\"\n[weave]\npattern = \"plain\"\nwarp = { pitch = 1.18, width = 0.95, height = 0.128 }\n";
+        let scene = |along: usize| {
+            let text = format!(
+                "{weave}along = {along}\ncolumns = {along}\n[weave.panel]\nshape = \"circle\"\nradius = 2.0\n\
+                 [scene]\nspeed = 1.0\nstriker-density = 7.8e-3\nradius = 3.0\ncontact-stiffness = 1e5\nend = 1.0\n"
+            );
+            let mut scene = Scene::parse("tutorial.toml", &text).expect("a scene");
+            (scene.units, scene.cases.remove(0))
+        };
+        for (along, wanted) in [(4, true), (8, false)] {
+            let (units, mut case) = scene(along);
+            assert_eq!(verdict(&of_mesh(&units, &case)) == "crimp", wanted, "{along}");
+            let Cloth::Woven(layup) = std::sync::Arc::make_mut(&mut case.cloth) else { panic!("a weave") };
+            layup.crimp = vec!["as it is known".to_string()];
+            let said: Vec<String> = of_mesh(&units, &case).into_iter().map(|finding| finding.text).collect();
+            assert_eq!(said, ["as it is known"]);
+        }
     }
 
     #[test]

@@ -1,4 +1,5 @@
-//! What is measured of a panel: energies, deflection, the front of the transverse wave, torn yarns, how far sections tilt.
+//! What is measured of a panel: energies, deflection, the front of the transverse wave, torn yarns, how far sections
+//! tilt.
 
 use nalgebra::Vector3;
 use rayon::prelude::*;
@@ -19,13 +20,15 @@ pub struct OfPanel {
     pub deflection: f64,
     /// Along a yarn through the centre.
     pub front: f64,
-    /// The smallest intact element: its volume over that at rest. And the most distorted corner of one, by its scaled Jacobian.
+    /// The smallest intact element: its volume over that at rest. And the most distorted corner of one, by its scaled
+    /// Jacobian.
     pub least_volume_ratio: f64,
     pub least_scaled_jacobian: f64,
     /// Yarns that are torn through.
     pub torn: usize,
-    /// By how much, at most, a section whose elements are all there has tilted along its yarn since it was at rest, in degrees; and
-    /// how far its middle has slipped along it against its upper and lower side. 0 where no yarn has a grid.
+    /// By how much, at most, a section whose elements are all there has tilted along its yarn since it was at rest, in
+    /// degrees; and how far its middle has slipped along it against its upper and lower side. 0 where no yarn has a
+    /// grid.
     pub tilt: f64,
     pub slip: f64,
 }
@@ -51,8 +54,8 @@ impl Default for OfPanel {
 impl OfPanel {
     /// Measures all.
     ///
-    /// The front of the transverse wave is where the panel has come down by `threshold`, more than crimp gives when yarns are
-    /// stretched straight before it comes.
+    /// The front of the transverse wave is where the panel has come down by `threshold`, more than crimp gives when
+    /// yarns are stretched straight before it comes.
     pub fn of<T: Number>(panel: &Model, solver: &Solver<T>, threshold: f64) -> OfPanel {
         let yarns: Vec<OfPanel> =
             panel.yarns.par_iter().zip(&solver.bodies).map(|(yarn, body)| OfPanel::of_yarn(yarn, body)).collect();
@@ -141,8 +144,8 @@ impl<'a, P: Fn(usize) -> Vector3<f64>> Sections<'a, P> {
         Sections { grid, position, means }
     }
 
-    /// The angle by which a section's height leans along the yarn, in degrees, and how far its middle is ahead of its upper and lower
-    /// side along the yarn.
+    /// The angle by which a section's height leans along the yarn, in degrees, and how far its middle is ahead of its
+    /// upper and lower side along the yarn.
     fn tilt_and_slip(&self, section: usize, halved: bool) -> (f64, f64) {
         let Grid { rows, columns, layers } = *self.grid;
         let (before, after) = (section.saturating_sub(1), (section + 1).min(layers));

@@ -22,7 +22,8 @@ use toron_shared::error::Error;
 /// Checks that a run of this case can begin.
 ///
 /// # Errors
-/// A material that the host cannot use, a sphere under which there is nothing, a hybrid panel that has elements of one law alone.
+/// A material that the host cannot use, a sphere under which there is nothing, a hybrid panel that has elements of one
+/// law alone.
 pub fn check(case: &Case, panel: &Model) -> Result<(), Error> {
     media::<f64>(case)?;
     start(case, panel)?;
@@ -128,8 +129,8 @@ fn mesh_of(panel: &Model, yarn: &Yarn) -> Mesh {
     }
 }
 
-/// The surface that belongs to each node: its share of the faces, and of an inner node that of the faces between rows which it stands
-/// on, for when the elements above it are gone.
+/// The surface that belongs to each node: its share of the faces, and of an inner node that of the faces between rows
+/// which it stands on, for when the elements above it are gone.
 fn struck_surface(mesh: &Mesh, outer: &[f64]) -> Vec<f64> {
     let mut shares = vec![0.0; outer.len()];
     for element in &mesh.elements {

@@ -44,8 +44,8 @@ const BELOW_WIDTH: i32 = 640;
 const CUT: [f64; 2] = [16.0, 30.0];
 const BELOW: [f64; 2] = [20.0, -38.0];
 const BLOW: [f64; 2] = [6.0, 14.0];
-/// The blow is shown to so many of the sphere's radii along the cut and behind it, and as much of the sphere's height over its lowest
-/// point.
+/// The blow is shown to so many of the sphere's radii along the cut and behind it, and as much of the sphere's height
+/// over its lowest point.
 const BLOW_RADII: [f64; 2] = [1.4, 0.8];
 const SPHERE_SHOWN: f64 = 0.4;
 /// Nothing is shown that is farther below the sphere's centre than so many of its radii.
@@ -58,7 +58,8 @@ const DIFFUSE: f64 = 0.64;
 /// The scale ends where this part of the elements that carry something lies below.
 const SHOWN: f64 = 0.98;
 const BEYOND: &str = "2 %";
-/// The views show where a density has this part of its largest, with some air; or the whole panel, where that is not much more.
+/// The views show where a density has this part of its largest, with some air; or the whole panel, where that is not
+/// much more.
 const SMALL: f64 = 0.01;
 const AIR: f64 = 1.25;
 const NEARLY_WHOLE: f64 = 0.7;
@@ -295,7 +296,8 @@ fn farthest([x, y]: &[f64; 2]) -> f64 {
     x.abs().max(y.abs())
 }
 
-/// How far from where it is struck the panel has an energy to show, or the sphere is; infinite where that is nearly the whole panel.
+/// How far from where it is struck the panel has an energy to show, or the sphere is; infinite where that is nearly the
+/// whole panel.
 fn reach(middles: &[[f64; 2]], size: f64, case: &Case, snapshot: &Snapshot, modes: usize) -> f64 {
     let least = LEAST_RADII * case.sphere.radius;
     let most: Vec<f64> = (0..modes).map(|mode| snapshot.largest(|densities| density(mode, densities))).collect();
@@ -311,8 +313,8 @@ fn reach(middles: &[[f64; 2]], size: f64, case: &Case, snapshot: &Snapshot, mode
 /// The half of what strikes at y ≥ 0 and the plane that cuts it, up to so many radii over the lowest point.
 fn half_of(shape: Shape, height: f64, radius: f64, top: f64) -> Vec<Face> {
     const STEPS: usize = 90;
-    // From the lowest point upwards, and around z from the cut's right to its left: the distance from the axis and the height over the
-    // centre, in radii, and the normal.
+    // From the lowest point upwards, and around z from the cut's right to its left: the distance from the axis and the
+    // height over the centre, in radii, and the normal.
     let outline = |i: f64| {
         let part = i / STEPS as f64;
         let [below, above] = [2.0 * part, 2.0 * part - 1.0];

@@ -5,10 +5,10 @@ use std::path::Path;
 use super::measure::Sample;
 use super::run::Outcome;
 use super::scene::{Case, Scene};
-use crate::common::units::{ENERGY, FORCE, LENGTH, SPEED, TIME, unit};
-use crate::picture::history;
-use crate::picture::panel::{Abscissa, Panel, Series, tidy};
-use crate::picture::style::{COLOURS, INK};
+use crate::common::units::{ENERGY, FORCE, LENGTH, SPEED};
+use crate::picture::history::{self, Samples};
+use crate::picture::panel::{Panel, Series, tidy};
+use crate::picture::style::INK;
 use toron::law::parameters::ENERGY_DENSITY;
 use toron_shared::error::Error;
 
@@ -27,27 +27,15 @@ pub fn write(
     outcome: &Outcome,
     verdict: &str,
 ) -> Result<(), Error> {
-    let abscissa = Abscissa {
-        label: format!("time ({})", unit(&scene.units, TIME)),
-        values: outcome.history.iter().map(|sample| sample.time).collect(),
-        failure: outcome.failed,
-    };
+    let samples = Samples { all: &outcome.history, units: &scene.units };
+    let abscissa = samples.over_time(|sample| sample.time, outcome.failed);
     let subtitle = format!("{}; verdict: {verdict}", case.name);
-    history::write(svg, png, [&scene.title, &subtitle], panels(scene, outcome), &abscissa)
+    history::write(svg, png, [&scene.title, &subtitle], panels(&samples), &abscissa)
 }
 
-fn panels(scene: &Scene, outcome: &Outcome) -> [Panel; 11] {
-    let line = |colour: usize, name: &str, of: &dyn Fn(&Sample) -> f64| Series {
-        name: name.to_string(),
-        colour: COLOURS[colour % COLOURS.len()],
-        values: outcome.history.iter().map(of).collect(),
-    };
-    let panel = |title, dimension, series: Vec<Series>| Panel {
-        title,
-        unit: unit(&scene.units, dimension),
-        series: tidy(series),
-        limit: None,
-    };
+fn panels(samples: &Samples<Sample>) -> [Panel; 11] {
+    let line = |colour: usize, name: &str, of: &dyn Fn(&Sample) -> f64| samples.line(colour, name, of);
+    let panel = |title, dimension, series: Vec<Series>| samples.panel(title, dimension, series);
     let energies = vec![
         line(0, "sphere", &|s| s.energies.projectile),
         line(1, "kinetic", &|s| s.energies.kinetic),
@@ -78,11 +66,8 @@ fn panels(scene: &Scene, outcome: &Outcome) -> [Panel; 11] {
         panel("Largest energy per reference volume", ENERGY_DENSITY, by_mode(|s| s.largest)),
         panel("Front of the transverse wave", LENGTH, vec![line(0, "from the centre", &|s| s.own.front)]),
         panel("Force on the sphere", FORCE, vec![line(0, "force", &|s| s.force)]),
-        Panel {
-            unit: "°".to_string(),
-            ..panel("Largest tilt of a section", LENGTH, vec![line(0, "tilt", &|s| s.own.tilt)])
-        },
+        Panel::new("Largest tilt of a section", "°", vec![line(0, "tilt", &|s| s.own.tilt)]),
         panel("Largest slip of a section's middle", LENGTH, vec![line(0, "slip", &|s| s.own.slip)]),
-        Panel { unit: "-".to_string(), ..panel("Worst elements", LENGTH, worst) },
+        Panel::new("Worst elements", "-", tidy(worst)),
     ]
 }

@@ -1,9 +1,5 @@
 //! A scene from its TOML file. The format is described in `docs/guides/fabric.md`.
 
-use crate::explicit::control_keys::zero_or_more;
-use crate::struck::shots::read_shots;
-use crate::weave::cloth::read_cloth;
-use crate::weave::reader::layup;
 use std::f64::consts::PI;
 use std::ops::RangeInclusive;
 use std::path::Path;
@@ -15,18 +11,22 @@ use super::file::{CaseFile, Rim, SceneFile, ShapeName};
 use super::scene::{Case, Scene, Striker};
 use crate::common::units::{self, number};
 use crate::explicit::contact::{Rigid, Shape};
+use crate::explicit::control_keys::zero_or_more;
 use crate::explicit::medium::Control;
 use crate::explicit::mutual_contact::Parameters;
 use crate::material::file::MaterialFile;
 use crate::material::model::Material;
 use crate::material::of_law::{HYPERELASTIC, LINEAR_ELASTIC, LawName};
 use crate::struck::keys::{self, Reader};
+use crate::struck::shots::read_shots;
 use crate::weave::cloth::Cloth;
+use crate::weave::cloth::read_cloth;
 use crate::weave::file::{PlyFile, WeaveFile};
 use crate::weave::foreign::file::MeshFile;
 use crate::weave::geometry::Family;
 use crate::weave::layup::Ply;
 use crate::weave::panel::Part;
+use crate::weave::reader::layup;
 use toron::law::parameters::DENSITY;
 use toron_shared::error::Error;
 use toron_shared::toml_file::{self, Numbers, Source, over};
@@ -91,7 +91,8 @@ impl Scene {
 type Threads = Vec<[Option<Box<Material>>; 2]>;
 
 impl Reader<'_> {
-    /// What a case strikes: the scene's weave or mesh, with what the case has otherwise, and the materials of its own yarns.
+    /// What a case strikes: the scene's weave or mesh, with what the case has otherwise, and the materials of its own
+    /// yarns.
     fn cloth_of_case(
         &self,
         scene: &SceneFile,

@@ -79,8 +79,8 @@ impl Struck for StruckPanel<'_> {
         course.is_decided()
     }
 
-    /// The sphere has gone its own radius since something touched it last, or since the beginning, where it stands at the panel; and no
-    /// yarn is left ahead, as the next ply may be.
+    /// The sphere has gone its own radius since something touched it last, or since the beginning, where it stands at
+    /// the panel; and no yarn is left ahead, as the next ply may be.
     fn has_left<T: Number>(&self, solver: &Solver<T>, _course: &Fate, free: f64) -> bool {
         let sphere = &self.case.sphere;
         solver.projectile.as_ref().is_some_and(|striker| free * -striker.velocity > sphere.radius)

@@ -51,7 +51,8 @@ impl<'a> PanelStrength<'a> {
         panel.elements[yarn.elements.clone()].iter().map(strength).collect()
     }
 
-    /// The failure limit of each element of a yarn, as the explicit host takes it; none where they are all the property's.
+    /// The failure limit of each element of a yarn, as the explicit host takes it; none where they are all the
+    /// property's.
     pub fn limits(&self, panel: &Model, yarn: &Yarn) -> Option<Vec<f64>> {
         let material = self.case.material(yarn.ply, yarn.family);
         let limits: Vec<f64> =

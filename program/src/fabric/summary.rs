@@ -22,7 +22,8 @@ use toron_shared::text_table::NONE;
 /// Of angles.
 const DEGREES: Dimension = Dimension { mass: 0, length: 0, time: 0, name: "°" };
 
-/// The front has reached the rim at this part of the way to it: the rim is held, and beside it there is no deflection to see.
+/// The front has reached the rim at this part of the way to it: the rim is held, and beside it there is no deflection
+/// to see.
 const AT_RIM: f64 = 0.95;
 
 /// A case's figures.

@@ -97,8 +97,9 @@ fn a_crossing_is_pressed_by_the_slope_of_the_yarn_that_is_drawn() {
     assert!(friction >= 0.0, "{friction}");
 }
 
-/// With friction the ratio of the forces at the ends is no less than that of a rope over as many capstans, exp(μθ), θ being the
-/// angle by which the yarn turns over all crossings: a yarn has a stiffness against bending, which presses the crossings as well.
+/// With friction the ratio of the forces at the ends is no less than that of a rope over as many capstans, exp(μθ), θ
+/// being the angle by which the yarn turns over all crossings: a yarn has a stiffness against bending, which presses
+/// the crossings as well.
 #[test]
 fn a_yarn_is_pulled_out_of_a_patch_against_more_than_a_rope_s_friction() {
     const FRICTION: f64 = 0.18;
@@ -197,7 +198,8 @@ fn a_ply_counts_from_when_it_is_touched() {
     assert!(of_both > 1.3 * of_one && of_both < 2.1 * of_one, "{one:?} {near:?}");
 }
 
-/// A plain weave struck beside a crossing is its own mirror image; another place is another strike, and a quarter has but one.
+/// A plain weave struck beside a crossing is its own mirror image; another place is another strike, and a quarter has
+/// but one.
 #[test]
 fn a_panel_is_struck_where_it_is_aimed_at() {
     let struck = |aim: &str, part: &str| {

@@ -7,11 +7,11 @@ use super::frame::Frame;
 use super::model::{Striking, micro};
 use super::outcome::{Outcome, Sample};
 use super::scene::{Case, Scene};
-use crate::common::units::{ENERGY, LENGTH, SPEED, TIME, time, unit};
+use crate::common::units::{ENERGY, LENGTH, SPEED, TIME, time};
 use crate::impact::outcome::STATIONS;
-use crate::picture::history;
-use crate::picture::panel::{self, Panel, Series, tidy};
-use crate::picture::style::{COLOURS, INK};
+use crate::picture::history::{self, Samples};
+use crate::picture::panel::{self, Panel, Series};
+use crate::picture::style::INK;
 use toron_shared::error::Error;
 
 /// Speed, energies, strain and widths of a case over time, as far as they change.
@@ -26,15 +26,13 @@ pub fn write_history(
     result: &Outcome,
     law: Option<&Beside>,
 ) -> Result<(), Error> {
-    let abscissa = panel::Abscissa {
-        label: format!("time ({})", unit(&scene.units, TIME)),
-        values: result.samples.iter().map(|sample| sample.time).collect(),
-        failure: result.first_break(),
-    };
-    history::write(svg, png, [&scene.title, &case.name], panels(scene, case, result, law), &abscissa)
+    let samples = Samples { all: &result.samples, units: &scene.units };
+    let abscissa = samples.over_time(|sample| sample.time, result.first_break());
+    history::write(svg, png, [&scene.title, &case.name], panels(&samples, case, result, law), &abscissa)
 }
 
-/// Mean strain along the yarn at the times of the pictures, and the law's beside, where its run has drawn the yarn at as many.
+/// Mean strain along the yarn at the times of the pictures, and the law's beside, where its run has drawn the yarn at
+/// as many.
 ///
 /// # Errors
 /// A file cannot be written or read.
@@ -49,14 +47,14 @@ pub fn write_strains(svg: &Path, png: &Path, scene: &Scene, case: &Case, result:
         for (place, [strain, _]) in result.strains(&scene.units, frame) {
             mean[(place / length) as usize] = 100.0 * strain;
         }
-        let mut series = vec![Series { name: "fibres, mean".to_string(), colour: COLOURS[0], values: mean }];
+        let mut series = vec![Series::new(0, "fibres, mean", mean)];
         let places = (0..trusses).map(|layer| length * (layer as f64 + 0.5));
         let law = case.law.as_deref().map(|law| beside::strains(law, number, places)).transpose()?.flatten();
         if let Some(values) = law {
-            series.push(Series { name: "law".to_string(), colour: COLOURS[1], values });
+            series.push(Series::new(1, "law", values));
         }
         let unit = format!("% at {}", time(&scene.units, instant(frame)));
-        panels.push(Panel { title: "Strain along the yarn", unit, series, limit: None });
+        panels.push(Panel::new("Strain along the yarn", &unit, series));
     }
     if panels.is_empty() {
         return Ok(());
@@ -69,18 +67,8 @@ pub fn write_strains(svg: &Path, png: &Path, scene: &Scene, case: &Case, result:
     history::write(svg, png, [&scene.title, &case.name], panels, &abscissa)
 }
 
-fn panels(scene: &Scene, case: &Case, result: &Outcome, law: Option<&Beside>) -> [Panel; 6] {
-    let line = |colour: usize, name: &str, of: &dyn Fn(&Sample) -> f64| Series {
-        name: name.to_string(),
-        colour: COLOURS[colour % COLOURS.len()],
-        values: result.samples.iter().map(of).collect(),
-    };
-    let panel = |title, dimension, series: Vec<Series>| Panel {
-        title,
-        unit: unit(&scene.units, dimension),
-        series: tidy(series),
-        limit: None,
-    };
+fn panels(samples: &Samples<Sample>, case: &Case, result: &Outcome, law: Option<&Beside>) -> [Panel; 6] {
+    let line = |colour: usize, name: &str, of: &dyn Fn(&Sample) -> f64| samples.line(colour, name, of);
     let beside = |colour: usize, name: &str, columns: &[&str]| {
         law.map(|law| {
             let of = |sample: &Sample| columns.iter().map(|column| law.at(column, sample.time)).sum();
@@ -115,7 +103,7 @@ fn panels(scene: &Scene, case: &Case, result: &Outcome, law: Option<&Beside>) ->
         section.retain(|series| series.name != "contact, projectile");
     }
     section.extend(beside(4, "W_tc + W_td", &["compaction_energy", "distortion_energy"]));
-    let length = scene.units.names()[0];
+    let length = samples.units.names()[0];
     let station = |i: usize| format!("{:.2} {length}", STATIONS[i] * case.half_length);
     let limit = case.fibre.strain_at_failure.map(|strain| 100.0 * strain);
     let speeds = [line(0, "speed", &|s| s.speed)].into_iter().chain(beside(1, "speed", &["speed"])).collect();
@@ -123,15 +111,11 @@ fn panels(scene: &Scene, case: &Case, result: &Outcome, law: Option<&Beside>) ->
     let mut widths: Vec<Series> = (0..STATIONS.len()).map(|i| line(i, &station(i), &|s| s.spreads[i])).collect();
     widths.extend(beside(4, "first", &["width_1"]));
     [
-        panel("Speed of the projectile", SPEED, speeds),
-        panel("Energies", ENERGY, energies),
-        panel("Energies of the section", ENERGY, section),
-        Panel { limit, ..panel_of("Largest strain of a fibre", "%", vec![line(0, "strain", &|s| 100.0 * s.strain)]) },
-        panel("Fastest bead", SPEED, vec![line(0, "speed", &|s| s.fastest)]),
-        panel_of("Width of the section by place", length, widths),
+        samples.panel("Speed of the projectile", SPEED, speeds),
+        samples.panel("Energies", ENERGY, energies),
+        samples.panel("Energies of the section", ENERGY, section),
+        Panel { limit, ..Panel::new("Largest strain of a fibre", "%", vec![line(0, "strain", &|s| 100.0 * s.strain)]) },
+        samples.panel("Fastest bead", SPEED, vec![line(0, "speed", &|s| s.fastest)]),
+        Panel::new("Width of the section by place", length, widths),
     ]
-}
-
-fn panel_of(title: &'static str, unit: &str, series: Vec<Series>) -> Panel {
-    Panel { title, unit: unit.to_string(), series, limit: None }
 }

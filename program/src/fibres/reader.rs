@@ -1,6 +1,5 @@
 //! A scene from its TOML file. The format is described in `docs/guides/fibres.md`.
 
-use crate::explicit::control_keys::zero_or_more;
 use std::ops::Range;
 use std::path::Path;
 
@@ -9,6 +8,7 @@ use toml::Spanned;
 use super::file::{CaseFile, FibreFile, PackingName, SceneFile, SectionName, StrikerName};
 use super::scene::{Case, Contact, Fibre, Outline, Packing, Scene, SectionLaw, Striker, Walls};
 use crate::common::units::{self, SPEED};
+use crate::explicit::control_keys::zero_or_more;
 use crate::material::laws::Laws;
 use crate::material::preset::Preset;
 use toron::host::units::UnitSystem;

@@ -1,4 +1,5 @@
-//! What is wrong with a run, as far as the yarn's scenes have it, and what to change; `docs/guides/impact.md` has the bounds.
+//! What is wrong with a run, as far as the yarn's scenes have it, and what to change; `docs/guides/impact.md` has the
+//! bounds.
 
 use super::outcome::Outcome;
 use super::scene::{Case, Striker};
@@ -56,7 +57,8 @@ pub fn contact(case: &Case, result: &Outcome) -> Option<Finding> {
 
 /// Where hourglass modes hold too much energy.
 ///
-/// Before a wave has been at the clamp and back, the yarn has hardly any internal energy that they could be held against.
+/// Before a wave has been at the clamp and back, the yarn has hardly any internal energy that they could be held
+/// against.
 pub fn hourglass(case: &Case, result: &Outcome) -> Option<Finding> {
     let measured_to = result.course.broken.map_or(result.last().time, |(time, _)| time);
     let at_clamp = case.yarn.length / result.smith.fastest;

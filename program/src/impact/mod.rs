@@ -1,4 +1,5 @@
-//! `toron impact`: the yarn under impact, the thesis's single-yarn scenes (sections 3.3, 3.4, 4.6, 4.7) in the explicit host.
+//! `toron impact`: the yarn under impact, the thesis's single-yarn scenes (sections 3.3, 3.4, 4.6, 4.7) in the explicit
+//! host.
 
 pub mod command;
 pub mod file;

@@ -13,7 +13,8 @@ pub use crate::struck::run::End;
 
 /// Where the section's width is measured, as fractions of half the span (Fig. 4.16 has four points).
 pub const STATIONS: [f64; 4] = [0.2, 0.4, 0.6, 0.8];
-/// The part of half the span over which the speed of a front is fitted: where it no longer builds up, and away from the clamp.
+/// The part of half the span over which the speed of a front is fitted: where it no longer builds up, and away from the
+/// clamp.
 const FITTED: [f64; 2] = [0.4, 0.85];
 /// A transverse front this near the clamp has reached it but for what its own length adds.
 const AT_CLAMP: [f64; 2] = [0.75, 0.95];
@@ -71,8 +72,8 @@ impl DerefMut for Outcome {
 }
 
 impl Outcome {
-    /// The place of each layer at rest, and mean and largest strain of the lines between its sections that an intact element has
-    /// on an edge.
+    /// The place of each layer at rest, and mean and largest strain of the lines between its sections that an intact
+    /// element has on an edge.
     pub fn strains(&self, snapshot: &Snapshot) -> impl Iterator<Item = (f64, [f64; 2])> {
         let mesh = &self.mesh;
         let section = mesh.nodes_per_section;
@@ -103,8 +104,8 @@ impl Outcome {
         found.copied().unwrap_or_else(|| self.last())
     }
 
-    /// The projectile's residual speed; none where the run has ended before the projectile stopped or left, or where the speed is
-    /// not the projectile's own.
+    /// The projectile's residual speed; none where the run has ended before the projectile stopped or left, or where
+    /// the speed is not the projectile's own.
     pub fn residual_speed(&self) -> Option<f64> {
         match self.end {
             End::Stopped if self.own_speed => Some(0.0),

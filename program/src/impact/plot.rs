@@ -6,10 +6,10 @@ use plotters::prelude::*;
 
 use super::outcome::{Outcome, STATIONS, Sample};
 use super::scene::{Abscissa, Case, Scene, Striker};
-use crate::common::units::{CONTACT_STIFFNESS, ENERGY, SPEED, TIME, unit};
-use crate::picture::history;
+use crate::common::units::{CONTACT_STIFFNESS, ENERGY, SPEED, unit};
+use crate::picture::history::{self, Samples};
 use crate::picture::page::{self, Area, Drawn};
-use crate::picture::panel::{self, Panel, Series, tidy};
+use crate::picture::panel::{self, Panel, Series};
 use crate::picture::style::{COLOURS, HEADING, INK, TEXT, TITLE, fine, stroke, text};
 use toron::law::parameters::ENERGY_DENSITY;
 use toron_shared::error::Error;
@@ -29,27 +29,14 @@ pub fn write_history(
     result: &Outcome,
     verdict: &str,
 ) -> Result<(), Error> {
-    let abscissa = panel::Abscissa {
-        label: format!("time ({})", unit(&scene.units, TIME)),
-        values: result.history.iter().map(|sample| sample.time).collect(),
-        failure: result.course.broken.map(|(time, _)| time),
-    };
+    let samples = Samples { all: &result.history, units: &scene.units };
+    let abscissa = samples.over_time(|sample| sample.time, result.course.broken.map(|(time, _)| time));
     let subtitle = format!("{}; verdict: {verdict}", case.name);
-    history::write(svg, png, [&scene.title, &subtitle], panels(scene, case, result), &abscissa)
+    history::write(svg, png, [&scene.title, &subtitle], panels(&samples, case), &abscissa)
 }
 
-fn panels(scene: &Scene, case: &Case, result: &Outcome) -> [Panel; 4] {
-    let line = |colour: usize, name: &str, of: &dyn Fn(&Sample) -> f64| Series {
-        name: name.to_string(),
-        colour: COLOURS[colour % COLOURS.len()],
-        values: result.history.iter().map(of).collect(),
-    };
-    let panel = |title, dimension, series: Vec<Series>| Panel {
-        title,
-        unit: unit(&scene.units, dimension),
-        series: tidy(series),
-        limit: None,
-    };
+fn panels(samples: &Samples<Sample>, case: &Case) -> [Panel; 4] {
+    let line = |colour: usize, name: &str, of: &dyn Fn(&Sample) -> f64| samples.line(colour, name, of);
     let mut energies = vec![
         line(1, "kinetic", &|s| s.energies.kinetic),
         line(2, "internal", &|s| s.energies.internal),
@@ -63,22 +50,21 @@ fn panels(scene: &Scene, case: &Case, result: &Outcome) -> [Panel; 4] {
         energies.push(Series { colour: INK, ..line(0, "external work", &|s| s.energies.external) });
     }
     let modes = ["elongation", "compaction", "distortion", "shear", "work of the linear law"];
-    let length = scene.units.names()[0];
+    let length = samples.units.names()[0];
     let station = |i: usize| format!("{:.2} {length}", STATIONS[i] * case.yarn.length);
     [
-        panel("Speed of the projectile", SPEED, vec![line(0, "speed", &|s| s.speed)]),
-        panel("Energies", ENERGY, energies),
-        panel(
+        samples.panel("Speed of the projectile", SPEED, vec![line(0, "speed", &|s| s.speed)]),
+        samples.panel("Energies", ENERGY, energies),
+        samples.panel(
             "Largest energy per reference volume",
             ENERGY_DENSITY,
             (0..modes.len()).map(|mode| line(mode, modes[mode], &|s| s.largest[mode])).collect(),
         ),
-        Panel {
-            title: "Width of the section by place",
-            unit: length.to_string(),
-            series: (0..STATIONS.len()).map(|i| line(i, &station(i), &|s| s.own.widths[i])).collect(),
-            limit: None,
-        },
+        Panel::new(
+            "Width of the section by place",
+            length,
+            (0..STATIONS.len()).map(|i| line(i, &station(i), &|s| s.own.widths[i])).collect(),
+        ),
     ]
 }
 

@@ -1,7 +1,5 @@
 //! A scene from its TOML file. The format is described in `docs/guides/impact.md`.
 
-use crate::explicit::control_keys::zero_or_more;
-use crate::struck::shots::read_shots;
 use std::path::Path;
 
 use toml::Spanned;
@@ -10,9 +8,11 @@ use super::file::{CaseFile, SceneFile, SectionName, StrikerName};
 use super::scene::{Abscissa, Case, Outputs, Scene, Striker};
 use crate::common::units;
 use crate::explicit::contact::{Rigid, Shape};
+use crate::explicit::control_keys::zero_or_more;
 use crate::explicit::mesh::{Section, Yarn};
 use crate::strength::scatter::Strength;
 use crate::struck::keys::{self, Reader};
+use crate::struck::shots::read_shots;
 use toron_shared::error::Error;
 use toron_shared::toml_file::{self, Source};
 

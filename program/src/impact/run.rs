@@ -126,8 +126,8 @@ impl Struck for StruckYarn<'_> {
         sample
     }
 
-    /// The yarn has broken when every line of elements along the fibre has lost one. The laws resist shear along the fibre little or
-    /// not at all, so that a torn line carries no tension, whatever its neighbours do.
+    /// The yarn has broken when every line of elements along the fibre has lost one. The laws resist shear along the
+    /// fibre little or not at all, so that a torn line carries no tension, whatever its neighbours do.
     fn follow<T: Number>(&self, solver: &Solver<T>, course: &mut Course) -> Result<(), Error> {
         let yarn = &solver.bodies[0];
         course.torn.resize(yarn.mesh.elements_per_layer, false);

@@ -11,8 +11,8 @@ use toron::host::units::UnitSystem;
 const YARN: Yarn = Yarn { ply: 0, family: 0, number: 0 };
 
 impl Case {
-    /// The strength of each element, where it scatters: the least of the cells that its layer meets. The half that is not modelled has the
-    /// same ones.
+    /// The strength of each element, where it scatters: the least of the cells that its layer meets. The half that is
+    /// not modelled has the same ones.
     fn strengths(&self, mesh: &Mesh) -> Option<Vec<f64>> {
         let length = self.yarn.length;
         let cells = self.strength?.cells(YARN, [-length, length]);

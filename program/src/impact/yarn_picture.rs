@@ -60,7 +60,8 @@ const UPPER: Side = Side { corners: [2, 6], neighbour: [0, 1] };
 const LOWER: Side = Side { corners: [0, 4], neighbour: [0, -1] };
 const NEARER: Side = Side { corners: [4, 6], neighbour: [1, 0] };
 
-/// What the rows show: the modes or, where there is none, the work of the linear law. Of two laws the first row has both.
+/// What the rows show: the modes or, where there is none, the work of the linear law. Of two laws the first row has
+/// both.
 fn rows(case: &Case) -> Vec<&'static str> {
     match &case.zones {
         Zones::One(material) if matches!(material.law, Law::LinearElastic { .. }) => vec!["Work"],

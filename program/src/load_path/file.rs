@@ -1,7 +1,6 @@
 //! A load path from its TOML file, with errors that name file, line and what was expected. The format is described in
 //! `docs/guides/load-paths.md`.
 
-use crate::material::file::read_material;
 use std::collections::BTreeMap;
 use std::ops::Range;
 use std::path::Path;
@@ -16,6 +15,7 @@ use super::newton::COMPONENT_NAMES;
 use super::path::{LoadPath, Point, Step, Target, equal_parts};
 use crate::common::units;
 use crate::material::file::MaterialFile;
+use crate::material::file::read_material;
 use crate::material::laws::Laws;
 use toron::host::units::UnitSystem;
 use toron_shared::error::Error;

@@ -1,7 +1,5 @@
 //! A material as files describe it: a preset, a law, and what is other than they have it. `docs/guides/load-paths.md` has the keys.
 
-use crate::material::laws::law;
-use crate::material::preset::property_index;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
@@ -12,6 +10,8 @@ use super::laws::{LawName, LawText, Laws};
 use super::model::{Law, Material, Origin};
 use super::preset::{Preset, first_property};
 use crate::common::units::{plain, with_unit};
+use crate::material::laws::law;
+use crate::material::preset::property_index;
 use toron::host::units::UnitSystem;
 use toron::law::parameters::{DENSITY, NUMBER, Property};
 use toron::{Criterion, Rotation};

@@ -1,6 +1,5 @@
 //! The materials of a scene that is struck: one of each law, its failure chosen by the case.
 
-use crate::material::file::read_material;
 use std::ops::Range;
 
 use serde::Deserialize;
@@ -9,6 +8,7 @@ use toml::Spanned;
 use super::file::MaterialFile;
 use super::laws::Laws;
 use super::model::{Law, Material};
+use crate::material::file::read_material;
 use toron::Rotation;
 use toron::host::units::UnitSystem;
 use toron::law::parameters::{ALPHA, BETA, EPS_LIM, SIGMA_LIM};

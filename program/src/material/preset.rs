@@ -1,6 +1,5 @@
 //! Presets: those of the library and those of a user's own files, which are used alike. `docs/guides/load-paths.md` has the keys.
 
-use crate::material::laws::law;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::path::Path;
@@ -10,6 +9,7 @@ use toml::Spanned;
 
 use super::laws::{LawName, LawText, Laws};
 use crate::common::units::{self, plain, with_unit};
+use crate::material::laws::law;
 use toron::host::units::UnitSystem;
 use toron::law::bounds;
 use toron::law::parameters::{self, DENSITY, Dimension, Property};

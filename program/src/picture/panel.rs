@@ -5,7 +5,7 @@ use plotters::prelude::*;
 
 use super::page::{Area, Drawn};
 use super::sheet::Sheet;
-use super::style::{GREY, HEADING, INK, RULE, TEXT, fine, stroke, superscript, text};
+use super::style::{COLOURS, GREY, HEADING, INK, RULE, TEXT, fine, stroke, superscript, text};
 
 /// The width of an ordinate's labels.
 const MARGIN: i32 = 70;
@@ -24,12 +24,26 @@ pub struct Series {
     pub values: Vec<f64>,
 }
 
+impl Series {
+    /// In the colour of this number.
+    pub fn new(colour: usize, name: &str, values: Vec<f64>) -> Series {
+        Series { name: name.to_string(), colour: COLOURS[colour % COLOURS.len()], values }
+    }
+}
+
 pub struct Panel {
     pub title: &'static str,
     pub unit: String,
     pub series: Vec<Series>,
     /// A level of its own, drawn dashed.
     pub limit: Option<f64>,
+}
+
+impl Panel {
+    /// One without a limit.
+    pub fn new(title: &'static str, unit: &str, series: Vec<Series>) -> Panel {
+        Panel { title, unit: unit.to_string(), series, limit: None }
+    }
 }
 
 /// The abscissa that panels share.

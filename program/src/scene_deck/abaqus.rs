@@ -89,7 +89,7 @@ fn header(model: &Model) -> String {
 ** Case {name} of `{source} --deck abaqus-explicit`: {elements} elements in {parts} yarns or parts of them;
 ** units {length}, {mass}, {time}. Not run: Abaqus was not at hand; options are as its keyword manual has them.
 {origin}**
-** Run it in double precision with the VUMAT and the library (docs/guides/hosts/abaqus.md), on N cores, 1 or many:
+** Run it in double precision with the VUMAT and the library (toron's guide to Abaqus says how), on N cores, 1 or many:
 **   abaqus job={name} user=abaqus_vumat_dp.f double=both cpus=N
 ** Later, on from the last restart file:  abaqus job={name} recover
 ** Histories as a table:                  abaqus python {HISTORY} {name}.odb {name}-history.csv

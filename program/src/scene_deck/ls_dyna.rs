@@ -116,7 +116,7 @@ fn header(model: &Model) -> String {
 $ Case {name} of `{source} --deck ls-dyna`: {elements} elements in {parts} parts; units {length}, {mass}, {time}.
 {origin}$ Not run: LS-DYNA was not at hand; the cards are as its keyword manual has them.
 $
-$ Run it in double precision, with an executable that has the shim and the library in it (docs/guides/hosts/ls-dyna.md).
+$ Run it in double precision, with an executable that has the shim and the library in it (toron's guide to LS-DYNA says how).
 $ On one core, or on N threads:  ls-dyna i={name}.k ncpu=N memory=200m
 $ On P domains (MPP):            mpirun -np P mppdyna i={name}.k memory=200m
 $ On from a restart file:        ls-dyna i={name}.k r=d3dump01

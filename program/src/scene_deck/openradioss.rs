@@ -154,7 +154,7 @@ fn header(model: &Model, strike: &Strike) -> String {
 # {title}
 # Case {name} of `{source} --deck openradioss`: {elements} elements in {parts} parts; units {length}, {mass}, {time}.
 {origin}#
-# Run it with the library libtoron_openradioss.so (docs/guides/hosts/openradioss.md), in double precision.
+# Run it with the library libtoron_openradioss.so (toron's guide to OpenRadioss says how), in double precision.
 # On one core, or on N threads with -nt N behind both:
 #   starter_linux64_gf -i {name}_0000.rad -np 1 -dylib .../libtoron_openradioss.so
 #   engine_linux64_gf -i {name}_0001.rad -dylib .../libtoron_openradioss.so

@@ -90,8 +90,8 @@ pub trait Scene: Sync {
     fn report(&self, results: &[Self::Result<'_>], output: &Path) -> Result<String, Error>;
 }
 
-/// Runs the cases of a scene, which was read from `path`, and writes what came of them to the directory `output`. With `restart`, cases
-/// go on from their checkpoints there.
+/// Runs the cases of a scene, which was read from `path`, and writes what came of them to the directory `output`. With
+/// `restart`, cases go on from their checkpoints there.
 ///
 /// A case that has no result keeps no other from having one.
 ///
@@ -170,8 +170,8 @@ fn combine(errors: &[Error]) -> Result<(), Error> {
     }
 }
 
-/// Removes what an earlier run has left of the cases that begin, before the first of them does; returns what there is to say of it.
-/// Their checkpoints get another name: who has forgotten `--restart` has them still.
+/// Removes what an earlier run has left of the cases that begin, before the first of them does; returns what there is
+/// to say of it. Their checkpoints get another name: who has forgotten `--restart` has them still.
 fn clear<S: Scene>(
     scene: &S,
     names: &[String],

@@ -1,4 +1,5 @@
-//! The history of a case as a table: a line for each sample, with the same columns in the same units whatever is struck.
+//! The history of a case as a table: a line for each sample, with the same columns in the same units whatever is
+//! struck.
 
 use std::fmt::Write;
 

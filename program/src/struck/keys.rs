@@ -1,8 +1,5 @@
 //! The keys that all struck scenes have: a table that a scene adds its own keys to, and what is read from it.
 
-use crate::explicit::control_keys::control;
-use crate::material::of_law::material_of_law;
-use crate::material::smith::strike_speed;
 use std::ops::Range;
 
 use serde::Deserialize;
@@ -10,10 +7,13 @@ use toml::Spanned;
 
 use super::plan::Plan;
 use super::zones::Zones;
+use crate::explicit::control_keys::control;
 use crate::explicit::medium::Control;
 use crate::material::file::MaterialFile;
 use crate::material::model::Material;
+use crate::material::of_law::material_of_law;
 use crate::material::of_law::{Choice, FailureName, HYPERELASTIC, LINEAR_ELASTIC, LawName, own_yarn, unused_material};
+use crate::material::smith::strike_speed;
 use crate::strength::file::StrengthFile;
 use toron::host::units::UnitSystem;
 use toron_shared::error::Error;
@@ -184,9 +184,9 @@ pub trait Table: Clone {
     fn over(&self, base: &Self) -> Self;
 }
 
-/// Reads the cases of a scene, or the scene as the only one: `read` gets the reader of the common keys, the case's keys over the
-/// scene's, its own ones alone and its name. The files that cases have in common are called as `common` says, without
-/// their endings.
+/// Reads the cases of a scene, or the scene as the only one: `read` gets the reader of the common keys, the case's keys
+/// over the scene's, its own ones alone and its name. The files that cases have in common are called as `common` says,
+/// without their endings.
 ///
 /// # Errors
 /// A key that no case reads, as `unused` finds it; a name that cannot be; what `read` refuses.
@@ -266,7 +266,8 @@ impl Reader<'_> {
         }
     }
 
-    /// What the case of this name is going to do, with so many samples in its history where the file does not say otherwise.
+    /// What the case of this name is going to do, with so many samples in its history where the file does not say
+    /// otherwise.
     pub fn plan(&self, name: &str, samples: f64) -> Result<Plan, Error> {
         let keys = self.keys;
         let end = self.positive("end", &keys.end)?;

@@ -1,5 +1,6 @@
-//! A struck scene, whatever is struck: the keys that scenes have in common, the loop from the first step to the last, checkpoints,
-//! histories, and the command that runs a scene's cases. [`impact`](crate::impact) strikes a yarn, [`fabric`](crate::fabric) a panel.
+//! A struck scene, whatever is struck: the keys that scenes have in common, the loop from the first step to the last,
+//! checkpoints, histories, and the command that runs a scene's cases. [`impact`](crate::impact) strikes a yarn,
+//! [`fabric`](crate::fabric) a panel.
 
 pub mod checkpoint;
 pub mod command;

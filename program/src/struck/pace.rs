@@ -18,11 +18,11 @@ pub struct Pace {
 /// How long the whole run takes if it goes on as it has begun, and what that rests on.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Estimate {
-    elements: usize,
+    pub elements: usize,
     /// From the beginning to the end, and how many of them were measured.
-    steps: f64,
-    measured: u64,
-    seconds: f64,
+    pub steps: f64,
+    pub measured: u64,
+    pub seconds: f64,
 }
 
 impl Pace {
@@ -54,7 +54,7 @@ impl fmt::Display for Estimate {
 }
 
 /// In the unit that makes it a number of some digits.
-fn duration(seconds: f64) -> String {
+pub fn duration(seconds: f64) -> String {
     if seconds < 2.0 * MINUTE {
         format!("{seconds:.0} s")
     } else if seconds < 2.0 * HOUR {

@@ -8,7 +8,8 @@ use super::run::ROUNDING;
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Plan {
     pub end: f64,
-    /// Steps divide the time up to the next multiple of this, rather than up to the end: a run that may last longer has the same ones.
+    /// Steps divide the time up to the next multiple of this, rather than up to the end: a run that may last longer has
+    /// the same ones.
     pub steps_to: Option<f64>,
     /// Whether the run goes on when what strikes turns back.
     pub rebounds: bool,

@@ -56,8 +56,8 @@ pub trait Struck: Sync {
     /// Measures an instant at which what strikes, which was at `start`, has come as far as the solver says.
     fn sample<T: Number>(&self, solver: &Solver<T>, start: f64) -> Sample<Self::Own>;
 
-    /// Instants at which steps end, in order, and the time that the step after one is a part of. The history has these instants; where
-    /// there are none, those of the plan, or the first ones after them.
+    /// Instants at which steps end, in order, and the time that the step after one is a part of. The history has these
+    /// instants; where there are none, those of the plan, or the first ones after them.
     fn stops(&self) -> (&[f64], f64) {
         (&[], self.plan().end)
     }
@@ -272,7 +272,8 @@ impl<'a, S: Struck, T: Number> Run<'a, S, T> {
         Ok(())
     }
 
-    /// Goes over from the plan of the run that wrote the checkpoint to this one's. Where they are the same nothing changes.
+    /// Goes over from the plan of the run that wrote the checkpoint to this one's. Where they are the same nothing
+    /// changes.
     fn change_plan(&mut self, old: &Plan) {
         let (new, time) = (&self.plan, self.solver.state.time);
         let later = |interval: f64, round: fn(f64) -> f64| interval * round(time / interval);

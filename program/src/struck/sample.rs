@@ -9,7 +9,8 @@ use crate::explicit::lanes::{Number, largest};
 use crate::explicit::medium::Medium;
 use crate::explicit::solver::Solver;
 
-/// Energies and the force are those of the whole, also where a part of it is computed; what is counted is counted in that part.
+/// Energies and the force are those of the whole, also where a part of it is computed; what is counted is counted in
+/// that part.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Sample<E> {
     pub time: f64,
@@ -18,8 +19,8 @@ pub struct Sample<E> {
     pub travel: f64,
     pub force: f64,
     pub energies: Energies,
-    /// The internal energy by mode, as [`ENERGY_NAMES`](crate::explicit::medium::ENERGY_NAMES) has them, and the largest densities
-    /// and the largest failure index of intact elements.
+    /// The internal energy by mode, as [`ENERGY_NAMES`](crate::explicit::medium::ENERGY_NAMES) has them, and the
+    /// largest densities and the largest failure index of intact elements.
     pub parts: [f64; 5],
     pub largest: [f64; 5],
     pub index: f64,

@@ -24,7 +24,8 @@ use toron_shared::shell;
 /// The tables of a series' shots, and of those of a limit.
 const SHOTS: &str = "shots.csv";
 const LIMIT: &str = "limit.csv";
-/// Where the true V50 is among the speeds of simulated experiments, and the true deviation over their range, if they are not given.
+/// Where the true V50 is among the speeds of simulated experiments, and the true deviation over their range, if they
+/// are not given.
 const TRUTH: [f64; 2] = [0.5, 0.125];
 
 /// What a user asks for.
@@ -48,13 +49,15 @@ pub struct Arguments {
     /// Fire none: join the shots of these directories.
     #[arg(long, value_name = "DIR", num_args = 1.., conflicts_with_all = ["restart", "limit", "simulate"])]
     collect: Vec<PathBuf>,
-    /// Find the limit of the scene's own shot, with its aim and its strength, by bisection, and whether the answer around it is monotone.
+    /// Find the limit of the scene's own shot, with its aim and its strength, by bisection, and whether the answer
+    /// around it is monotone.
     #[arg(long, conflicts_with = "simulate")]
     limit: bool,
     /// Strike nothing: simulate so many experiments of each design, and print how often the intervals hold the truth.
     #[arg(long, value_name = "EXPERIMENTS")]
     simulate: Option<u64>,
-    /// The true V50 and deviation of simulated experiments; the middle of the speeds and an eighth of their range if not given.
+    /// The true V50 and deviation of simulated experiments; the middle of the speeds and an eighth of their range if
+    /// not given.
     #[arg(long, num_args = 2, value_names = ["V50", "DEVIATION"], allow_negative_numbers = true, requires = "simulate")]
     truth: Option<Vec<f64>>,
     /// Add the curves with Firth's correction, which have values where the fates do not mix.

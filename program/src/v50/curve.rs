@@ -1,9 +1,9 @@
 //! The curve of perforation over speed, by maximum likelihood, and how sure it is.
 //!
-//! The chance of a perforation at a speed is F(η), where η rises with the speed: a faster shot is no less likely to go through.
-//! An interval has the values that the likelihood-ratio test does not refuse, everything else being what suits the value best
-//! (the profile likelihood). Where the shots do not refuse a level curve the interval of a speed has no end; where no speed has seen both
-//! fates that of the slope has none.
+//! The chance of a perforation at a speed is F(η), where η rises with the speed: a faster shot is no less likely to go
+//! through. An interval has the values that the likelihood-ratio test does not refuse, everything else being what suits
+//! the value best (the profile likelihood). Where the shots do not refuse a level curve the interval of a speed has no
+//! end; where no speed has seen both fates that of the slope has none.
 
 use super::likelihood::{Likelihood, SLOPES};
 use super::link::Link;
@@ -11,7 +11,8 @@ use crate::common::confidence::{crossing, refusal};
 
 /// The chances whose speeds are reported: V5, V50 and V95.
 pub const CHANCES: [f64; 3] = [0.05, 0.5, 0.95];
-/// The first steps from an estimate to an end of its interval: over the deviation of the speeds, and of the slope's logarithm.
+/// The first steps from an estimate to an end of its interval: over the deviation of the speeds, and of the slope's
+/// logarithm.
 const FIRST_STEP: f64 = 0.25;
 /// An end as far from the estimate as this, in the same units, is as good as none.
 const FARTHEST: f64 = 2048.0;
@@ -29,7 +30,8 @@ pub struct Fate {
 pub enum Mix {
     /// Some stop was faster than some perforation: the curve has a slope.
     Mixed,
-    /// No stop was faster than a perforation: the curve may be a step, anywhere between the fastest stop and the slowest perforation.
+    /// No stop was faster than a perforation: the curve may be a step, anywhere between the fastest stop and the
+    /// slowest perforation.
     Separated([f64; 2]),
     /// No curve that rises with the speed is better than a level one.
     Level,
@@ -122,7 +124,8 @@ impl Curve {
         Some(curve)
     }
 
-    /// V50 and the deviation of a normal distribution that are the likeliest, whatever they are: no more is sought, no less is told.
+    /// V50 and the deviation of a normal distribution that are the likeliest, whatever they are: no more is sought, no
+    /// less is told.
     pub fn likeliest(fates: &[Fate]) -> [f64; 2] {
         let likelihood = Likelihood::new(fates, Link::Probit, false);
         let [offset, slope, _] = likelihood.best();
@@ -221,7 +224,8 @@ mod tests {
         assert!((found / expected - 1.0).abs() < tolerance, "{found}, expected {expected}");
     }
 
-    /// Two speeds have as many parameters as chances: the curve has the shares of both, Firth's those with half a shot more of either fate.
+    /// Two speeds have as many parameters as chances: the curve has the shares of both, Firth's those with half a shot
+    /// more of either fate.
     #[test]
     fn two_speeds_have_a_closed_form() {
         let shots = groups(&[(100.0, 3, 12), (140.0, 8, 10)]);
@@ -256,7 +260,8 @@ mod tests {
         assert_close(value(&curve.slope) / Link::Logit.slope(), 8.27725905945797, 1e-5);
     }
 
-    /// An end of an interval is where the best of all slopes has the deviance at which the test refuses: by sums over shots and pairs of them.
+    /// An end of an interval is where the best of all slopes has the deviance at which the test refuses: by sums over
+    /// shots and pairs of them.
     #[test]
     fn intervals_are_those_of_the_profile() {
         let shots = fates(

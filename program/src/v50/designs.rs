@@ -11,7 +11,8 @@ const SHRINKING: f64 = 0.8;
 /// The next shot of the D-optimal design is sought so many deviations about V50, at so many places, and between them.
 const REACH: f64 = 4.0;
 const PLACES: usize = 80;
-/// No shot is to be slower than this part of the range's lower end, and none is slower than this part of what it was to be.
+/// No shot is to be slower than this part of the range's lower end, and none is slower than this part of what it was to
+/// be.
 const SLOWEST: f64 = 0.1;
 
 /// How speeds are chosen.
@@ -34,7 +35,8 @@ pub struct Fired {
     pub fate: Fate,
 }
 
-/// The speed of a shot that scatters about what it was to be with this standard deviation: no speed is below 0, however wide the scatter.
+/// The speed of a shot that scatters about what it was to be with this standard deviation: no speed is below 0, however
+/// wide the scatter.
 pub fn scattered(nominal: f64, scatter: f64, chance: f64) -> f64 {
     (nominal + scatter * Normal::standard().inverse_cdf(chance)).max(SLOWEST * nominal)
 }
@@ -193,7 +195,8 @@ mod tests {
         assert_eq!(scattered(100.0, 200.0, 0.01), 10.0);
     }
 
-    /// Neyer's: it leaves a range in which all fates are alike, halves the gap, and then stands 1.138 deviations from V50.
+    /// Neyer's: it leaves a range in which all fates are alike, halves the gap, and then stands 1.138 deviations from
+    /// V50.
     #[test]
     fn a_d_optimal_design_stands_where_a_shot_tells_most() {
         let design = Design::DOptimal { deviation: 5.0 };

@@ -12,7 +12,8 @@ pub const MAY_DIFFER: [&str; 8] =
     ["number", "extension", "tolerance", "spread", "sample", "pictures", "frames", "checkpoints"];
 const TITLE: &str = "title";
 
-/// The first key that differs, with the values of this scene and of that; none where no key does, but what a file says that they name.
+/// The first key that differs, with the values of this scene and of that; none where no key does, but what a file says
+/// that they name.
 pub fn first(this: &str, that: &str) -> Option<String> {
     let [this, that] = [keys(this)?, keys(that)?];
     let names: BTreeMap<&String, ()> = this.keys().chain(that.keys()).map(|name| (name, ())).collect();

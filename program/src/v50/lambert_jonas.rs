@@ -44,8 +44,8 @@ pub enum Degenerate {
 }
 
 impl LambertJonas {
-    /// The curve of perforations, striking and residual speeds, or why the best one is none; nothing of fewer than [`FEWEST`], or where the
-    /// search finds none.
+    /// The curve of perforations, striking and residual speeds, or why the best one is none; nothing of fewer than
+    /// [`FEWEST`], or where the search finds none.
     pub fn fit(perforations: &[[f64; 2]]) -> Option<Result<LambertJonas, Degenerate>> {
         let best = LambertJonas::best(perforations)?;
         Some(best.degenerate(perforations).map_or(Ok(best), Err))
@@ -107,8 +107,8 @@ fn logistic(unknown: f64) -> f64 {
     1.0 / (1.0 + (-unknown).exp())
 }
 
-/// The least squares. The unknowns are free: a is the first one's logistic function, p − 1 the second one's exponential function, and
-/// v_l over the fastest striking speed the third one's logistic function.
+/// The least squares. The unknowns are free: a is the first one's logistic function, p − 1 the second one's exponential
+/// function, and v_l over the fastest striking speed the third one's logistic function.
 struct Problem<'a> {
     perforations: &'a [[f64; 2]],
     fastest: f64,

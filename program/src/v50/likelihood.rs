@@ -1,4 +1,5 @@
-//! The likelihood of a curve: F(a + b x) at the speeds x, which are counted from their mean in their standard deviation.
+//! The likelihood of a curve: F(a + b x) at the speeds x, which are counted from their mean in their standard
+//! deviation.
 
 use super::curve::Fate;
 use super::link::Link;
@@ -49,7 +50,8 @@ impl Likelihood {
         self.of_shots(a, b) + if self.firth { 0.5 * self.log_information(a, b) } else { 0.0 }
     }
 
-    /// The logarithm of the determinant of Fisher's information on a and b: the sum of w_i w_j (x_i − x_j)² over all pairs.
+    /// The logarithm of the determinant of Fisher's information on a and b: the sum of w_i w_j (x_i − x_j)² over all
+    /// pairs.
     fn log_information(&self, a: f64, b: f64) -> f64 {
         let weights: Vec<f64> = self.shots.iter().map(|shot| self.link.log_information(a + b * shot.speed)).collect();
         let (first, most) = largest(weights.iter().copied());
@@ -98,7 +100,8 @@ impl Likelihood {
         .1
     }
 
-    /// The largest likelihood of a level curve whose η is at least, or at most, this: what is left where its place is far away.
+    /// The largest likelihood of a level curve whose η is at least, or at most, this: what is left where its place is
+    /// far away.
     pub fn level(&self, eta: f64, above: bool) -> f64 {
         let bounds = if above { [eta, FAR] } else { [-FAR, eta] };
         maximum(|a| self.of(a, SLOPES[0]), bounds).1

@@ -1,5 +1,5 @@
-//! The limit of a scene in which nothing is chance: between the fastest stop and the slowest perforation, by bisection; and whether
-//! the answer around it is monotone.
+//! The limit of a scene in which nothing is chance: between the fastest stop and the slowest perforation, by bisection;
+//! and whether the answer around it is monotone.
 
 use std::sync::{Mutex, PoisonError};
 
@@ -161,7 +161,8 @@ mod tests {
     use crate::v50::scene::{Scene, YARN};
     use toron_shared::interrupt::Interrupt;
 
-    /// Of a table with a shot for every speed that is looked at, so that none is fired: what is found, and said, where these go through.
+    /// Of a table with a shot for every speed that is looked at, so that none is fired: what is found, and said, where
+    /// these go through.
     fn found(through: impl Fn(f64) -> bool) -> (Limit, String) {
         let text = YARN.replace("speeds = [20.0, 300.0]", "speeds = [20.0, 276.0]\ntolerance = 16.0");
         let scene = Scene::parse("yarn.toml", &text, None).expect("a scene");

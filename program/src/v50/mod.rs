@@ -1,7 +1,8 @@
 //! `toron v50`: at which speed half of the shots go through, and how sure that is.
 //!
-//! Shots at a scene of [`fabric`](crate::fabric) or [`impact`](crate::impact) differ in speed, in the point of impact and in the strength of
-//! the yarns. The statistics of what comes of them know nothing of scenes. `docs/guides/v50.md` is the manual.
+//! Shots at a scene of [`fabric`](crate::fabric) or [`impact`](crate::impact) differ in speed, in the point of impact
+//! and in the strength of the yarns. The statistics of what comes of them know nothing of scenes. `docs/guides/v50.md`
+//! is the manual.
 
 pub mod command;
 pub mod curve;

@@ -62,7 +62,8 @@ impl Records {
         Records { place: place.to_path_buf(), titles, of, scene, shots: BTreeMap::new(), file: None }
     }
 
-    /// Adds the shots of a file of this scene and this build. One that stands here already has to be the same, or one of the two has no fate.
+    /// Adds the shots of a file of this scene and this build. One that stands here already has to be the same, or one
+    /// of the two has no fate.
     ///
     /// # Errors
     /// The file cannot be read, is another table, or of another scene or build.
@@ -116,7 +117,8 @@ impl Records {
         Ok(())
     }
 
-    /// Writes the table anew, in one go and in the order of the numbers, with the scene beside it, and opens it for more.
+    /// Writes the table anew, in one go and in the order of the numbers, with the scene beside it, and opens it for
+    /// more.
     ///
     /// # Errors
     /// They cannot be written.
@@ -232,8 +234,8 @@ fn parsed(record: &StringRecord, titles: &[String]) -> Result<Ended, String> {
     Ok(Ended { shot, ending, speed_at_end: number(8)?, time: number(9)?, verdict, seconds: number(11)? })
 }
 
-/// Which of two lines of one shot tells more: a fate before none, and without one the later end before an earlier one or an error. None
-/// where they are of two shots, or of two fates.
+/// Which of two lines of one shot tells more: a fate before none, and without one the later end before an earlier one
+/// or an error. None where they are of two shots, or of two fates.
 fn joined<'a>(one: &'a Ended, other: &'a Ended) -> Option<&'a Ended> {
     if one.shot != other.shot {
         return None;
@@ -267,7 +269,8 @@ mod tests {
         Ended { shot, ending, speed_at_end: 1.0 / 3.0, time: 0.1, verdict: "mesh; contact".to_string(), seconds: 1.25 }
     }
 
-    /// What is written is read again to the bit; a line that is not whole is no shot, and one of a number takes the place of another.
+    /// What is written is read again to the bit; a line that is not whole is no shot, and one of a number takes the
+    /// place of another.
     #[test]
     fn shots_are_read_as_they_were_written() {
         let folder = std::env::temp_dir().join(format!("toron-shots-{}", std::process::id()));
@@ -336,7 +339,8 @@ mod tests {
         std::fs::remove_dir_all(&folder).expect("it is removed");
     }
 
-    /// Behind a line that could not be written nothing is appended: the next shot writes the table anew, with the one that was lost.
+    /// Behind a line that could not be written nothing is appended: the next shot writes the table anew, with the one
+    /// that was lost.
     #[test]
     fn no_line_goes_behind_half_of_one() {
         let folder = std::env::temp_dir().join(format!("toron-half-{}", std::process::id()));
@@ -355,7 +359,8 @@ mod tests {
         std::fs::remove_dir_all(&folder).expect("it is removed");
     }
 
-    /// Of two lines of a shot the one with a fate stands, else the later end, whichever is read first; two fates are none.
+    /// Of two lines of a shot the one with a fate stands, else the later end, whichever is read first; two fates are
+    /// none.
     #[test]
     fn of_two_lines_the_one_that_tells_more_stands() {
         let at = |ending: Ending, time: f64| Ended { time, ..ended(3, ending) };

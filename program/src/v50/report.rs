@@ -51,7 +51,8 @@ fn name(curve: &Curve) -> String {
     format!("{}{}", curve.link.name(), if curve.firth { ", Firth" } else { "" })
 }
 
-/// What came of the series; `missing` is how many of its shots have not been fired, and `beside` how many others stand in the table.
+/// What came of the series; `missing` is how many of its shots have not been fired, and `beside` how many others stand
+/// in the table.
 pub fn report(scene: &Scene, series: &Series, [missing, beside]: [usize; 2], output: &Path) -> String {
     let [stopped, through, undecided, errors] = series.counts();
     let of_errors = if errors + undecided > 0 { ", which the curves leave out" } else { "" };
@@ -265,7 +266,7 @@ fn weights(scene: &Scene) -> String {
 
 /// The shots whose runs are not sound, and those that are so up to their first failure only.
 fn unsound(series: &Series) -> String {
-    let behind = " (docs/guides/fabric.md says what to do)";
+    let behind = " (toron fabric or impact, of such a shot by its line in shots.csv, says what to change)";
     let before = series.verdicts().filter(|(_, before, _)| *before != SOUND);
     let after = series.verdicts().filter_map(|(ended, _, after)| Some((ended.shot.number, after?.to_string())));
     of_shots("warning: ", before.map(|(ended, before, _)| (ended.shot.number, before.to_string())), behind)
@@ -453,7 +454,8 @@ mod tests {
         Scene::parse("yarn.toml", YARN, None).expect("a scene")
     }
 
-    /// Shots that were stopped at these speeds, and then some that went through at those, with what was left, and errors with those messages.
+    /// Shots that were stopped at these speeds, and then some that went through at those, with what was left, and
+    /// errors with those messages.
     fn series(stops: &[f64], perforations: &[[f64; 2]], errors: &[&str]) -> Series {
         let stopped = stops.iter().map(|&speed| (speed, Ending::Stopped, 0.0));
         let through = perforations.iter().map(|&[speed, left]| (speed, Ending::Through, left));

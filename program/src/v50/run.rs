@@ -1,7 +1,8 @@
-//! Fires the shots of a series: side by side, one a core, or one after another where each needs the fates of those before it.
+//! Fires the shots of a series: side by side, one a core, or one after another where each needs the fates of those
+//! before it.
 
 use std::ops::RangeInclusive;
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
@@ -13,6 +14,7 @@ use super::records::Records;
 use super::scene::{Scene, Shot};
 use super::shot::{Ended, Ending, Watch, fire};
 use crate::common::units::{SPEED, number, unit};
+use crate::struck::pace::{Estimate, duration};
 use toron_shared::console::print_note;
 use toron_shared::error::Error;
 use toron_shared::interrupt::Interrupt;
@@ -37,6 +39,8 @@ pub struct FiringRange<'a> {
     all: usize,
     /// How far each of those under way is, in ticks.
     ticks: Mutex<Vec<(usize, u64)>>,
+    /// Whether it has been said how long the shots will take.
+    is_estimated: AtomicBool,
 }
 
 impl Watch for FiringRange<'_> {
@@ -58,6 +62,13 @@ impl Watch for FiringRange<'_> {
     fn interrupts(&self) -> bool {
         self.interrupt.is_asked()
     }
+
+    fn estimate(&self, shot: &Shot, estimate: &Estimate) {
+        if !self.is_estimated.swap(true, Ordering::Relaxed) {
+            let side_by_side = self.threads / rayon::current_num_threads();
+            self.say(&self.estimate_line(shot, estimate, side_by_side));
+        }
+    }
 }
 
 impl<'a> FiringRange<'a> {
@@ -66,7 +77,8 @@ impl<'a> FiringRange<'a> {
         let template = "{msg} {wide_bar} {percent} %, {eta} left";
         let bar = progress::bar(TICKS * all as u64, template, ProgressDrawTarget::stderr());
         let (begun, ended, ticks) = (Instant::now(), AtomicUsize::new(0), Mutex::new(Vec::new()));
-        FiringRange { scene, threads, interrupt, bar, begun, ended, all, ticks }
+        let is_estimated = AtomicBool::new(false);
+        FiringRange { scene, threads, interrupt, bar, begun, ended, all, ticks, is_estimated }
     }
 
     pub fn is_interrupted(&self) -> bool {
@@ -122,7 +134,8 @@ impl<'a> FiringRange<'a> {
         records.lock().unwrap_or_else(PoisonError::into_inner).add(ended)
     }
 
-    /// What is said of a shot with which so many have ended in so many seconds, and how long the others take if they are like these.
+    /// What is said of a shot with which so many have ended in so many seconds, and how long the others take if they
+    /// are like these.
     fn line(&self, ended: &Ended, count: usize, seconds: f64) -> String {
         let seconds = seconds / count as f64 * self.all.saturating_sub(count) as f64;
         let speed = unit(&self.scene.units, SPEED);
@@ -137,6 +150,16 @@ impl<'a> FiringRange<'a> {
             false => String::new(),
         };
         format!("shot {} at {} {speed}: {how}{left}", ended.shot.number, number(ended.shot.speed))
+    }
+
+    /// What is said in the first shot: how long it and all others take if none is decided before its end.
+    fn estimate_line(&self, shot: &Shot, estimate: &Estimate, side_by_side: usize) -> String {
+        let side_by_side = side_by_side.clamp(1, self.all.max(1));
+        let most = duration(self.all.div_ceil(side_by_side) as f64 * estimate.seconds);
+        let (number, all) = (shot.number, self.all);
+        format!(
+            "shot {number}: {estimate}; {all} shots, {side_by_side} at a time: {most} at most, less where they are decided before"
+        )
     }
 
     /// Above the bar, if there is one.
@@ -175,8 +198,8 @@ pub fn stays(scene: &Scene, ended: &Ended) -> bool {
     }
 }
 
-/// Of the shots that are there those of the series: of its numbers, and of a sequential design up to the first that is missing or that the
-/// fates before it would have at another speed now.
+/// Of the shots that are there those of the series: of its numbers, and of a sequential design up to the first that is
+/// missing or that the fates before it would have at another speed now.
 pub fn confirmed(scene: &Scene, records: &Records) -> Vec<Ended> {
     let design = scene.design();
     let (mut shots, mut before): (Vec<Ended>, Vec<Fired>) = Default::default();
@@ -288,7 +311,8 @@ mod tests {
         assert_eq!(of(Ending::Through), [1]);
     }
 
-    /// What stays of a table are the shots that those of the scene equal to the bit; one with an error, or another aim, is fired anew.
+    /// What stays of a table are the shots that those of the scene equal to the bit; one with an error, or another aim,
+    /// is fired anew.
     #[test]
     fn shots_of_the_table_are_known_to_the_bit() {
         let scene = Scene::parse("yarn.toml", &format!("{YARN}design = \"even\"\n"), None).expect("a scene");
@@ -319,6 +343,23 @@ mod tests {
         assert_eq!(range.line(&through, 6, 300.0), said);
         let error = ended(scene.shot(4, 100.0), Ending::Error("no memory".to_string()));
         assert_eq!(range.line(&error, 6, 300.0), "shot 4 at 100.0 mm/ms: an error: no memory");
+    }
+
+    /// Two at a time: five rounds of nine.
+    #[test]
+    fn the_first_shot_says_how_long_all_of_them_take_at_most() {
+        let scene = Scene::parse("yarn.toml", YARN, None).expect("a scene");
+        let estimate = Estimate { elements: 100, steps: 2e4, measured: 500, seconds: 100.0 };
+        let range = FiringRange::new(&scene, 2, 9, Interrupt::default());
+        let shot = scene.shot(3, 100.0);
+        assert_eq!(
+            range.estimate_line(&shot, &estimate, 2),
+            "shot 3: about 100 s up to end: 100 elements × 20000 steps × 50000 ns, as in the first 500 steps; \
+             9 shots, 2 at a time: 8 min at most, less where they are decided before"
+        );
+        assert!(range.estimate_line(&shot, &estimate, 0).contains("9 shots, 1 at a time: 15 min at most"));
+        range.estimate(&shot, &estimate);
+        assert!(range.is_estimated.load(Ordering::Relaxed));
     }
 
     #[test]

@@ -139,7 +139,8 @@ impl Scene {
         Ok(())
     }
 
-    /// That something is chance in the shots of a series: else their fates are a step, whose place is found without statistics.
+    /// That something is chance in the shots of a series: else their fates are a step, whose place is found without
+    /// statistics.
     ///
     /// # Errors
     /// Nothing is.
@@ -163,7 +164,8 @@ impl Scene {
         }
     }
 
-    /// The shot of this number that is to have this speed. What is chance in it follows from the seed and the number alone.
+    /// The shot of this number that is to have this speed. What is chance in it follows from the seed and the number
+    /// alone.
     pub fn shot(&self, number: usize, nominal: f64) -> Shot {
         let chance = |what: Chance| uniform(self.shots.seed, [number as u64, what as u64]);
         let mut aim = self.target.aim().unwrap_or_default();
@@ -241,7 +243,8 @@ impl Target {
                 (&mut case.plan, &mut case.strength)
             }
         };
-        // It ends when its fate is decided, by the steps of the scene's own run; nothing is drawn, and nothing kept to go on from.
+        // It ends when its fate is decided, by the steps of the scene's own run; nothing is drawn, and nothing kept to
+        // go on from.
         plan.steps_to = Some(plan.end);
         (plan.end, plan.rebounds, plan.frames, plan.checkpoints) = (end, false, 0, 0);
         plan.pictures.clear();
@@ -358,7 +361,8 @@ mod tests {
         Scene::parse("shots.toml", &text, None).map_err(|error| error.to_string())
     }
 
-    /// A shot's chances follow from the seed and its number, whatever scatters otherwise; they fill the cell, and have the deviation.
+    /// A shot's chances follow from the seed and its number, whatever scatters otherwise; they fill the cell, and have
+    /// the deviation.
     #[test]
     fn a_shot_is_what_its_number_says() {
         let scene = panel("whole", "scatter = 2.0\naim = \"cell\"", 10.0).expect("a scene");
@@ -387,8 +391,11 @@ mod tests {
         seeds.dedup();
         assert_eq!(seeds.len(), 2000);
 
-        // What is struck is that.
-        let Target::Panel(case) = scene.target.at(&shots[6], 3.0) else { panic!("a panel") };
+        // What is struck is that, and one cloth for all: its weave is solved once, and held against finer ones once.
+        let (Target::Panel(case), Target::Panel(own)) = (scene.target.at(&shots[6], 3.0), &scene.target) else {
+            panic!("a panel")
+        };
+        assert!(std::sync::Arc::ptr_eq(&case.cloth, &own.cloth));
         let seed = case.strength.map(|strength| strength.field.seed);
         assert_eq!(
             (case.speed, case.sphere.aim, seed, case.plan.end),

@@ -5,7 +5,8 @@ pub const GOLDEN: f64 = 0.618_033_988_749_894_9;
 /// A bracket of so little of what it began with is a point: a function is flat there, as far as its digits go.
 const NARROW: f64 = 1e-9;
 
-/// Where a function that rises and then falls between two places is largest, and that value; an end counts as any other place.
+/// Where a function that rises and then falls between two places is largest, and that value; an end counts as any other
+/// place.
 pub fn maximum(mut of: impl FnMut(f64) -> f64, [low, high]: [f64; 2]) -> (f64, f64) {
     let (mut left, mut right) = (low, high);
     let mut inner = [right - GOLDEN * (right - left), left + GOLDEN * (right - left)];

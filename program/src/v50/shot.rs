@@ -9,6 +9,7 @@ use crate::explicit::judgement::{Finding, verdict};
 use crate::fabric::run::StruckPanel;
 use crate::fabric::summary::Figures;
 use crate::impact::run::StruckYarn;
+use crate::struck::pace::Estimate;
 use crate::struck::run::{self, End, Observer};
 use crate::struck::sample::Sample;
 use crate::{fabric, impact};
@@ -60,6 +61,9 @@ impl Ended {
 pub trait Watch: Sync {
     fn progress(&self, shot: &Shot, fraction: f64);
     fn interrupts(&self) -> bool;
+
+    /// How long the shot will take, once; told in a thread of the pool that it has.
+    fn estimate(&self, _shot: &Shot, _estimate: &Estimate) {}
 }
 
 struct Watcher<'a> {
@@ -70,6 +74,10 @@ struct Watcher<'a> {
 impl<E> Observer<E> for Watcher<'_> {
     fn progress(&mut self, fraction: f64, _: &Sample<E>, _: f64) {
         self.watch.progress(self.shot, fraction);
+    }
+
+    fn estimate(&mut self, estimate: &Estimate) {
+        self.watch.estimate(self.shot, estimate);
     }
 
     fn interrupts(&self) -> bool {
@@ -108,8 +116,8 @@ pub fn weights(scene: &Scene) -> Result<String, Error> {
     }
 }
 
-/// Fires a shot, in the threads of the pool that this is called in; none where it was interrupted. A shot that ends with an error, or in
-/// which the program fails, has ended too.
+/// Fires a shot, in the threads of the pool that this is called in; none where it was interrupted. A shot that ends
+/// with an error, or in which the program fails, has ended too.
 pub fn fire(scene: &Scene, shot: &Shot, watch: &dyn Watch) -> Option<Ended> {
     // Of a shot that fails nothing is used again.
     let struck = catch_unwind(AssertUnwindSafe(|| strike(scene, shot, &mut Watcher { watch, shot })));

@@ -1,4 +1,5 @@
-//! Experiments that are simulated: how often the intervals hold what they should, and how often there is nothing to hold.
+//! Experiments that are simulated: how often the intervals hold what they should, and how often there is nothing to
+//! hold.
 
 use rayon::prelude::*;
 
@@ -52,10 +53,12 @@ pub struct Coverage {
     /// How often no curve rises, and how often all shots had the same fate.
     pub level: f64,
     pub one_fate: f64,
-    /// The mean of V50 less the true one, and its standard deviation, where there are a value and two; over the true deviation.
+    /// The mean of V50 less the true one, and its standard deviation, where there are a value and two; over the true
+    /// deviation.
     pub bias: Option<f64>,
     pub error: Option<f64>,
-    /// The middle one of the widths of V50's intervals over the true deviation; one without an end is wider than all others.
+    /// The middle one of the widths of V50's intervals over the true deviation; one without an end is wider than all
+    /// others.
     pub width: Option<f64>,
 }
 
@@ -120,7 +123,8 @@ mod tests {
         Experiment { design, shots, range: RANGE, scatter: 1.0 }
     }
 
-    /// The share of perforations at a speed is the truth's, and the shots of an experiment depend on nothing but its number.
+    /// The share of perforations at a speed is the truth's, and the shots of an experiment depend on nothing but its
+    /// number.
     #[test]
     fn fates_follow_the_truth() {
         for link in Link::BOTH {
@@ -161,7 +165,8 @@ mod tests {
         assert!((6.0..14.0).contains(&least), "{least}");
     }
 
-    /// With many shots the intervals hold what they should nearly as often as they say; with few separation is frequent.
+    /// With many shots the intervals hold what they should nearly as often as they say; with few separation is
+    /// frequent.
     #[test]
     fn intervals_hold_nearly_as_often_as_they_say() {
         let truth = Truth { link: Link::Probit, v50: 103.0, deviation: 10.0 };

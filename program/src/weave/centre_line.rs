@@ -1,7 +1,8 @@
 //! Arc lengths along the yarns of a weave, whatever its mesh.
 //!
-//! The centre line that a mesh has is a polygon, whose amplitude depends on the mesh. This one is the curve behind it: along the outline
-//! of the crossed yarn and its tangent, with the amplitude at which straight yarns lie upon each other.
+//! The centre line that a mesh has is a polygon, whose amplitude depends on the mesh. This one is the curve behind it:
+//! along the outline of the crossed yarn and its tangent, with the amplitude at which straight yarns lie upon each
+//! other.
 
 use super::geometry::{Family, Weave, profile};
 use super::panel::{Centre, Panel};
@@ -43,7 +44,8 @@ impl CentreLines<'_> {
         self.beyond_crossing(yarn, self.origin + place) - self.beyond_crossing(yarn, self.origin)
     }
 
-    /// The arc lengths of a yarn's ends, where the outline cuts it: also of that part of a quarter's which is a mirror image.
+    /// The arc lengths of a yarn's ends, where the outline cuts it: also of that part of a quarter's which is a mirror
+    /// image.
     pub fn ends(&self, panel: &Panel, yarn: i64, coordinate: f64) -> [f64; 2] {
         panel.interval(self.family, coordinate).map(|end| self.arc(yarn, end))
     }

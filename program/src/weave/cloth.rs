@@ -80,6 +80,14 @@ impl Cloth {
         }
     }
 
+    /// What to say of yarns that the mesh makes too long or too short.
+    pub fn crimp(&self) -> &[String] {
+        match self {
+            Cloth::Woven(layup) => &layup.crimp,
+            Cloth::Foreign(foreign) => &foreign.crimp,
+        }
+    }
+
     /// Elements that reach into another yarn.
     pub fn overlapping(&self) -> &[usize] {
         match self {
@@ -88,8 +96,8 @@ impl Cloth {
         }
     }
 
-    /// The edges of the cell by which the ply that is struck repeats itself: along its warp and along its weft. The pattern of a mesh is
-    /// not known, and taken for plain.
+    /// The edges of the cell by which the ply that is struck repeats itself: along its warp and along its weft. The
+    /// pattern of a mesh is not known, and taken for plain.
     pub fn cell(&self) -> [[f64; 2]; 2] {
         match self {
             Cloth::Woven(layup) => {
@@ -103,7 +111,8 @@ impl Cloth {
         }
     }
 
-    /// That a place is within the panel's outline; of a mesh, whose outline is not known, within the box about its nodes.
+    /// That a place is within the panel's outline; of a mesh, whose outline is not known, within the box about its
+    /// nodes.
     ///
     /// # Errors
     /// It lies outside: what is allowed.

@@ -1,9 +1,10 @@
-//! Where a panel is meshed coarsely: beyond a distance from the centre, with sections of 2 × 1 or 2 × 2 elements, two layers of which
-//! reach from a crossing to the next.
+//! Where a panel is meshed coarsely: beyond a distance from the centre, with sections of 2 × 1 or 2 × 2 elements, two
+//! layers of which reach from a crossing to the next.
 //!
-//! A crossing is fine or coarse for both of its yarns. A yarn changes from one to the other half way between crossings, where it
-//! touches nothing: there the nodes of the fine section lie on the coarse one, and are tied to its corners. The coarse centre line
-//! is as long between these places as the fine one, so that the yarn has as much to straighten, and its section has the same area.
+//! A crossing is fine or coarse for both of its yarns. A yarn changes from one to the other half way between crossings,
+//! where it touches nothing: there the nodes of the fine section lie on the coarse one, and are tied to its corners.
+//! The coarse centre line is as long between these places as the fine one, so that the yarn has as much to straighten,
+//! and its section has the same area.
 
 use super::geometry::{Family, Geometry, Weave};
 use super::mesh::lines;
@@ -12,7 +13,8 @@ use crate::explicit::tie::Tie;
 
 /// Columns of a coarse section.
 pub const COLUMNS: usize = 2;
-/// The most rows that it may have, and those where the file does not say: with one the bending of a yarn is left to hourglass control.
+/// The most rows that it may have, and those where the file does not say: with one the bending of a yarn is left to
+/// hourglass control.
 pub const ROWS: usize = 2;
 
 /// Where the mesh is coarse, and how many rows a section has there.
@@ -142,8 +144,9 @@ impl CentreLine {
     }
 }
 
-/// The height of the coarse centre line at a station: the fine one's half way between crossings; at a crossing that which makes it as
-/// long as the fine one from half a pitch before to half a pitch behind; in between, where a yarn may end, on the line between these.
+/// The height of the coarse centre line at a station: the fine one's half way between crossings; at a crossing that
+/// which makes it as long as the fine one from half a pitch before to half a pitch behind; in between, where a yarn may
+/// end, on the line between these.
 fn coarse_centre(geometry: &Geometry, family: Family, number: i64, station: i64) -> f64 {
     let (along, half) = (geometry.weave.along as i64, geometry.weave.along as i64 / 2);
     let [before, beyond] = [station.div_euclid(half) * half, station.rem_euclid(half)];
@@ -171,8 +174,8 @@ fn coarse_centre(geometry: &Geometry, family: Family, number: i64, station: i64)
     middle + (fine(station) - middle).signum() * square.sqrt()
 }
 
-/// Ties the nodes of a fine section to the corners of the coarse one in the same place; each with its columns and rows and the
-/// number of its first node.
+/// Ties the nodes of a fine section to the corners of the coarse one in the same place; each with its columns and rows
+/// and the number of its first node.
 pub fn ties(place: &Place, fine: ([usize; 2], usize), coarse: ([usize; 2], usize)) -> Vec<Tie> {
     let ([columns, rows], fine) = fine;
     let ([coarse_columns, coarse_rows], coarse) = coarse;

@@ -11,13 +11,13 @@ use crate::common::units::number;
 
 /// The crimp of a mesh may differ by this from that of the weave. It is a strain; in the panel of the tutorial, struck
 /// at 25 m/s, 0.6 % of slack make the deflection 18 % larger, in proportion this 7 %.
-const LARGEST: f64 = 0.0025;
+pub const LARGEST: f64 = 0.0025;
 /// Meshes that are tried for an advice, by elements along a yarn from a crossing to the next, and across its section.
 /// The last one stands for the weave: finer ones have hardly another crimp.
 const MESHES: [[usize; 2]; 8] = [[6, 4], [6, 6], [8, 6], [10, 8], [12, 10], [16, 12], [24, 18], [32, 24]];
 
 /// The length of yarns over that of the panel which they cross, less 1; of warp and weft.
-type Crimp = [f64; 2];
+pub type Crimp = [f64; 2];
 
 fn meshed(geometry: &Geometry) -> Crimp {
     Family::BOTH.map(|family| geometry.crimp(family))
@@ -38,8 +38,13 @@ fn smooth(weave: &Weave) -> Crimp {
     })
 }
 
-fn differ(one: Crimp, other: Crimp) -> bool {
+pub fn differ(one: Crimp, other: Crimp) -> bool {
     one.iter().zip(other).any(|(one, other)| (one - other).abs() > LARGEST)
+}
+
+/// Of warp and weft.
+pub fn percent(crimp: Crimp) -> String {
+    crimp.map(|crimp| format!("{} %", number(100.0 * crimp))).join(" and ")
 }
 
 /// What to say of a mesh whose yarns are too long or too short, and which one will do.
@@ -57,7 +62,6 @@ pub fn warning(geometry: &Geometry) -> Option<String> {
         Some([along, columns]) => format!("take along = {along} and columns = {columns}"),
         None => "take more elements along and columns".to_string(),
     };
-    let percent = |crimp: Crimp| crimp.map(|crimp| format!("{} %", number(100.0 * crimp))).join(" and ");
     Some(format!(
         "with along = {} and columns = {} the yarns of warp and weft have a crimp of {},\n\
          and with a fine mesh {}, more than {} % apart: yarns that are too long are slack at first: {advice}",

@@ -32,8 +32,8 @@ pub fn along_the_warp(model: &Model, plane: f64) -> Vec<Piece> {
     elements.filter_map(|element| piece(model, element, 1, plane)).collect()
 }
 
-/// y of the axis of the warp yarn along x that is nearest to y = 0, but for a little by which the plane misses its nodes; none where
-/// all plies are turned.
+/// y of the axis of the warp yarn along x that is nearest to y = 0, but for a little by which the plane misses its
+/// nodes; none where all plies are turned.
 pub fn warp_axis(model: &Model) -> Option<f64> {
     let warps = model.yarns.iter().filter(|yarn| yarn.family == Family::Warp && is_along(model, yarn, 0));
     let nearest = warps.min_by(|a, b| a.coordinate.abs().total_cmp(&b.coordinate.abs()));

@@ -88,7 +88,8 @@ pub struct PlyFile {
 }
 
 impl PlyFile {
-    /// The material of a family in this ply, where `weave` is the table `[weave]`: the ply's own key goes before the weave's.
+    /// The material of a family in this ply, where `weave` is the table `[weave]`: the ply's own key goes before the
+    /// weave's.
     pub fn material(&self, weave: &WeaveFile, family: Family) -> Option<Spanned<MaterialFile>> {
         let own = self.weave.as_ref().and_then(|own| own.get_ref().material(family));
         let own = over(&own, &self.material, MaterialFile::over);

@@ -53,12 +53,14 @@ impl Weave {
         self.thread(family.other()).pitch / self.along as f64
     }
 
-    /// The amplitude of straight yarns that lie upon each other, which needs no mesh; those that bend have hardly another.
+    /// The amplitude of straight yarns that lie upon each other, which needs no mesh; those that bend have hardly
+    /// another.
     pub(super) fn flat_amplitude(&self) -> f64 {
         0.25 * (self.threads[0].height + self.threads[1].height) + 0.5 * self.clearance
     }
 
-    /// The same weave turned by a right angle, where its pattern is its own mirror image by planes normal to x and to y.
+    /// The same weave turned by a right angle, where its pattern is its own mirror image by planes normal to x and to
+    /// y.
     pub fn exchanged(&self) -> Weave {
         let [warp, weft] = self.threads;
         Weave { pattern: self.pattern.exchanged(), threads: [weft, warp], ..self.clone() }
@@ -101,10 +103,10 @@ impl Weave {
 
 /// A weave whose centre lines have an amplitude.
 ///
-/// Station k of a yarn is k elements from the crossing with the yarn numbered 0. A section stands upright there, and its
-/// height is the yarn's over the cosine of the centre line's slope: across the fibre it is the yarn's own, and the mesh has
-/// the volume of area times length. Upright columns make both yarns of a crossing meet in faces that are nearly parallel
-/// everywhere: one rises over the other's outline as its own outline falls.
+/// Station k of a yarn is k elements from the crossing with the yarn numbered 0. A section stands upright there, and
+/// its height is the yarn's over the cosine of the centre line's slope: across the fibre it is the yarn's own, and the
+/// mesh has the volume of area times length. Upright columns make both yarns of a crossing meet in faces that are
+/// nearly parallel everywhere: one rises over the other's outline as its own outline falls.
 #[derive(Clone, Debug)]
 pub struct Geometry {
     pub weave: Weave,
@@ -183,8 +185,8 @@ impl Geometry {
     }
 }
 
-/// Heights from a crossing to where the yarn is half way to the other side: along the outline of the crossed yarn, which
-/// it lies on, then along the tangent that reaches height 0 there.
+/// Heights from a crossing to where the yarn is half way to the other side: along the outline of the crossed yarn,
+/// which it lies on, then along the tangent that reaches height 0 there.
 pub(super) fn profile(crossed: &Thread, half_width: f64, steps: usize, amplitude: f64) -> Vec<f64> {
     let half_pitch = 0.5 * crossed.pitch;
     let outline = |x: f64| amplitude - 0.5 * crossed.height + crossed.half_height(x / half_width);

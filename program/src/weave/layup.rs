@@ -1,5 +1,6 @@
 //! Plies of woven fabric, one below another.
 
+use super::crimp;
 use super::model::{Crossing, Face, Model, Yarn};
 use super::panel::{Part, Turn};
 use super::reader::Woven;
@@ -20,6 +21,9 @@ pub struct Layup {
     pub plies: Vec<Ply>,
     /// The least distance of yarns at rest, in a ply or of two.
     pub clearance: f64,
+    /// What to say of plies whose yarns the mesh makes too long or too short: known from here on, since it takes nine
+    /// weaves that are solved, and cases and shots share what they strike.
+    pub crimp: Vec<String>,
 }
 
 /// A ply on its way into the layup: `distance` is that from the ply above.
@@ -42,9 +46,10 @@ impl Ply {
 }
 
 impl Layup {
-    /// Lays each ply below the ones before it, with that distance between their nearest nodes' heights; that of the first is nothing.
+    /// Lays each ply below the ones before it, with that distance between their nearest nodes' heights; that of the
+    /// first is nothing.
     pub fn new(plies: Vec<Laid>) -> Layup {
-        let mut layup = Layup { plies: Vec::with_capacity(plies.len()), clearance: f64::INFINITY };
+        let mut layup = Layup { plies: Vec::with_capacity(plies.len()), clearance: f64::INFINITY, crimp: Vec::new() };
         let several = plies.len() > 1;
         let mut above: Option<f64> = None;
         for Laid { woven, angle, distance } in plies {
@@ -60,7 +65,20 @@ impl Layup {
             }
             layup.plies.push(Ply { woven, angle, height });
         }
+        layup.crimp = layup.crimp_warnings();
         layup
+    }
+
+    /// Each once, as each weave is looked at.
+    fn crimp_warnings(&self) -> Vec<String> {
+        let mut warnings: Vec<String> = Vec::new();
+        for (number, ply) in self.plies.iter().enumerate() {
+            let geometry = &ply.woven.geometry;
+            let known = self.plies[..number].iter().any(|above| above.woven.geometry.weave == geometry.weave);
+            let found = if known { None } else { crimp::warning(geometry) };
+            warnings.extend(found.filter(|text| !warnings.contains(text)));
+        }
+        warnings
     }
 
     /// The mesh of all plies.

@@ -144,8 +144,8 @@ impl Model {
         }
     }
 
-    /// Adds the nodes of a section, line by line, each from below, at a place along the yarn and a height; `upright` is what an upright
-    /// height is of one across the fibre.
+    /// Adds the nodes of a section, line by line, each from below, at a place along the yarn and a height; `upright` is
+    /// what an upright height is of one across the fibre.
     fn add_section(
         &mut self,
         place: &Place,
@@ -164,7 +164,8 @@ impl Model {
         }
     }
 
-    /// A yarn ends at the edge, or on a plane of symmetry that it crosses; one that lies on such a plane has its cut there.
+    /// A yarn ends at the edge, or on a plane of symmetry that it crosses; one that lies on such a plane has its cut
+    /// there.
     fn add_to_sets(&mut self, yarn: &Yarn, part: Part) {
         let [start, end] = &yarn.ends;
         self.rim.extend(end);
@@ -205,8 +206,8 @@ impl Model {
     }
 }
 
-/// The upright lines of a section that are meshed. The half on the side where x and y are positive is the first of a warp
-/// yarn, whose axis across is -y, and the second of a weft yarn.
+/// The upright lines of a section that are meshed. The half on the side where x and y are positive is the first of a
+/// warp yarn, whose axis across is -y, and the second of a weft yarn.
 pub fn lines(place: &Place, columns: usize) -> Range<usize> {
     match (place.halved, place.family) {
         (false, _) => 0..columns + 1,

@@ -1,8 +1,8 @@
-//! `toron weave`: woven panels meshed with hexahedra, for the explicit host and for decks of solvers. `docs/guides/fabric.md` has the
-//! keys of a scene.
+//! `toron weave`: woven panels meshed with hexahedra, for the explicit host and for decks of solvers.
+//! `docs/guides/fabric.md` has the keys of a scene.
 //!
-//! It is geometry alone: nodes, elements, fibre directions, faces that can touch, and sets of nodes. Warp yarns run along x,
-//! weft yarns along y, z goes through the thickness.
+//! It is geometry alone: nodes, elements, fibre directions, faces that can touch, and sets of nodes. Warp yarns run
+//! along x, weft yarns along y, z goes through the thickness.
 
 pub mod centre_line;
 pub mod cloth;

@@ -38,8 +38,8 @@ pub struct Yarn {
     /// From the struck side.
     pub ply: usize,
     pub family: Family,
-    /// Its number in the pattern, 0 at the origin or next to it, and its place: y of a warp yarn, x of a weft yarn, before the ply is
-    /// turned.
+    /// Its number in the pattern, 0 at the origin or next to it, and its place: y of a warp yarn, x of a weft yarn,
+    /// before the ply is turned.
     pub number: i64,
     pub coordinate: f64,
     /// Cut along its axis by a plane of symmetry: half of the columns are there.
@@ -128,9 +128,10 @@ pub struct Crossing {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Model {
     pub nodes: Vec<[f64; 3]>,
-    /// Corner c of an element stands on the upper side of its axis i where bit i of c is set: axis 0 along the yarn (x of
-    /// the warp, y of the weft), 1 upwards, 2 across (-y of the warp, x of the weft). Yarn by yarn; those of a grid layer by layer.
-    /// Of a wedge two corners that axis 0 does not join are the same node, and so are those across from them.
+    /// Corner c of an element stands on the upper side of its axis i where bit i of c is set: axis 0 along the yarn (x
+    /// of the warp, y of the weft), 1 upwards, 2 across (-y of the warp, x of the weft). Yarn by yarn; those of a grid
+    /// layer by layer. Of a wedge two corners that axis 0 does not join are the same node, and so are those across from
+    /// them.
     pub elements: Vec<[u32; 8]>,
     /// The unit direction of each element's fibres: that of the centre line, as it is meshed, at the element's middle.
     pub fibre: Vec<[f64; 3]>,

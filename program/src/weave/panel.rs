@@ -132,7 +132,8 @@ impl Panel {
         pitch * (number as f64 + if self.centre == Centre::Gap { 0.5 } else { 0.0 })
     }
 
-    /// The number of a station less that of the same one in the pattern, counted from the first crossing instead of the origin.
+    /// The number of a station less that of the same one in the pattern, counted from the first crossing instead of the
+    /// origin.
     pub fn shift(&self, weave: &Weave) -> i64 {
         if self.centre == Centre::Gap { weave.along as i64 / 2 } else { 0 }
     }

@@ -1,5 +1,5 @@
-//! A panel seen from some direction, without perspective: what is nearer hides what is farther, and light from the eye's upper
-//! left shows slopes.
+//! A panel seen from some direction, without perspective: what is nearer hides what is farther, and light from the
+//! eye's upper left shows slopes.
 
 use nalgebra::Vector3;
 use plotters::prelude::*;
@@ -50,7 +50,8 @@ pub fn light(eye: &Eye, normal: [f64; 3]) -> f64 {
     Vector3::from(eye.see(normal)).dot(&Vector3::from(LIGHT))
 }
 
-/// Draws the images of these sides that face the eye. An image has the signs of its axes: `[-1, 1]` is the mirror image at x = 0.
+/// Draws the images of these sides that face the eye. An image has the signs of its axes: `[-1, 1]` is the mirror image
+/// at x = 0.
 pub fn draw(
     raster: &mut Raster,
     eye: &Eye,

@@ -1,7 +1,5 @@
 //! A weave and its panel from a TOML file. `docs/guides/fabric.md` has the keys.
 
-use crate::material::file::read_material;
-use crate::weave::cloth::read_cloth;
 use std::ops::Range;
 use std::path::Path;
 
@@ -18,8 +16,10 @@ use super::pattern::Pattern;
 use super::preset::{ALONG, CLEARANCE, COLUMNS, PRESETS, Preset, ROWS};
 use super::section::{Section, Thread};
 use crate::common::units::{self, LENGTH};
+use crate::material::file::read_material;
 use crate::material::laws::Laws;
 use crate::material::model::Material;
+use crate::weave::cloth::read_cloth;
 use toron::host::units::UnitSystem;
 use toron_shared::error::Error;
 use toron_shared::toml_file::{self, Source};
@@ -99,8 +99,8 @@ impl Scene {
     }
 }
 
-/// The table `[weave]` and the tables `[[ply]]`: none is one ply. `case` is the place of what a case has otherwise: what does not
-/// go together is then its mistake.
+/// The table `[weave]` and the tables `[[ply]]`: none is one ply. `case` is the place of what a case has otherwise:
+/// what does not go together is then its mistake.
 pub fn layup(
     source: &Source<'_>,
     table: &Spanned<WeaveFile>,

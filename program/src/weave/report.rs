@@ -3,7 +3,6 @@
 use std::fmt::Write;
 
 use super::cloth::Cloth;
-use super::crimp;
 use super::figures::Figures;
 use super::foreign::reader::Foreign;
 use super::layup::Ply;
@@ -89,7 +88,7 @@ pub fn report(scene: &Scene, model: &Model) -> String {
         Some(weight) => weight.warnings(&scene.units),
         None => section_warnings(&figures[ply], scene.cloth.pitches()[ply], &scene.units),
     });
-    let of_crimp = plies.iter().filter_map(|ply| crimp::warning(&ply.woven.geometry));
+    let of_crimp = scene.cloth.crimp().iter().cloned();
     let mut warnings: Vec<String> = Vec::new();
     for warning in of_mesh.into_iter().chain(of_crimp).chain(of_waves).chain(of_weights) {
         if !warnings.contains(&warning) {

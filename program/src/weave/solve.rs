@@ -1,4 +1,5 @@
-//! The amplitude of the centre lines: that which leaves the stated clearance between the meshed faces of crossing yarns.
+//! The amplitude of the centre lines: that which leaves the stated clearance between the meshed faces of crossing
+//! yarns.
 
 use std::collections::BTreeSet;
 

@@ -14,8 +14,8 @@ pub struct Visible {
     pub normal: Vector3<f64>,
 }
 
-/// The sides of the intact elements that are seen with the nodes at these positions; with them the yarns' ends, which stand
-/// upright at rest.
+/// The sides of the intact elements that are seen with the nodes at these positions; with them the yarns' ends, which
+/// stand upright at rest.
 pub fn visible(model: &Model, positions: &[[f64; 3]], intact: impl Fn(usize) -> bool) -> Vec<Visible> {
     let shown: Vec<usize> = (0..model.elements.len()).filter(|&number| intact(number)).collect();
     let elements: Vec<[u32; 8]> = shown.iter().map(|&number| model.elements[number]).collect();

@@ -1,6 +1,5 @@
 //! The mesh as a whole: no yarn goes into another, and all are as far apart as was asked for.
 
-use crate::weave::reader::layup;
 use std::collections::HashSet;
 
 use serde::Deserialize;
@@ -17,6 +16,7 @@ use super::pattern::Pattern;
 use super::preset::Preset;
 use super::reader::Scene;
 use super::section::{Section, Thread};
+use crate::weave::reader::layup;
 use toron::host::units::UnitSystem;
 use toron_shared::toml_file::Source;
 
@@ -291,7 +291,8 @@ struct Both {
     own: Spanned<WeaveFile>,
 }
 
-/// A case's keys stand over the scene's one by one; a preset of its own brings its yarns, and a shape of its own has its own size.
+/// A case's keys stand over the scene's one by one; a preset of its own brings its yarns, and a shape of its own has
+/// its own size.
 #[test]
 fn a_case_s_weave_goes_over_the_scene_s() {
     const KEYS: [&str; 16] = [

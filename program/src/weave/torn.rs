@@ -2,8 +2,9 @@
 
 use super::model::{Piece, Yarn};
 
-/// Whether nothing joins a yarn's ends any more. Of a grid, in some piece of the yarn, every line of elements along it has lost one; else
-/// no way leads from one end to the other over intact elements that share nodes. Elements and their nodes are numbered in the yarn.
+/// Whether nothing joins a yarn's ends any more. Of a grid, in some piece of the yarn, every line of elements along it
+/// has lost one; else no way leads from one end to the other over intact elements that share nodes. Elements and their
+/// nodes are numbered in the yarn.
 pub fn is_torn(yarn: &Yarn, elements: &[[u32; 8]], intact: impl Fn(usize) -> bool) -> bool {
     if yarn.pieces.is_empty() {
         return ends_are_apart(yarn, elements, intact);
@@ -40,15 +41,15 @@ pub fn pieces(nodes: usize, elements: &[[u32; 8]]) -> usize {
     (0..nodes as u32).filter(|&node| groups.of(node) == node).count()
 }
 
-/// Nodes that are joined have one number.
-struct Groups(Vec<u32>);
+/// Nodes that are joined have one number, that of one of them.
+pub struct Groups(Vec<u32>);
 
 impl Groups {
-    fn new(count: usize) -> Groups {
+    pub fn new(count: usize) -> Groups {
         Groups((0..count as u32).collect())
     }
 
-    fn of(&mut self, mut node: u32) -> u32 {
+    pub fn of(&mut self, mut node: u32) -> u32 {
         while self.0[node as usize] != node {
             let next = self.0[node as usize];
             self.0[node as usize] = self.0[next as usize];
@@ -57,7 +58,7 @@ impl Groups {
         node
     }
 
-    fn join(&mut self, a: u32, b: u32) {
+    pub fn join(&mut self, a: u32, b: u32) {
         let (a, b) = (self.of(a), self.of(b));
         self.0[a.max(b) as usize] = a.min(b);
     }

@@ -3,7 +3,8 @@
 use super::model::Model;
 use crate::common::vtk::{self, array, doubles};
 
-/// The text of a VTU file, in double precision so that a scene reads the same mesh from it; each cell has the number of its yarn from 0, its family (0 warp, 1 weft) and its fibre direction.
+/// The text of a VTU file, in double precision so that a scene reads the same mesh from it; each cell has the number of
+/// its yarn from 0, its family (0 warp, 1 weft) and its fibre direction.
 pub fn unstructured_grid(model: &Model) -> String {
     let mut cell_data = String::new();
     let yarns = || model.yarns.iter().enumerate();

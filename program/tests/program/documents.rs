@@ -455,6 +455,29 @@ fn links_lead_somewhere() {
     assert!(links > 50, "{links} links");
 }
 
+/// An installation has no folder docs: what the program says, and what it writes into decks, names no file there.
+#[test]
+fn no_message_points_at_a_file_of_the_sources() {
+    let mut folders = vec![Path::new(ROOT).join("program/src")];
+    let mut lines = 0;
+    while let Some(folder) = folders.pop() {
+        for entry in std::fs::read_dir(folder).expect("a folder").flatten() {
+            let path = entry.path();
+            if path.is_dir() {
+                folders.push(path);
+            } else if path.extension().is_some_and(|ending| ending == "rs") {
+                let text = std::fs::read_to_string(&path).expect("a source");
+                for line in text.lines().filter(|line| !line.trim_start().starts_with("//")) {
+                    let is_message = line.contains("docs/") && !line.contains("include_str!");
+                    assert!(!is_message, "{}: {line}", path.display());
+                    lines += 1;
+                }
+            }
+        }
+    }
+    assert!(lines > 10_000, "{lines} lines");
+}
+
 /// Rows of the table of symbols: `| no | symbol | meaning | `name` | `file` |`.
 #[test]
 fn symbols_have_the_names_that_they_are_said_to_have() {

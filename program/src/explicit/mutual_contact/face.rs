@@ -46,7 +46,8 @@ pub struct Query {
     point: Vector,
     /// The face that it came from, or `NONE`.
     before: u32,
-    /// `None` where the point lies beyond the surface's border, deleted faces being beyond it, or where the face has shrunk to a line.
+    /// `None` where the point lies beyond the surface's border, deleted faces being beyond it, or where the face has
+    /// shrunk to a line.
     pub met: Option<Met>,
 }
 
@@ -92,8 +93,9 @@ impl Query {
 }
 
 impl Place {
-    /// The place next to this one on the edge of the neighbour, given by the edge's number on either side; edges run counter-clockwise from
-    /// corner to corner, so that the neighbour's runs the other way. Its centre where the neighbour does not know this face.
+    /// The place next to this one on the edge of the neighbour, given by the edge's number on either side; edges run
+    /// counter-clockwise from corner to corner, so that the neighbour's runs the other way. Its centre where the
+    /// neighbour does not know this face.
     fn beyond(self, edge: usize, of_neighbour: Option<usize>) -> Place {
         let Place { xi, eta } = self;
         let along = -[xi, eta, -xi, -eta][edge].clamp(-1.0, 1.0);
@@ -329,8 +331,9 @@ impl Patch {
         AllMet { depth: dot(away, normal), normal, weights, size }
     }
 
-    /// At an edge, where the distance is not along the face's normal: the force is along the distance, so that it turns from one
-    /// face's normal to the other's and does not jump. The point is inside if it is so by the mean of this normal and that beside it.
+    /// At an edge, where the distance is not along the face's normal: the force is along the distance, so that it turns
+    /// from one face's normal to the other's and does not jump. The point is inside if it is so by the mean of this
+    /// normal and that beside it.
     #[inline(always)]
     fn met_at_edge(&self, place: [Lanes<f64>; 2], point: Vectors, beside: &AllMet) -> AllMet {
         let mut met = self.met(place, point);
@@ -402,7 +405,8 @@ mod tests {
         Surface::new(&mesh, faces.to_vec(), vec![0; faces.len()])
     }
 
-    /// Two faces that meet in an edge along axis 2 at this height over their outer edges; outside is where axis 1 points.
+    /// Two faces that meet in an edge along axis 2 at this height over their outer edges; outside is where axis 1
+    /// points.
     fn folded(height: f64) -> Surface {
         let nodes = [-1.0, 0.0, 1.0].map(|x| [0.0, 1.0].map(|z| [x, if x == 0.0 { height } else { 0.0 }, z]));
         surface(nodes.as_flattened(), &[[0, 1, 3, 2], [2, 3, 5, 4]])
@@ -470,7 +474,8 @@ mod tests {
 
     #[test]
     fn queries_side_by_side_have_the_answers_of_each_alone() {
-        // Two ridges, of which the second has lost a face; points over faces, at edges, at corners and beyond the border.
+        // Two ridges, of which the second has lost a face; points over faces, at edges, at corners and beyond the
+        // border.
         let mut surfaces = [folded(0.4), folded(3.0)];
         surfaces[1].state.gone[1] = true;
         let surfaces: Vec<&Surface> = surfaces.iter().collect();

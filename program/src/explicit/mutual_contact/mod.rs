@@ -1,12 +1,14 @@
-//! Contact of bodies with one another: the nodes of each surface against the faces of the others, by a penalty and Coulomb
-//! friction.
+//! Contact of bodies with one another: the nodes of each surface against the faces of the others, by a penalty and
+//! Coulomb friction.
 //!
-//! Both sides are treated alike: where two surfaces overlap, the nodes of either are pressed out of the other, each with half of
-//! the stiffness. A node's force is divided among the face's corners in the proportion of its place on the face, so that
-//! momentum is kept to rounding. On a rigid wall it is the others' nodes alone, with the whole stiffness and no friction. Which nodes
-//! are near which faces is found anew where something may have come near that was not, or a face has gone.
+//! Both sides are treated alike: where two surfaces overlap, the nodes of either are pressed out of the other, each
+//! with half of the stiffness. A node's force is divided among the face's corners in the proportion of its place on the
+//! face, so that momentum is kept to rounding. On a rigid wall it is the others' nodes alone, with the whole stiffness
+//! and no friction. Which nodes are near which faces is found anew where something may have come near that was not, or
+//! a face has gone.
 //!
-//! Bodies are worked on in parallel, and their sums taken in their order: the result has the same bits on any number of threads.
+//! Bodies are worked on in parallel, and their sums taken in their order: the result has the same bits on any number of
+//! threads.
 
 #![expect(clippy::needless_range_loop, reason = "loops over the components of vectors")]
 
@@ -46,9 +48,11 @@ pub struct Parameters {
 }
 
 impl Parameters {
-    /// Which of these places is nearest to its point; `None` if none of them can come into contact before the next search.
+    /// Which of these places is nearest to its point; `None` if none of them can come into contact before the next
+    /// search.
     ///
-    /// A point beyond the surface's border has no depth. It may come back, and takes any of the faces where no other one is near.
+    /// A point beyond the surface's border has no depth. It may come back, and takes any of the faces where no other
+    /// one is near.
     fn nearest<'a>(&self, places: &'a [Query]) -> Option<&'a Query> {
         let mut nearest = None;
         let mut least = f64::INFINITY;
@@ -354,8 +358,9 @@ impl MutualContact {
         }
     }
 
-    /// Gives every body what others' nodes exert on its faces, and bounds the frequency: no eigenvalue of M⁻¹K is larger than the
-    /// largest sum over a row of sizes. A spring between a node and a face has the sizes 1 and, over the corners, again 1.
+    /// Gives every body what others' nodes exert on its faces, and bounds the frequency: no eigenvalue of M⁻¹K is
+    /// larger than the largest sum over a row of sizes. A spring between a node and a face has the sizes 1 and, over
+    /// the corners, again 1.
     fn collect<T: Number>(&mut self, bodies: &mut [Body<T>]) {
         let mut taken: Vec<Vec<f64>> = self.sides.iter_mut().map(|side| std::mem::take(&mut side.touching)).collect();
         let sides = &self.sides;
@@ -388,8 +393,8 @@ impl MutualContact {
         }
     }
 
-    /// Takes the faces of a body's deleted elements and its loose nodes out; the balance keeps what was stored in them. What was near a
-    /// face that is gone may be near another one: the next step looks for it.
+    /// Takes the faces of a body's deleted elements and its loose nodes out; the balance keeps what was stored in them.
+    /// What was near a face that is gone may be near another one: the next step looks for it.
     pub fn remove<T: Number>(&mut self, number: usize, body: &Body<T>) {
         let side = &mut self.sides[number];
         side.surface.remove(body);

@@ -1,9 +1,10 @@
-//! How far parts of bodies have moved against one another: what was apart cannot touch before that is as much as the gap.
+//! How far parts of bodies have moved against one another: what was apart cannot touch before that is as much as the
+//! gap.
 //!
-//! A body is cut into slabs along the direction in which it is largest, at rest. A face's corners lie in its slab and the ones beside
-//! it, and so do those of the faces around it. In every step each slab has a box around its nodes' motions; two slabs have
-//! moved against each other by no more than what is between the farthest ends of their boxes. A panel that goes down as one has
-//! moved far and its yarns hardly against each other.
+//! A body is cut into slabs along the direction in which it is largest, at rest. A face's corners lie in its slab and
+//! the ones beside it, and so do those of the faces around it. In every step each slab has a box around its nodes'
+//! motions; two slabs have moved against each other by no more than what is between the farthest ends of their boxes. A
+//! panel that goes down as one has moved far and its yarns hardly against each other.
 
 use std::ops::Range;
 
@@ -20,8 +21,8 @@ const SOON: f64 = 0.5;
 /// Pairs that a thread takes at a time.
 const SHARE: usize = 8192;
 
-/// Two slabs by their numbers, how far they may have moved against each other since the last search of all, and how far they may go
-/// before what was farther than the margin may touch.
+/// Two slabs by their numbers, how far they may have moved against each other since the last search of all, and how far
+/// they may go before what was farther than the margin may touch.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 struct Approach {
     slabs: [u32; 2],
@@ -131,7 +132,8 @@ impl Motion {
         for (body, surface) in surfaces.iter().enumerate() {
             places.extend(surface.places_by_slab().into_iter().map(|place| (place, body as u32)));
         }
-        // The boxes in the order of their lower ends: those near a box follow it, until one begins beyond its upper end.
+        // The boxes in the order of their lower ends: those near a box follow it, until one begins beyond its upper
+        // end.
         let mut order: Vec<u32> = (0..places.len() as u32).collect();
         order.sort_by(|&a, &b| places[a as usize].0.low[0].total_cmp(&places[b as usize].0.low[0]));
         let (places, order) = (&places[..], &order[..]);

@@ -23,11 +23,12 @@ pub struct Pair {
     /// so far against each other.
     pub slabs: u32,
     pub free_until: f64,
-    /// How deep the node is, and what of its depth does not count: it has not come through this face by so much, but past an
-    /// edge or an open end.
+    /// How deep the node is, and what of its depth does not count: it has not come through this face by so much, but
+    /// past an edge or an open end.
     pub depth: f64,
     pub uncounted: f64,
-    /// Whether it touches the face, or was outside when it was last looked at: if neither, it has not come through the face.
+    /// Whether it touches the face, or was outside when it was last looked at: if neither, it has not come through the
+    /// face.
     pub known: bool,
     /// The friction force on the node, at the end of the last step.
     pub friction: Vector,
@@ -46,8 +47,8 @@ pub struct OnFace {
 }
 
 impl Pair {
-    /// Takes over where the node of body `number` is on the face; returns the force on it, if it is inside, and what slipping has
-    /// dissipated.
+    /// Takes over where the node of body `number` is on the face; returns the force on it, if it is inside, and what
+    /// slipping has dissipated.
     pub fn update(
         &mut self,
         &Query { face, place, met, .. }: &Query,
@@ -69,7 +70,8 @@ impl Pair {
             if let (Some(met), Some(between)) = (met, between) {
                 (self.slabs, self.free_until) = (between, motion.moved(between) - met.depth);
             }
-            // What friction held, and did in the step, is lost; what the depth held has been given back, unless the face is lost as well.
+            // What friction held, and did in the step, is lost; what the depth held has been given back, unless the
+            // face is lost as well.
             let lost = match met.filter(|met| met.depth <= 0.0) {
                 Some(_) if old == [0.0; 3] => 0.0,
                 Some(met) => rub(old, self.stiffness, self.slip(own, master, met.weights), met.normal, 0.0).dissipated,
@@ -103,26 +105,28 @@ impl Pair {
         self.stiffness == 0.0
     }
 
-    /// Whether it is to be looked at: not where it has left for good, or where the node cannot have come to the part of the face's
-    /// surface that it was last nearest to.
+    /// Whether it is to be looked at: not where it has left for good, or where the node cannot have come to the part of
+    /// the face's surface that it was last nearest to.
     #[inline(always)]
     pub fn may_touch(&self, motion: &Motion) -> bool {
         let is_clear = self.free_until > 0.0 && motion.moved(self.slabs) < self.free_until;
         !self.has_left() && !is_clear
     }
 
-    /// Takes a new depth over. In a step in which node and face have moved by `slip` against each other, the depth cannot change by
-    /// more: what it jumps by, since another face is nearer now, does not count. Returns the energy that is lost where less depth is left
-    /// than counted.
+    /// Takes a new depth over. In a step in which node and face have moved by `slip` against each other, the depth
+    /// cannot change by more: what it jumps by, since another face is nearer now, does not count. Returns the energy
+    /// that is lost where less depth is left than counted.
     ///
-    /// Where the face is another one and some of the depth does not count, what counts is what the motion has stored: `pressed` by the old
-    /// face's force, and `out` of the new face. A node beside an edge goes from face to face in every other step, and no energy comes in.
+    /// Where the face is another one and some of the depth does not count, what counts is what the motion has stored:
+    /// `pressed` by the old face's force, and `out` of the new face. A node beside an edge goes from face to face in
+    /// every other step, and no energy comes in.
     fn deepen(&mut self, depth: f64, slip: f64, pressed: Option<f64>, out: f64) -> f64 {
         let before = if self.known { self.depth + self.uncounted } else { depth };
         let jumps = self.uncounted > 0.0 || (depth - before).abs() > slip;
         self.known = true;
         if let Some(pressed) = pressed.filter(|_| jumps) {
-            // The work by the trapezoidal rule of central differences, over half the stiffness, is `pressed` and `out` times the new depth.
+            // The work by the trapezoidal rule of central differences, over half the stiffness, is `pressed` and `out`
+            // times the new depth.
             let held = self.depth * self.depth - pressed;
             let kept = 0.5 * ((out * out + 4.0 * held).max(0.0).sqrt() - out);
             self.depth = kept.clamp(0.0, depth);
@@ -187,7 +191,8 @@ mod tests {
         }
     }
 
-    /// What is stored in a change of faces is the work of the old one's force and the new one's; what more was held is lost.
+    /// What is stored in a change of faces is the work of the old one's force and the new one's; what more was held is
+    /// lost.
     #[test]
     fn a_change_of_faces_stores_its_work() {
         for (depth, old_out, out) in

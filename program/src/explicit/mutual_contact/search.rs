@@ -15,10 +15,11 @@ pub struct Grid {
     entries: Vec<Entry>,
 }
 
-/// Faces of a body that are looked at for a point: at an edge the one whose centre is nearest may not be the one that is.
+/// Faces of a body that are looked at for a point: at an edge the one whose centre is nearest may not be the one that
+/// is.
 const FACES: usize = 3;
-/// Columns are as wide as this many times the mean reach of a face. Torn yarns have faces that are drawn out far: those are
-/// entered in several columns, and do not make all columns wide.
+/// Columns are as wide as this many times the mean reach of a face. Torn yarns have faces that are drawn out far: those
+/// are entered in several columns, and do not make all columns wide.
 const ORDINARY: f64 = 1.5;
 
 /// A face near a point, and the square of its centre's distance.
@@ -101,7 +102,8 @@ impl Grid {
         }
     }
 
-    /// The columns in which a face is entered: so many that a point in its reach is in one of them, or in one next to them.
+    /// The columns in which a face is entered: so many that a point in its reach is in one of them, or in one next to
+    /// them.
     fn span(&self, entry: &Entry) -> [[usize; 2]; 2] {
         [0, 1].map(|k| {
             let beyond = (entry.reach - self.width[k]).max(0.0);
@@ -116,8 +118,8 @@ impl Grid {
         (column.max(0.0) as usize).min(self.columns[k] - 1)
     }
 
-    /// The faces of other bodies whose centre is nearest to a point, [`FACES`] of each, those of a body one after another; bodies in
-    /// their order.
+    /// The faces of other bodies whose centre is nearest to a point, [`FACES`] of each, those of a body one after
+    /// another; bodies in their order.
     pub fn near(&self, own: usize, point: [f64; 3], found: &mut Vec<Near>) {
         found.clear();
         let [x, y] = [0, 1].map(|k| self.along(point[self.axes[k]], k));

@@ -23,10 +23,11 @@ pub struct Surface {
     pub elements: Vec<u32>,
     /// Beyond the edges from each corner to the next, or `NONE`.
     pub neighbours: Vec<[u32; 4]>,
-    /// Whether it is a rigid wall's: nothing rubs on it, and the nodes of others press against it alone, not its own against others.
+    /// Whether it is a rigid wall's: nothing rubs on it, and the nodes of others press against it alone, not its own
+    /// against others.
     pub wall: bool,
-    /// Of all nodes of the body, inner ones included, which have no share: their share of the faces, as the size of a sum of
-    /// vectors, so that on an edge what faces another body counts once.
+    /// Of all nodes of the body, inner ones included, which have no share: their share of the faces, as the size of a
+    /// sum of vectors, so that on an edge what faces another body counts once.
     pub area: Vec<f64>,
     pub state: SurfaceState,
     /// How many slabs the body is cut into whose motion is followed, in which of them nodes and faces are, and how

@@ -35,7 +35,8 @@ fn media_with(k_ld: f64) -> Vec<Medium<f64>> {
     vec![Medium::new(&material, preset.density, control).expect("valid")]
 }
 
-/// A bar 1 mm long with a section of 0.4 mm by 0.2 mm, its fibre along axis 0 turned by an angle about axis 1, its centre here.
+/// A bar 1 mm long with a section of 0.4 mm by 0.2 mm, its fibre along axis 0 turned by an angle about axis 1, its
+/// centre here.
 fn bar(angle: f64, centre: [f64; 3]) -> Mesh {
     let section = Section::Rectangle;
     let yarn = Yarn { section, length: 1e-3, height: 2e-4, width: 4e-4, layers: 10, rows: 2, columns: 4 };
@@ -135,7 +136,8 @@ fn two_bars_press_each_other_by_their_overlap() {
         assert!((contact.state.stored / (0.5 * upper.y * depth) - 1.0).abs() < 1e-9 && contact.state.dissipated == 0.0);
         sum += upper.y;
     }
-    // The common parallelogram is as wide as either and slanted. The outermost of five lines of nodes count √½ each, for ½.
+    // The common parallelogram is as wide as either and slanted. The outermost of five lines of nodes count √½ each,
+    // for ½.
     let width = 1e-4 * (3.0 + 2.0_f64.sqrt());
     let expected = PARAMETERS.stiffness * depth * width * 4e-4 / 1.3_f64.sin();
     let mean = sum / f64::from(shifts * shifts);
@@ -187,8 +189,8 @@ fn what_was_far_is_found_when_it_comes_near() {
     assert!(contact.state.stored > 0.0);
 }
 
-/// A bar falls on another that is free, at 20 m/s, and both fly on; the momentum and the change of energy over the kinetic energy
-/// at the start, and where the nodes are.
+/// A bar falls on another that is free, at 20 m/s, and both fly on; the momentum and the change of energy over the
+/// kinetic energy at the start, and where the nodes are.
 fn collide(threads: usize) -> (Vector3<f64>, f64, Vec<[f64; 3]>, [f64; 2]) {
     let media = media();
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
@@ -300,7 +302,8 @@ const RADIUS: f64 = 1e-3;
 const TAIL: f64 = 3e-4;
 const THICKNESS: f64 = 5e-5;
 
-/// Layers of one element along a line: its points with the outward directions there, from the inner side to the outer one.
+/// Layers of one element along a line: its points with the outward directions there, from the inner side to the outer
+/// one.
 fn ribbon(line: &[([f64; 2], [f64; 2])], thickness: f64, width: f64) -> Mesh {
     let mut mesh = Mesh { elements_per_layer: 1, nodes_per_section: 4, ..Mesh::default() };
     for &([x, y], [nx, ny]) in line {
@@ -371,7 +374,8 @@ fn ratio_of_forces(k_ld: f64) -> (f64, f64) {
     (least, most)
 }
 
-/// Euler's and Eytelwein's formula: the forces at the ends of a rope that slides over a cylinder have the ratio exp(μθ).
+/// Euler's and Eytelwein's formula: the forces at the ends of a rope that slides over a cylinder have the ratio
+/// exp(μθ).
 #[test]
 fn a_yarn_slides_over_a_cylinder_as_a_rope_over_a_capstan() {
     let (least, most) = ratio_of_forces(126e6);
@@ -379,16 +383,16 @@ fn a_yarn_slides_over_a_cylinder_as_a_rope_over_a_capstan() {
     assert!(least > 0.98 * expected && least <= most && most < 1.02 * expected, "{least} {most} {expected}");
 }
 
-/// Without stiffness against longitudinal shear nothing carries friction from the yarn's surface to its inside: the surface sticks
-/// to the cylinder, and the yarn slides past it.
+/// Without stiffness against longitudinal shear nothing carries friction from the yarn's surface to its inside: the
+/// surface sticks to the cylinder, and the yarn slides past it.
 #[test]
 fn friction_does_not_reach_the_inside_of_a_yarn_without_shear_stiffness() {
     let (least, most) = ratio_of_forces(0.0);
     assert!(least > 1.0 && least <= most && most < 1.03, "{least} {most}");
 }
 
-/// What two slabs that are followed have moved against each other at most is never less than what any two of their nodes have; and
-/// it is nothing where both go the same way.
+/// What two slabs that are followed have moved against each other at most is never less than what any two of their
+/// nodes have; and it is nothing where both go the same way.
 #[test]
 fn slabs_have_moved_no_less_than_their_nodes() {
     let media = media();
@@ -401,7 +405,8 @@ fn slabs_have_moved_no_less_than_their_nodes() {
         motion.restart(&surfaces.iter().collect::<Vec<_>>(), margin);
         let mut far = false;
         for step in 0..30 {
-            // At first all nodes move alike; from step 15 on each body has a motion of its own, and each node some more.
+            // At first all nodes move alike; from step 15 on each body has a motion of its own, and each node some
+            // more.
             for body in &mut bodies {
                 let common: [f64; 3] = std::array::from_fn(|_| 1e-6 * (random.f64() - 0.5));
                 for u in &mut body.state.displacement {

@@ -95,8 +95,8 @@ fn a_collapsing_element_that_does_not_fail_shortens_the_step_until_there_is_none
     assert!(worst < 0.01 * external, "{worst} of {external}");
 }
 
-/// A projectile held at 10 m/s presses the cube for 10 µs in steps no longer than this: the change of the total energy over
-/// the projectile's work.
+/// A projectile held at 10 m/s presses the cube for 10 µs in steps no longer than this: the change of the total energy
+/// over the projectile's work.
 fn press(longest: f64) -> f64 {
     let free = Support { free: [true; 3], velocity: [0.0; 3] };
     let mut solver = cube(|[_, y, _]| if y > 0.0 { free } else { driven([0.0; 3]) });

@@ -3,11 +3,9 @@
 use std::path::Path;
 
 use super::outcome::{Pressed, Sample};
-use crate::common::units::unit;
 use crate::fibres::scene::{Case, Scene, Striker};
-use crate::picture::history;
-use crate::picture::panel::{self, Panel, Series, tidy};
-use crate::picture::style::COLOURS;
+use crate::picture::history::{self, Samples};
+use crate::picture::panel::{self, Panel, tidy};
 use toron::law::parameters::STRESS;
 use toron_shared::error::Error;
 
@@ -16,13 +14,8 @@ use toron_shared::error::Error;
 /// # Errors
 /// A file cannot be written.
 pub fn write(svg: &Path, png: &Path, scene: &Scene, case: &Case, result: &Pressed) -> Result<(), Error> {
-    let line = |colour: usize, name: &str, of: &dyn Fn(&Sample) -> f64| Series {
-        name: name.to_string(),
-        colour: COLOURS[colour],
-        values: result.samples.iter().map(of).collect(),
-    };
-    let stress = unit(&scene.units, STRESS);
-    let panel = |title, unit: &str, series| Panel { title, unit: unit.to_string(), series: tidy(series), limit: None };
+    let samples = Samples { all: &result.samples, units: &scene.units };
+    let line = |colour: usize, name: &str, of: &dyn Fn(&Sample) -> f64| samples.line(colour, name, of);
     let mut energies = vec![line(0, "middle", &|s| s.middle.energy), line(1, "whole section", &|s| s.whole.energy)];
     if let Striker::Walls { law: Some(law), .. } = case.striker {
         energies.push(line(2, "the law at the middle's invariants", &|s| law.energy(s.middle.invariants)));
@@ -41,10 +34,10 @@ pub fn write(svg: &Path, png: &Path, scene: &Scene, case: &Case, result: &Presse
         line(3, "section", &|s| s.whole.invariants[1]),
     ];
     let panels = [
-        panel("Contact energy over the area at rest", &stress, energies),
-        panel("The work of the walls", &stress, work),
-        panel("Invariants", "–", invariants),
-        panel("Kinetic energy", &stress, vec![line(0, "kinetic", &|s| s.kinetic)]),
+        samples.panel("Contact energy over the area at rest", STRESS, energies),
+        samples.panel("The work of the walls", STRESS, work),
+        Panel::new("Invariants", "–", tidy(invariants)),
+        samples.panel("Kinetic energy", STRESS, vec![line(0, "kinetic", &|s| s.kinetic)]),
     ];
     let abscissa = panel::Abscissa {
         label: "way of the walls over their distance (–)".to_string(),

@@ -122,8 +122,8 @@ pub struct LongAxis {
     ratio: f64,
 }
 
-/// A yarn is so many times as long as wide where its shape tells which is which, and has this part of the longest yarn's length:
-/// those that the outline cuts short do not.
+/// A yarn is so many times as long as wide where its shape tells which is which, and has this part of the longest
+/// yarn's length: those that the outline cuts short do not.
 const LONGER: f64 = 1.5;
 const NO_STUB: f64 = 0.25;
 
@@ -243,8 +243,9 @@ impl Model {
         Ok(())
     }
 
-    /// The faces that can touch something, and the ends. Returns the place of an element that is beside a gap in the yarn, if there is
-    /// one: an end of its own that is farther from the yarn's than the element is long or the yarn wide.
+    /// The faces that can touch something, and the ends. Returns the place of an element that is beside a gap in the
+    /// yarn, if there is one: an end of its own that is farther from the yarn's than the element is long or the yarn
+    /// wide.
     fn add_surface(&mut self, yarn: &mut Yarn, part: Part) -> Option<usize> {
         let along = yarn.family as usize;
         let [low, high] = self.extent(yarn, along);

@@ -20,15 +20,16 @@ const THIRDS: [f64; 3] = [-2.0 / 3.0, 0.0, 2.0 / 3.0];
 const ON_FACE: f64 = 1e-6;
 /// More of the yarns' volume may not be in two of them.
 const MOST_SHARED: f64 = 0.02;
-/// Fibres may be farther off the line through their element, and those of a yarn off its length, by these angles in degrees.
+/// Fibres may be farther off the line through their element, and those of a yarn off its length, by these angles in
+/// degrees.
 const OFF_ELEMENT: f64 = 25.0;
 const OFF_YARN: f64 = 45.0;
 
 /// The figures of a mesh. Lengths are in the scene's units, angles in degrees.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Checks {
-    /// The part of the yarns' volume that is in another yarn too, by 27 points an element, nodes that are, and the elements that have
-    /// such points or nodes.
+    /// The part of the yarns' volume that is in another yarn too, by 27 points an element, nodes that are, and the
+    /// elements that have such points or nodes.
     pub shared: f64,
     pub sunk_nodes: usize,
     pub overlapping: Vec<usize>,
@@ -39,8 +40,8 @@ pub struct Checks {
     /// Wedges among the elements, and elements with a corner that is inside out.
     pub wedges: usize,
     pub inside_out: usize,
-    /// How far at most a fibre is off the line from an element's start to its end, and the fibres of a yarn off its length, with its
-    /// family and number.
+    /// How far at most a fibre is off the line from an element's start to its end, and the fibres of a yarn off its
+    /// length, with its family and number.
     pub off_element: f64,
     pub off_yarn: (f64, Family, i64),
 }
@@ -182,7 +183,8 @@ fn off_element(model: &Model, element: usize) -> f64 {
     angle(end - start, Vector3::from(model.fibre[element]))
 }
 
-/// The largest angle between the mean of a yarn's fibres and the direction in which it is longest, where its shape tells that.
+/// The largest angle between the mean of a yarn's fibres and the direction in which it is longest, where its shape
+/// tells that.
 fn off_yarn(model: &Model) -> (f64, Family, i64) {
     let nodes = |yarn: &Yarn| model.nodes[yarn.nodes.clone()].iter().map(|&node| node.into()).collect::<Vec<_>>();
     let axes = LongAxis::told(model.yarns.iter().map(|yarn| LongAxis::of(&nodes(yarn))).collect());
@@ -250,7 +252,8 @@ fn points_in(corners: &[[f64; 3]; 8]) -> [Vector3<f64>; 27] {
     })
 }
 
-/// Whether a point is in one of the six tetrahedra about an element's diagonal, by this margin from what is outside the element.
+/// Whether a point is in one of the six tetrahedra about an element's diagonal, by this margin from what is outside the
+/// element.
 fn holds(corners: &[[f64; 3]; 8], point: &Vector3<f64>, margin: f64) -> bool {
     let from_first = |corner: usize| Vector3::from(corners[corner]) - Vector3::from(corners[0]);
     let (diagonal, point) = (from_first(7), point - Vector3::from(corners[0]));

@@ -1,9 +1,11 @@
-//! Meshes of panels that others have made: read, turned as the model has them, and checked. `docs/guides/fabric.md` has the formats.
+//! Meshes of panels that others have made: read, turned as the model has them, and checked. `docs/guides/fabric.md` has
+//! the formats.
 
 pub mod abaqus;
 pub mod bins;
 pub mod build;
 pub mod checks;
+pub mod crimp;
 pub mod file;
 #[cfg(test)]
 mod form_tests;

@@ -18,8 +18,8 @@ pub struct Raw {
 pub struct Element {
     /// The file's own.
     pub number: u64,
-    /// Nodes 1 to 4 around a face, 5 to 8 around the one across from it, as solvers number a hexahedron. Of a wedge some nodes are
-    /// the same.
+    /// Nodes 1 to 4 around a face, 5 to 8 around the one across from it, as solvers number a hexahedron. Of a wedge
+    /// some nodes are the same.
     pub nodes: [u32; 8],
     pub yarn: usize,
     /// Of the fibre, where the file says it: of any length.

@@ -5,6 +5,7 @@ use std::fmt;
 use toml::Spanned;
 
 use super::checks::Checks;
+use super::crimp::Paths;
 use super::file::MeshFile;
 use super::raw::Raw;
 use super::{abaqus, ls_dyna, vtu};
@@ -36,6 +37,8 @@ pub struct Foreign {
     /// Of warp and weft: the mean distance from a yarn to the next.
     pub pitch: [f64; 2],
     pub figures: Figures,
+    /// What to say of yarns whose waves the mesh cuts short.
+    pub crimp: Vec<String>,
     pub checks: Checks,
 }
 
@@ -134,7 +137,9 @@ pub fn foreign(source: &Source<'_>, table: &Spanned<MeshFile>, units: &UnitSyste
     let checks = Checks::of(&model);
     checks.refuse().map_err(|message| Error::Input(format!("{file}: {message}")))?;
     let pitch = pitch(&model);
-    let figures = Figures::with(&model, 0, crimp(&model), covered(&model, pitch));
+    let paths = Paths::of(&model);
+    let of_paths = paths.map_or_else(|| crimp(&model), |paths| paths.meshed);
+    let figures = Figures::with(&model, 0, of_paths, covered(&model, pitch));
     let thickness = figures.volume_by_area() / units.from_si(1.0, LENGTH);
     if !(THICKNESS[0]..=THICKNESS[1]).contains(&thickness) {
         let [least, most] = THICKNESS.map(|size| number(1e3 * size));
@@ -158,6 +163,7 @@ pub fn foreign(source: &Source<'_>, table: &Spanned<MeshFile>, units: &UnitSyste
         file,
         model,
         figures,
+        crimp: paths.and_then(|paths| paths.warning()).into_iter().collect(),
         checks,
     })
 }
@@ -189,7 +195,8 @@ fn place_nodes(raw: &mut Raw, factor: f64, [x, y]: [f64; 2]) -> Result<(), Strin
     Ok(())
 }
 
-/// Of warp and weft: the length of the fibres over that of the panel which they cross, less 1.
+/// Of yarns whose elements stand in no sections: the length of the fibres over that of the panel which they cross,
+/// less 1.
 fn crimp(model: &Model) -> [f64; 2] {
     Family::BOTH.map(|family| {
         let yarns = model.yarns.iter().filter(|yarn| yarn.family == family);

@@ -15,8 +15,8 @@ use crate::weave::vtu;
 use toron::host::units::UnitSystem;
 use toron_shared::error::Error;
 
-/// Four straight yarns: the weft lies on the warp, which is 0.1 high; all have a pitch of 1, are 3 long, and have three columns, the
-/// outer ones wedges of half the width.
+/// Four straight yarns: the weft lies on the warp, which is 0.1 high; all have a pitch of 1, are 3 long, and have three
+/// columns, the outer ones wedges of half the width.
 pub(super) struct Cross {
     pub nodes: Vec<[f64; 3]>,
     pub elements: Vec<Solid>,
@@ -176,7 +176,8 @@ pub(super) fn check(foreign: &Foreign) {
     for (element, fibre) in model.elements.iter().zip(&model.fibre) {
         let [a, b, c, d] = [0, 1, 2, 4].map(|corner| nalgebra::Vector3::from(model.corners(element)[corner]));
         assert!((b - a).normalize().dot(&nalgebra::Vector3::from(*fibre)) > 1.0 - 1e-9);
-        // The first and the third corner are the same at a tip on the left, the fifth and the seventh at one on the right.
+        // The first and the third corner are the same at a tip on the left, the fifth and the seventh at one on the
+        // right.
         assert!(c == a || (c - a).z > 0.0 && (b - a).cross(&(c - a)).dot(&(d - a)) > 0.0, "{element:?}");
     }
     for face in &model.faces {
@@ -336,7 +337,8 @@ fn a_wrong_file_is_refused_by_name() {
                    radius = 3.0\n[[ply]]\nangle = 30\n";
     let oblique = Scene::parse("weave.toml", oblique).expect("a weave").cloth.model();
     refused(&[("oblique.vtu", &vtu::unstructured_grid(&oblique))], "", "runs 30° off x and y; allowed: up to 10°");
-    // A yarn without a layer of its middle, one without an element of its middle, and one whose elements share no nodes.
+    // A yarn without a layer of its middle, one without an element of its middle, and one whose elements share no
+    // nodes.
     let model = Scene::parse("weave.toml", weave).expect("a weave").cloth.model();
     let without = |lost: &dyn Fn(usize) -> bool| {
         let mut model = model.clone();
