@@ -6,7 +6,7 @@ use std::path::Path;
 
 use nalgebra::Matrix3;
 
-use super::guarded::{Fence, Guarded};
+use super::guarded::{Guard, Guarded};
 use super::kinematics::{Components, Modulus};
 use super::material::Material;
 use super::shared::Shared;
@@ -242,7 +242,7 @@ impl Answer {
 /// PNEWDT before a call; Abaqus sets it to a large number.
 const NO_WISH: f64 = 1e36;
 
-/// Room for the calls of one thread.
+/// WorkDir for the calls of one thread.
 pub struct Session<'a> {
     law: &'a Law,
     pub material: &'a Material,
@@ -262,16 +262,16 @@ const PLACES: (usize, usize) = (4, 5);
 impl<'a> Session<'a> {
     /// # Errors
     /// The system has no memory.
-    pub fn new(law: &'a Law, material: &'a Material, fence: Fence, shared: Option<Shared>) -> io::Result<Self> {
+    pub fn new(law: &'a Law, material: &'a Material, guard: Guard, shared: Option<Shared>) -> io::Result<Self> {
         let components = material.components;
         let mut session = Session {
             law,
             material,
             name: [b' ' as c_char; 80],
-            stress: Guarded::new(components, fence)?,
-            state: Guarded::new(material.initial.len(), fence)?,
-            modulus: Guarded::new(components * components, fence)?,
-            properties: Guarded::new(material.properties.len(), fence)?,
+            stress: Guarded::new(components, guard)?,
+            state: Guarded::new(material.initial.len(), guard)?,
+            modulus: Guarded::new(components * components, guard)?,
+            properties: Guarded::new(material.properties.len(), guard)?,
             shared,
             records: true,
             exchanged: false,

@@ -8,11 +8,11 @@ use std::time::{Duration, Instant};
 use serde::{Deserialize, Serialize};
 
 use super::call::{Answer, Call, Law, Session};
-use super::guarded::Fence;
-use super::line::{Line, Question, Verdict};
+use super::finding::{Finding, Question, Verdict};
+use super::guarded::Guard;
 use super::material::{Material, Reads};
 use super::shared::{self, SIGNALLED, Seen, Shared};
-use super::{energy, objectivity, process, rest, room, steps, tangent, vumat};
+use super::{energy, objectivity, process, rest, steps, tangent, vumat, work_dir};
 use toron_shared::bound_child;
 use toron_shared::error::Error;
 
@@ -57,17 +57,17 @@ pub struct Request {
     pub library: PathBuf,
     pub material: Material,
     pub task: Task,
-    pub fence: Fence,
+    pub guard: Guard,
     pub shared: PathBuf,
     pub result: PathBuf,
 }
 
 /// What a child says if it lives.
 #[derive(Debug, Serialize, Deserialize)]
-pub enum Said {
+pub enum ChildReply {
     Alone(bool),
     Reads(Reads),
-    Line(Line),
+    Finding(Finding),
     /// Stress, state, DDSDDE by rows, PNEWDT, as text: they need not be finite.
     Answer(Vec<(String, String)>),
 }
@@ -96,34 +96,34 @@ pub fn answer(request: &Path) -> Result<(), Error> {
 fn answered(request: &Path) -> Result<(), Error> {
     let io_error = |error: io::Error| Error::Input(format!("{}: {error}", request.display()));
     let text = std::fs::read(request).map_err(io_error)?;
-    let Request { library, material, task, fence, shared, result } =
+    let Request { library, material, task, guard, shared, result } =
         serde_json::from_slice(&text).map_err(|error| Error::Input(format!("{}: {error}", request.display())))?;
     let shared = Shared::open(&shared).map_err(io_error)?;
     if matches!(task, Task::Alone) {
         Shared::catch_signals();
-        return say(&result, &Said::Alone(loaded(vumat::call::alone(&library))));
+        return say(&result, &ChildReply::Alone(loaded(vumat::call::alone(&library))));
     }
     if material.explicit.called {
         let law = loaded(vumat::call::Law::load(&library));
         Shared::catch_signals();
-        let said = vumat::child::answer(&law, &material, &task, fence, shared).map_err(io_error)?;
+        let said = vumat::child::answer(&law, &material, &task, guard, shared).map_err(io_error)?;
         let said = said.ok_or_else(|| Error::Input("this is asked of a UMAT alone".to_string()))?;
         return say(&result, &said);
     }
     let law = loaded(Law::load(&library));
     Shared::catch_signals();
     law.begin();
-    let mut session = Session::new(&law, &material, fence, Some(shared)).map_err(io_error)?;
+    let mut session = Session::new(&law, &material, guard, Some(shared)).map_err(io_error)?;
     let said = match task {
-        Task::Alone => Said::Alone(false),
-        Task::Reads => Said::Reads(process::reads(&mut session)),
+        Task::Alone => ChildReply::Alone(false),
+        Task::Reads => ChildReply::Reads(process::reads(&mut session)),
         Task::Question { question, reads, allowed } => {
-            Said::Line(line(question, &law, &material, &mut session, reads, allowed))
+            ChildReply::Finding(line(question, &law, &material, &mut session, reads, allowed))
         }
-        Task::LargeTurns => Said::Line(objectivity::at_large_turns(&mut session)),
+        Task::LargeTurns => ChildReply::Finding(objectivity::at_large_turns(&mut session)),
         Task::Call(bits) => {
             let call = Call::from_bits(&bits).ok_or_else(|| Error::Input("a call is not whole".to_string()))?;
-            Said::Answer(in_words(&session.ask(&call), &material))
+            ChildReply::Answer(in_words(&session.ask(&call), &material))
         }
     };
     say(&result, &said)
@@ -137,7 +137,7 @@ fn loaded<T>(law: Result<T, String>) -> T {
     })
 }
 
-fn say(result: &Path, said: &Said) -> Result<(), Error> {
+fn say(result: &Path, said: &ChildReply) -> Result<(), Error> {
     let text = serde_json::to_vec(said).map_err(|error| Error::Input(error.to_string()))?;
     std::fs::write(result, text).map_err(|error| Error::Input(format!("{}: {error}", result.display())))?;
     // SAFETY: it takes a number and does not return. What the library would do at the process's end is not asked about.
@@ -151,7 +151,7 @@ fn line(
     session: &mut Session,
     reads: Reads,
     allowed: Option<f64>,
-) -> Line {
+) -> Finding {
     match question {
         Question::Build | Question::Memory => process::touch(session),
         Question::Rest => rest::ask(session),
@@ -170,7 +170,7 @@ fn line(
         Question::Histories => process::histories(session, reads),
         Question::Runtime => process::runtime(session),
         Question::DataCheck | Question::Blocks | Question::Single | Question::Deletion => {
-            Line::new(question, Verdict::NotAsked, None, "asked of a VUMAT alone")
+            Finding::new(question, Verdict::NotAsked, None, "asked of a VUMAT alone")
         }
     }
 }
@@ -197,16 +197,16 @@ pub fn ask(
     library: &Path,
     material: &Material,
     task: Task,
-    fence: Fence,
+    guard: Guard,
     longest_call: Duration,
-) -> Result<Result<Said, Ending>, Error> {
+) -> Result<Result<ChildReply, Ending>, Error> {
     let io_error = |error: io::Error| Error::Input(format!("{}: {error}", folder.display()));
     let (request, shared, result) = (folder.join("request.json"), folder.join("shared"), folder.join("result.json"));
     let content = Request {
         library: library.to_path_buf(),
         material: material.clone(),
         task,
-        fence,
+        guard,
         shared: shared.clone(),
         result: result.clone(),
     };
@@ -220,7 +220,7 @@ pub fn ask(
     }
     let program = std::env::current_exe().map_err(io_error)?;
     let mut command = Command::new(program);
-    command.arg("check-child").arg(&request).current_dir(room::running(folder));
+    command.arg("check-child").arg(&request).current_dir(work_dir::running(folder));
     command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::piped());
     bound_child::bind(&mut command);
     let mut child = command.spawn().map_err(io_error)?;
@@ -228,7 +228,7 @@ pub fn ask(
     let reader = std::thread::spawn(move || errors.map_or(String::new(), last_of));
     let status = watch(&mut child, &shared, longest_call).map_err(io_error)?;
     let messages = reader.join().unwrap_or_default();
-    let said = std::fs::read(&result).ok().and_then(|text| serde_json::from_slice::<Said>(&text).ok());
+    let said = std::fs::read(&result).ok().and_then(|text| serde_json::from_slice::<ChildReply>(&text).ok());
     if let (Some(said), Watched::Ended(status)) = (said, &status)
         && status.success()
     {
@@ -276,12 +276,12 @@ fn watch(child: &mut Child, shared: &Path, longest_call: Duration) -> io::Result
 /// The end of what is written, all of which is read.
 fn last_of(mut stream: impl Read) -> String {
     let mut kept = Vec::new();
-    let mut room = [0; 4096];
-    while let Ok(count) = stream.read(&mut room) {
+    let mut work_dir = [0; 4096];
+    while let Ok(count) = stream.read(&mut work_dir) {
         if count == 0 {
             break;
         }
-        kept.extend_from_slice(&room[..count]);
+        kept.extend_from_slice(&work_dir[..count]);
         if kept.len() > 2 * KEPT {
             kept.drain(..kept.len() - KEPT);
         }

@@ -8,16 +8,16 @@ use std::time::Duration;
 use clap::Args;
 
 use super::call::Call;
-use super::child::{self, Ending, Said, Task};
+use super::child::{self, ChildReply, Ending, Task};
 use super::compile::{self, Built};
-use super::guarded::Fence;
+use super::finding::{Finding, NOT_FINITE, Question, Verdict};
+use super::guarded::Guard;
 use super::input::{self, Input, Over};
-use super::line::{Line, NOT_FINITE, Question, Verdict};
 use super::material::{DEFAULT_NAME, Material, Reads};
 use super::repeated::Repeated;
 use super::report::{OfMaterial, Report};
-use super::room::Room;
 use super::shared;
+use super::work_dir::WorkDir;
 use toron_shared::console::print;
 use toron_shared::error::Error;
 
@@ -91,9 +91,9 @@ fn allowance(text: &str) -> Result<(String, f64), String> {
 /// # Errors
 /// The input is invalid, or a line is wrong.
 pub fn run(program: &str, arguments: &Arguments) -> Result<(), Error> {
-    let room = Room::new()?;
+    let work_dir = WorkDir::new()?;
     if let Some(again) = &arguments.again {
-        return Repeated::read(again)?.run(&room.path);
+        return Repeated::read(again)?.run(&work_dir.path);
     }
     let Some(file) = &arguments.file else { return Err(Error::Input("no file is named".to_string())) };
     let over = Over {
@@ -107,17 +107,17 @@ pub fn run(program: &str, arguments: &Arguments) -> Result<(), Error> {
     };
     let Input { mut materials, mut allowed } = input::input(file, arguments.scene.as_deref(), &over)?;
     allowed.extend(arguments.allow.iter().cloned());
-    let built = compile::compile(file, &room.path)?;
-    if arguments.vumat || vumat_alone(&built, &room.path, materials.first())? {
+    let built = compile::compile(file, &work_dir.path)?;
+    if arguments.vumat || vumat_alone(&built, &work_dir.path, materials.first())? {
         let single = match &arguments.single {
             Some(library) => Some(Ok(canonical(library)?)),
-            None => built.single(file, &room.path)?,
+            None => built.single(file, &work_dir.path)?,
         };
         explicit(single.as_ref(), &mut materials)?;
     } else if arguments.single.is_some() {
         return Err(Error::Input("single is for a VUMAT; allowed: with one, or with --vumat".to_string()));
     }
-    let check = Check { file, built: &built, room: &room.path, allowed: &allowed, arguments };
+    let check = Check { file, built: &built, work_dir: &work_dir.path, allowed: &allowed, arguments };
     let materials: Result<Vec<OfMaterial>, Error> = materials.iter().map(|material| check.material(material)).collect();
     let mut report = Report { file: file.display().to_string(), verdict: Verdict::Right, materials: materials? };
     let wrong = report.wrong().join(", ");
@@ -135,10 +135,10 @@ pub fn run(program: &str, arguments: &Arguments) -> Result<(), Error> {
 }
 
 /// Whether a library has a VUMAT and no UMAT, asked in a child as everything else.
-fn vumat_alone(built: &Built, room: &Path, material: Option<&Material>) -> Result<bool, Error> {
+fn vumat_alone(built: &Built, work_dir: &Path, material: Option<&Material>) -> Result<bool, Error> {
     let Some(material) = material else { return Ok(false) };
-    let said = child::ask(room, &built.library, material, Task::Alone, Fence::Room, child::LONGEST_CALL)?;
-    Ok(matches!(said, Ok(Said::Alone(true))))
+    let said = child::ask(work_dir, &built.library, material, Task::Alone, Guard::Padded, child::LONGEST_CALL)?;
+    Ok(matches!(said, Ok(ChildReply::Alone(true))))
 }
 
 /// A path that the child finds from where it runs.
@@ -167,17 +167,17 @@ const SHORTER: Duration = Duration::from_secs(1);
 struct Check<'a> {
     file: &'a Path,
     built: &'a Built,
-    room: &'a Path,
+    work_dir: &'a Path,
     allowed: &'a BTreeMap<String, f64>,
     arguments: &'a Arguments,
 }
 
 impl Check<'_> {
     fn material(&self, material: &Material) -> Result<OfMaterial, Error> {
-        let mut lines = vec![Line::new(Question::Build, Verdict::Right, None, self.built.by.clone())];
+        let mut lines = vec![Finding::new(Question::Build, Verdict::Right, None, self.built.by.clone())];
         // With room, since the law may need it; the pages at the ends come next.
-        let reads = match self.ask(material, Task::Reads, Fence::Room, false, child::LONGEST_CALL)? {
-            Ok(Said::Reads(reads)) => Some(reads),
+        let reads = match self.ask(material, Task::Reads, Guard::Padded, false, child::LONGEST_CALL)? {
+            Ok(ChildReply::Reads(reads)) => Some(reads),
             Ok(_) => None,
             Err(_) => None,
         };
@@ -187,16 +187,16 @@ impl Check<'_> {
             .iter()
             .copied()
             .filter(|question| self.arguments.only.is_empty() || self.arguments.only.contains(question));
-        let mut fence = Fence::Behind;
+        let mut guard = Guard::Behind;
         let mut ended: Vec<(String, Question)> = Vec::new();
         for question in asked {
             // Of a law that ends before it says what it reads, an inverted F is not asked for.
             let unknown = if question == Question::Invalid { Reads::Rate } else { Reads::Mixed };
-            let mut line = self.question(material, question, reads.unwrap_or(unknown), fence, &mut ended)?;
+            let mut line = self.question(material, question, reads.unwrap_or(unknown), guard, &mut ended)?;
             if question == Question::Memory && line.verdict != Verdict::Right {
-                fence = Fence::Room;
+                guard = Guard::Padded;
             }
-            if fence == Fence::Room
+            if guard == Guard::Padded
                 && matches!(question, Question::Repeat | Question::Threads)
                 && line.verdict == Verdict::Wrong
             {
@@ -218,12 +218,12 @@ impl Check<'_> {
         &self,
         material: &Material,
         task: Task,
-        fence: Fence,
+        guard: Guard,
         checked: bool,
         longest_call: Duration,
-    ) -> Result<Result<Said, Ending>, Error> {
+    ) -> Result<Result<ChildReply, Ending>, Error> {
         let library = self.built.checked.as_ref().filter(|_| checked).unwrap_or(&self.built.library);
-        child::ask(self.room, library, material, task, fence, longest_call).map_err(|error| match error {
+        child::ask(self.work_dir, library, material, task, guard, longest_call).map_err(|error| match error {
             Error::Input(text) => Error::Input(format!("{}: {text}", self.file.display())),
             other => other,
         })
@@ -234,49 +234,49 @@ impl Check<'_> {
         material: &Material,
         question: Question,
         reads: Reads,
-        fence: Fence,
+        guard: Guard,
         ended: &mut Vec<(String, Question)>,
-    ) -> Result<Line, Error> {
+    ) -> Result<Finding, Error> {
         let checked = question == Question::Runtime;
         if checked && self.built.checked.is_none() {
             let text = "no second build with checks at run time";
-            return Ok(Line::new(question, Verdict::NotAsked, None, text));
+            return Ok(Finding::new(question, Verdict::NotAsked, None, text));
         }
         let task = Task::Question { question, reads, allowed: self.allowed.get(question.name()).copied() };
-        let fences: &[Fence] = match question {
-            Question::Memory => &[Fence::Behind, Fence::Before],
+        let guards: &[Guard] = match question {
+            Question::Memory => &[Guard::Behind, Guard::Before],
             // The compiler's own checks say more than a page that must not be touched.
-            Question::Runtime => &[Fence::Room],
-            _ => &[fence],
+            Question::Runtime => &[Guard::Padded],
+            _ => &[guard],
         };
         // A law that has hung once is not waited for as long again.
         let hung = ended.iter().any(|(kind, _)| kind == "hang");
         let longest_call = if hung { SHORTER } else { child::LONGEST_CALL };
         let mut answer = None;
-        for &fence in fences {
-            match self.ask(material, task.clone(), fence, checked, longest_call)? {
-                Ok(Said::Line(mut line)) => {
+        for &guard in guards {
+            match self.ask(material, task.clone(), guard, checked, longest_call)? {
+                Ok(ChildReply::Finding(mut line)) => {
                     if let Some(call) = line.call_bits.take().and_then(|bits| Call::from_bits(&bits)) {
-                        line.call = Some(self.kept(material, question, fence, call)?);
+                        line.call = Some(self.kept(material, question, guard, call)?);
                     }
                     answer = Some(line);
                 }
                 Ok(_) => {}
-                Err(ending) => return self.ended(material, question, ending, fence, ended),
+                Err(ending) => return self.ended(material, question, ending, guard, ended),
             }
         }
-        let line = answer.unwrap_or_else(|| Line::new(question, Verdict::NotSure, None, "no answer"));
+        let line = answer.unwrap_or_else(|| Finding::new(question, Verdict::NotSure, None, "no answer"));
         if checked && line.kinds.iter().any(|kind| kind == NOT_FINITE) {
-            let unset = self.built.used_unset(self.file, self.room);
+            let unset = self.built.used_unset(self.file, self.work_dir);
             let unset = if unset.is_empty() { String::new() } else { format!(": by gfortran {}", unset.join(", ")) };
-            return Ok(Line { text: format!("{}{unset}", line.text), ..line });
+            return Ok(Finding { text: format!("{}{unset}", line.text), ..line });
         }
         if question == Question::Objectivity
             && !material.explicit.called
             && line.verdict == Verdict::Right
             && reads != Reads::Total
         {
-            return self.at_large_turns(material, line, fence, longest_call);
+            return self.at_large_turns(material, line, guard, longest_call);
         }
         Ok(line)
     }
@@ -285,18 +285,18 @@ impl Check<'_> {
     fn at_large_turns(
         &self,
         material: &Material,
-        right: Line,
-        fence: Fence,
+        right: Finding,
+        guard: Guard,
         longest_call: Duration,
-    ) -> Result<Line, Error> {
-        let text = match self.ask(material, Task::LargeTurns, fence, false, longest_call)? {
-            Ok(Said::Line(line)) if line.verdict == Verdict::Right => return Ok(line),
-            Ok(Said::Line(line)) => line.text,
+    ) -> Result<Finding, Error> {
+        let text = match self.ask(material, Task::LargeTurns, guard, false, longest_call)? {
+            Ok(ChildReply::Finding(line)) if line.verdict == Verdict::Right => return Ok(line),
+            Ok(ChildReply::Finding(line)) => line.text,
             Ok(_) => return Ok(right),
             Err(ending) => ending.text,
         };
         let text = format!("right at turns of 5° an increment, not at larger ones: {text}");
-        Ok(Line::new(Question::Objectivity, Verdict::Warning, right.figure, text))
+        Ok(Finding::new(Question::Objectivity, Verdict::Warning, right.figure, text))
     }
 
     /// The process has ended: that is the answer. The same end in another line says nothing new.
@@ -305,28 +305,28 @@ impl Check<'_> {
         material: &Material,
         question: Question,
         ending: Ending,
-        fence: Fence,
+        guard: Guard,
         ended: &mut Vec<(String, Question)>,
-    ) -> Result<Line, Error> {
+    ) -> Result<Finding, Error> {
         let Ending { kind, text, call } = ending;
         if kind == "slow" {
-            return Ok(Line::new(question, Verdict::NotSure, None, text));
+            return Ok(Finding::new(question, Verdict::NotSure, None, text));
         }
         if let Some((_, first)) = ended.iter().find(|(known, _)| *known == kind) {
             let text = format!("ends as in {}", first.name());
-            return Ok(Line::new(question, Verdict::NotSure, None, text).with(&kind));
+            return Ok(Finding::new(question, Verdict::NotSure, None, text).with(&kind));
         }
         if question == Question::Invalid && kind == "XIT" {
-            return Ok(Line::new(question, Verdict::Right, None, text));
+            return Ok(Finding::new(question, Verdict::Right, None, text));
         }
         if question == Question::Invalid && kind == "stop" {
-            return Ok(Line::new(question, Verdict::Warning, None, text).with("stop"));
+            return Ok(Finding::new(question, Verdict::Warning, None, text).with("stop"));
         }
         if let Some(array) = old_assumed_size(&text) {
             let text = format!(
                 "{text}: if it is an argument, {array}(1) is the old way to write {array}(*), which hides the rest from this check"
             );
-            return Ok(Line::new(question, Verdict::Warning, None, text).with("assumed size"));
+            return Ok(Finding::new(question, Verdict::Warning, None, text).with("assumed size"));
         }
         ended.push((kind.clone(), question));
         let of_the_line = kind == "runtime check"
@@ -339,17 +339,17 @@ impl Check<'_> {
             }
             _ => String::new(),
         };
-        let mut line = Line::new(question, verdict, None, format!("{text}{hint}")).with(&kind);
+        let mut line = Finding::new(question, verdict, None, format!("{text}{hint}")).with(&kind);
         // The build with checks at run time is not the one that repeats a call, and of threads no call is kept.
         if let Some(call) = call.filter(|_| !matches!(question, Question::Runtime | Question::Threads)) {
-            line.call = Some(self.kept(material, question, fence, call)?);
+            line.call = Some(self.kept(material, question, guard, call)?);
         }
         Ok(line)
     }
 
     /// The file of a call, for `--again`.
-    fn kept(&self, material: &Material, question: Question, fence: Fence, call: Call) -> Result<String, Error> {
-        let repeated = Repeated { file: self.file.to_path_buf(), material: material.clone(), fence, call };
+    fn kept(&self, material: &Material, question: Question, guard: Guard, call: Call) -> Result<String, Error> {
+        let repeated = Repeated { file: self.file.to_path_buf(), material: material.clone(), guard, call };
         Ok(repeated.write(&self.arguments.output, question)?.display().to_string())
     }
 }
@@ -362,19 +362,19 @@ fn old_assumed_size(message: &str) -> Option<&str> {
 }
 
 /// What one line says of another: one cause is told once.
-fn seen_together(lines: &mut [Line]) {
+fn seen_together(lines: &mut [Finding]) {
     stress_before_tangent(lines);
     not_finite_once(lines);
     crash_of_unset_variable(lines);
 }
 
 /// Where the stress itself is wrong, the tangent's kind may follow from it.
-fn stress_before_tangent(lines: &mut [Line]) {
+fn stress_before_tangent(lines: &mut [Finding]) {
     let is_wrong =
-        |question: Question| lines.iter().any(|line| line.line == question.name() && line.verdict == Verdict::Wrong);
+        |question: Question| lines.iter().any(|line| line.check == question.name() && line.verdict == Verdict::Wrong);
     let of_stress = [Question::Objectivity, Question::Isotropy].into_iter().find(|&question| is_wrong(question));
     let Some(of_stress) = of_stress.map(Question::name) else { return };
-    for line in lines.iter_mut().filter(|line| line.line == Question::Tangent.name()) {
+    for line in lines.iter_mut().filter(|line| line.check == Question::Tangent.name()) {
         if line.verdict == Verdict::Wrong && !line.kinds.is_empty() {
             let kind = line.text.strip_prefix("none of the usual mistakes; ");
             let text = kind.map_or_else(|| format!("perhaps {}", line.text), str::to_string);
@@ -384,7 +384,7 @@ fn stress_before_tangent(lines: &mut [Line]) {
 }
 
 /// What is not finite in one line is so in others.
-fn not_finite_once(lines: &mut [Line]) {
+fn not_finite_once(lines: &mut [Finding]) {
     let mut first: Option<String> = None;
     for line in lines.iter_mut() {
         if line.verdict != Verdict::Wrong || !line.kinds.iter().any(|kind| kind == NOT_FINITE) {
@@ -395,15 +395,15 @@ fn not_finite_once(lines: &mut [Line]) {
                 line.verdict = Verdict::NotSure;
                 line.text = format!("not finite, as in {first}");
             }
-            None => first = Some(line.line.clone()),
+            None => first = Some(line.check.clone()),
         }
     }
 }
 
 /// A crash where the build with checks has found the cause.
-fn crash_of_unset_variable(lines: &mut [Line]) {
+fn crash_of_unset_variable(lines: &mut [Finding]) {
     let runtime = Question::Runtime.name();
-    if !lines.iter().any(|line| line.line == runtime && line.verdict == Verdict::Wrong) {
+    if !lines.iter().any(|line| line.check == runtime && line.verdict == Verdict::Wrong) {
         return;
     }
     for line in lines.iter_mut() {
@@ -428,14 +428,14 @@ mod tests {
 
     #[test]
     fn a_wrong_stress_comes_before_the_tangent() {
-        let tangent = Line::new(Question::Tangent, Verdict::Wrong, None, "symmetrised").with("symmetrised");
-        let mut alone = [tangent.clone(), Line::new(Question::Objectivity, Verdict::Right, None, "")];
+        let tangent = Finding::new(Question::Tangent, Verdict::Wrong, None, "symmetrised").with("symmetrised");
+        let mut alone = [tangent.clone(), Finding::new(Question::Objectivity, Verdict::Right, None, "")];
         seen_together(&mut alone);
         assert_eq!(alone[0].text, "symmetrised");
-        let mut both = [tangent, Line::new(Question::Objectivity, Verdict::Wrong, None, "")];
+        let mut both = [tangent, Finding::new(Question::Objectivity, Verdict::Wrong, None, "")];
         seen_together(&mut both);
         assert!(both[0].text.starts_with("the stress itself is wrong (see objectivity)"));
-        let not_finite = |question| Line::new(question, Verdict::Wrong, None, "").with(NOT_FINITE);
+        let not_finite = |question| Finding::new(question, Verdict::Wrong, None, "").with(NOT_FINITE);
         let mut both = [not_finite(Question::Rest), not_finite(Question::Tangent)];
         seen_together(&mut both);
         assert_eq!([both[0].verdict, both[1].verdict], [Verdict::Wrong, Verdict::NotSure]);

@@ -4,7 +4,7 @@ use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use super::room;
+use super::work_dir;
 use toron_shared::error::Error;
 
 /// The routines of Abaqus that subroutines call.
@@ -77,7 +77,7 @@ pub struct Built {
 pub fn compile(file: &Path, folder: &Path) -> Result<Built, Error> {
     let language = language(file)?;
     let file = file.canonicalize().map_err(|error| Error::Input(format!("{}: {error}", file.display())))?;
-    room::furnish(folder, &file)?;
+    work_dir::furnish(folder, &file)?;
     if language == Language::Library {
         let by = "loaded as it is".to_string();
         return Ok(Built { library: file, checked: None, by, form: NO_FORM[0] });
@@ -142,7 +142,8 @@ impl Built {
         for name in ["vaba_param.inc", "VABA_PARAM.INC"] {
             std::fs::write(inner.join(name), SINGLE).map_err(error)?;
         }
-        std::os::unix::fs::symlink(room::in_either_case(folder), room::in_either_case(&inner)).map_err(error)?;
+        std::os::unix::fs::symlink(work_dir::in_either_case(folder), work_dir::in_either_case(&inner))
+            .map_err(error)?;
         let file = file.canonicalize().map_err(error)?;
         let compiler = compiler(language)?;
         let utilities = folder.join("utilities.o");
@@ -172,7 +173,7 @@ fn including(command: &mut Command, file: &Path, folder: &Path) {
     if let Some(beside) = file.parent() {
         command.arg("-I").arg(beside);
     }
-    command.arg("-I").arg(room::in_either_case(folder));
+    command.arg("-I").arg(work_dir::in_either_case(folder));
 }
 
 fn language(file: &Path) -> Result<Language, Error> {

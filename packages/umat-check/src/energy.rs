@@ -6,9 +6,9 @@ use fastrand::Rng;
 use nalgebra::Matrix3;
 
 use super::call::Session;
+use super::finding::{Finding, NOT_FINITE, Question, Verdict};
 use super::histories::{direction, gradient};
 use super::kinematics::exp;
-use super::line::{Line, NOT_FINITE, Question, Verdict};
 use super::material::{Material, Reads};
 use super::point::{Failure, Point};
 
@@ -79,14 +79,19 @@ fn power(point: &Point, rate: &Matrix3<f64>, material: &Material) -> f64 {
 }
 
 /// Whether a potential has the stress.
-pub fn cycles(session: &mut Session, reads: Reads) -> Line {
+pub fn cycles(session: &mut Session, reads: Reads) -> Finding {
     let material = session.material;
     let declared = material.traits;
     if material.components == 3 {
-        return Line::new(Question::Cycles, Verdict::NotAsked, None, "plane stress: the work across it is not known");
+        return Finding::new(
+            Question::Cycles,
+            Verdict::NotAsked,
+            None,
+            "plane stress: the work across it is not known",
+        );
     }
     if !declared.hyperelastic && !declared.dissipative {
-        return Line::new(
+        return Finding::new(
             Question::Cycles,
             Verdict::NotAsked,
             None,
@@ -99,7 +104,7 @@ pub fn cycles(session: &mut Session, reads: Reads) -> Line {
         let found = match cycle(session, &mut rng, INCREMENTS) {
             Ok(Some(found)) if found.way > 0.0 => found,
             Ok(_) => continue,
-            Err(text) => return Line::new(Question::Cycles, Verdict::Wrong, None, text).with(NOT_FINITE),
+            Err(text) => return Finding::new(Question::Cycles, Verdict::Wrong, None, text).with(NOT_FINITE),
         };
         asked += 1;
         worst = worst.max((found.work.abs() - 10.0 * found.unsure).max(0.0) / found.way);
@@ -107,24 +112,24 @@ pub fn cycles(session: &mut Session, reads: Reads) -> Line {
         gained = gained.min((found.work + 10.0 * found.unsure) / found.way);
     }
     if asked == 0 {
-        return Line::new(Question::Cycles, Verdict::NotSure, None, "no cycle was closed, or there was no stress");
+        return Finding::new(Question::Cycles, Verdict::NotSure, None, "no cycle was closed, or there was no stress");
     }
     if declared.hyperelastic {
         let text = format!("{asked} closed cycles give or take no work");
         if worst <= CLOSED {
-            return Line::new(Question::Cycles, Verdict::Right, Some(worst), text);
+            return Finding::new(Question::Cycles, Verdict::Right, Some(worst), text);
         }
         let text = format!(
             "closed cycles give or take up to {worst:.1e} of the work on their way: no potential has this stress"
         );
-        return Line::new(Question::Cycles, Verdict::Wrong, Some(worst), text).with("no energy");
+        return Finding::new(Question::Cycles, Verdict::Wrong, Some(worst), text).with("no energy");
     }
     if gained < -(if reads == Reads::Total { GAINED } else { GAINED_BY_RATE }) {
         let text = format!("a closed cycle from the virgin state gives {:.1e} of the work on its way", -gained);
-        return Line::new(Question::Cycles, Verdict::Wrong, Some(-gained), text).with("energy gained");
+        return Finding::new(Question::Cycles, Verdict::Wrong, Some(-gained), text).with("energy gained");
     }
     let text = format!("{asked} closed cycles from the virgin state give no work");
-    Line::new(Question::Cycles, Verdict::Right, Some((-gained).max(0.0)), text)
+    Finding::new(Question::Cycles, Verdict::Right, Some((-gained).max(0.0)), text)
 }
 
 /// What SSE, SPD and SCD are along straight paths from rest.
@@ -213,17 +218,24 @@ fn reported(session: &mut Session, increments: usize) -> Result<Option<Reported>
 }
 
 /// What SSE is.
-pub fn energy(session: &mut Session) -> Line {
+pub fn energy(session: &mut Session) -> Finding {
     if session.material.components == 3 {
-        return Line::new(Question::Energy, Verdict::NotAsked, None, "plane stress: the work across it is not known");
+        return Finding::new(
+            Question::Energy,
+            Verdict::NotAsked,
+            None,
+            "plane stress: the work across it is not known",
+        );
     }
     let found = match reported(session, STRAIGHT) {
         Ok(Some(found)) => found,
-        Ok(None) => return Line::new(Question::Energy, Verdict::NotSure, None, "no path without smaller increments"),
-        Err(text) => return Line::new(Question::Energy, Verdict::Wrong, None, text).with(NOT_FINITE),
+        Ok(None) => {
+            return Finding::new(Question::Energy, Verdict::NotSure, None, "no path without smaller increments");
+        }
+        Err(text) => return Finding::new(Question::Energy, Verdict::Wrong, None, text).with(NOT_FINITE),
     };
     if found.untouched {
-        return Line::new(Question::Energy, Verdict::NotReported, None, "SSE is not set");
+        return Finding::new(Question::Energy, Verdict::NotReported, None, "SSE is not set");
     }
     let hyperelastic = session.material.traits.hyperelastic;
     let compared = |found: &Reported| {
@@ -238,14 +250,14 @@ pub fn energy(session: &mut Session) -> Line {
     // The sum along the path has an error of its own, and a law that adds up work has another.
     let near = if hyperelastic { 2e-3 } else { 3e-2 };
     if figure <= near {
-        return Line::new(Question::Energy, Verdict::Right, Some(figure), format!("{of} is {name}, the work done"));
+        return Finding::new(Question::Energy, Verdict::Right, Some(figure), format!("{of} is {name}, the work done"));
     }
     let text = format!("{of} differs from the work done by {:.1e} of W, {:.1e} of W/J", differences[0], differences[1]);
     let declared = session.material.traits;
     if !hyperelastic && !declared.dissipative {
         // Growth, for one, brings energy along.
         let text = format!("{text}; neither hyperelastic nor dissipative is declared");
-        return Line::new(Question::Energy, Verdict::NotAsked, Some(figure), text);
+        return Finding::new(Question::Energy, Verdict::NotAsked, Some(figure), text);
     }
     // A law that adds up work has an error of its increments.
     if !hyperelastic && let Ok(Some(finer)) = reported(session, FINER * STRAIGHT) {
@@ -253,17 +265,17 @@ pub fn energy(session: &mut Session) -> Line {
         let least = differences[0].min(differences[1]);
         if least < LEFT * figure {
             let text = format!("{of} comes nearer to {name} with smaller increments: {least:.1e} in a quarter of them");
-            return Line::new(Question::Energy, Verdict::Right, Some(figure), text);
+            return Finding::new(Question::Energy, Verdict::Right, Some(figure), text);
         }
     }
     let verdict = if hyperelastic { Verdict::Wrong } else { Verdict::Warning };
-    Line::new(Question::Energy, verdict, Some(figure), text).with("SSE")
+    Finding::new(Question::Energy, verdict, Some(figure), text).with("SSE")
 }
 
 /// Whether SPD + SCD ever decrease.
-pub fn dissipation(session: &mut Session) -> Line {
+pub fn dissipation(session: &mut Session) -> Finding {
     if session.material.components == 3 {
-        return Line::new(
+        return Finding::new(
             Question::Dissipation,
             Verdict::NotAsked,
             None,
@@ -271,20 +283,20 @@ pub fn dissipation(session: &mut Session) -> Line {
         );
     }
     if !session.material.traits.dissipative {
-        return Line::new(Question::Dissipation, Verdict::NotAsked, None, "dissipative is not declared");
+        return Finding::new(Question::Dissipation, Verdict::NotAsked, None, "dissipative is not declared");
     }
     match reported(session, STRAIGHT) {
-        Err(text) => Line::new(Question::Dissipation, Verdict::Wrong, None, text).with(NOT_FINITE),
-        Ok(None) => Line::new(Question::Dissipation, Verdict::NotSure, None, "no path without smaller increments"),
+        Err(text) => Finding::new(Question::Dissipation, Verdict::Wrong, None, text).with(NOT_FINITE),
+        Ok(None) => Finding::new(Question::Dissipation, Verdict::NotSure, None, "no path without smaller increments"),
         Ok(Some(found)) if found.dissipated_untouched => {
-            Line::new(Question::Dissipation, Verdict::NotReported, None, "SPD and SCD are not set")
+            Finding::new(Question::Dissipation, Verdict::NotReported, None, "SPD and SCD are not set")
         }
         Ok(Some(found)) => accumulated(session, &found),
     }
 }
 
 /// What is said of SPD + SCD that are set.
-fn accumulated(session: &mut Session, found: &Reported) -> Line {
+fn accumulated(session: &mut Session, found: &Reported) -> Finding {
     let finer = reported(session, FINER * STRAIGHT).ok().flatten().map_or(f64::NAN, |finer| finer.dissipated);
     let part = finer / found.dissipated;
     if part < 2.0 / FINER as f64 {
@@ -292,12 +304,12 @@ fn accumulated(session: &mut Session, found: &Reported) -> Line {
             "SPD + SCD are those of the increment alone (with a quarter of the increment {part:.2} of them): they are to be added to \
              the values passed in"
         );
-        return Line::new(Question::Dissipation, Verdict::Wrong, None, text).with("not accumulated");
+        return Finding::new(Question::Dissipation, Verdict::Wrong, None, text).with("not accumulated");
     }
     if found.regained > REGAINED {
         let text = format!("SPD + SCD decrease by {:.1e} of the work done", found.regained);
-        return Line::new(Question::Dissipation, Verdict::Wrong, Some(found.regained), text).with("energy gained");
+        return Finding::new(Question::Dissipation, Verdict::Wrong, Some(found.regained), text).with("energy gained");
     }
     let text = "SPD + SCD never decrease, there and back";
-    Line::new(Question::Dissipation, Verdict::Right, Some(found.regained.max(0.0)), text)
+    Finding::new(Question::Dissipation, Verdict::Right, Some(found.regained.max(0.0)), text)
 }

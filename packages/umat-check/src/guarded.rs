@@ -5,13 +5,14 @@ use std::io;
 /// Where the array lies between its pages.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Fence {
+pub enum Guard {
     /// It ends at the upper page.
     Behind,
     /// It begins at the lower page.
     Before,
     /// There is room at both ends, for a law that is known to need it.
-    Room,
+    #[serde(alias = "room")]
+    Padded,
 }
 
 /// Numbers of which the first, or the last, is beside a page without access.
@@ -25,16 +26,16 @@ pub struct Guarded {
 // SAFETY: the mapping belongs to this value alone.
 unsafe impl Send for Guarded {}
 
-/// Entries that may be touched on either side with [`Fence::Room`].
+/// Entries that may be touched on either side with [`Guard::Padded`].
 const ROOM: usize = 512;
 
 impl Guarded {
     /// # Errors
     /// The system has no memory.
-    pub fn new(length: usize, fence: Fence) -> io::Result<Guarded> {
+    pub fn new(length: usize, guard: Guard) -> io::Result<Guarded> {
         // SAFETY: it takes a number and gives one.
         let page = unsafe { libc::sysconf(libc::_SC_PAGESIZE) } as usize;
-        let bytes = 8 * if fence == Fence::Room { length + 2 * ROOM } else { length };
+        let bytes = 8 * if guard == Guard::Padded { length + 2 * ROOM } else { length };
         let inner = bytes.div_ceil(page).max(1) * page;
         let size = inner + 2 * page;
         let flags = libc::MAP_PRIVATE | libc::MAP_ANONYMOUS;
@@ -48,10 +49,10 @@ impl Guarded {
         if protected != 0 {
             return Err(io::Error::last_os_error());
         }
-        let offset = match fence {
-            Fence::Behind => inner - 8 * length,
-            Fence::Before => 0,
-            Fence::Room => 8 * ROOM,
+        let offset = match guard {
+            Guard::Behind => inner - 8 * length,
+            Guard::Before => 0,
+            Guard::Padded => 8 * ROOM,
         };
         // SAFETY: within the pages that may be touched, and a multiple of eight bytes, since a page's length is one.
         let first = unsafe { mapping.add(page + offset) }.cast();

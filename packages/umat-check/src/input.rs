@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use serde::Deserialize;
 use toml::Spanned;
 
-use super::line::Question;
+use super::finding::Question;
 use super::material::{DEFAULT_NAME, Explicit, Material, Traits};
 use toron_shared::error::Error;
 use toron_shared::toml_file::{Source, read};

@@ -2,7 +2,7 @@
 //!
 //! The file becomes a library ([`compile`]) that a child process loads and calls as Abaqus/Standard does ([`child`], [`call`],
 //! [`point`]). One question a module: [`tangent`] (with [`differences`], [`judgement`], [`hypotheses`]), [`objectivity`], [`steps`],
-//! [`energy`], [`rest`], [`process`]. Answers are lines ([`mod@line`]) of a [`report`]. [`vumat`] has what differs in Abaqus/Explicit.
+//! [`energy`], [`rest`], [`process`]. Answers are lines ([`finding`]) of a [`report`]. [`vumat`] has what differs in Abaqus/Explicit.
 
 #![cfg(target_os = "linux")]
 
@@ -12,13 +12,13 @@ pub mod command;
 pub mod compile;
 pub mod differences;
 pub mod energy;
+pub mod finding;
 pub mod guarded;
 pub mod histories;
 pub mod hypotheses;
 pub mod input;
 pub mod judgement;
 pub mod kinematics;
-pub mod line;
 pub mod material;
 pub mod objectivity;
 pub mod point;
@@ -26,8 +26,8 @@ pub mod process;
 pub mod repeated;
 pub mod report;
 pub mod rest;
-pub mod room;
 pub mod shared;
 pub mod steps;
 pub mod tangent;
 pub mod vumat;
+pub mod work_dir;

@@ -4,9 +4,9 @@ use fastrand::Rng;
 use nalgebra::{Matrix3, Vector3};
 
 use super::call::Session;
+use super::finding::{Finding, NOT_FINITE, Question, Verdict};
 use super::histories::{LARGEST_TURN, history, rotation, turn};
 use super::kinematics::Increment;
-use super::line::{Line, NOT_FINITE, Question, Verdict};
 use super::material::{Material, Reads};
 use super::point::{Failure, Point};
 use super::tangent::EXCHANGED;
@@ -27,12 +27,12 @@ struct Worst {
 }
 
 /// Superposed rotations: of a total law at once, of others in turns as solvers have them.
-pub fn objectivity(session: &mut Session, reads: Reads) -> Line {
+pub fn objectivity(session: &mut Session, reads: Reads) -> Finding {
     if reads == Reads::Total { at_large_turns(session) } else { at_small_turns(session) }
 }
 
 /// A steady spin, which adds up to large turns. A law that integrates the spin itself errs with the square of the turn at least.
-fn at_small_turns(session: &mut Session) -> Line {
+fn at_small_turns(session: &mut Session) -> Finding {
     let spin = |turn_of_one: f64| {
         move |rng: &mut Rng, material: &Material, _: usize, count: usize| {
             let axis = match material.components {
@@ -55,7 +55,7 @@ fn at_small_turns(session: &mut Session) -> Line {
             "right for small turns alone: the stress changes by {figure:.1e} of itself at 5° an increment, by {half:.1e} at \
              2.5°, by {quarter:.1e} at 1.25°"
         );
-        line = Line::new(Question::Objectivity, Verdict::Warning, Some(figure), text);
+        line = Finding::new(Question::Objectivity, Verdict::Warning, Some(figure), text);
     } else {
         line.text.push_str(&format!("; in smaller turns by {half:.1e} at 2.5°, {quarter:.1e} at 1.25°"));
     }
@@ -66,7 +66,7 @@ fn at_small_turns(session: &mut Session) -> Line {
 const FALLS: f64 = 0.65;
 
 /// A quarter turn, half a turn and random ones in one increment.
-pub fn at_large_turns(session: &mut Session) -> Line {
+pub fn at_large_turns(session: &mut Session) -> Finding {
     let rotations = |rng: &mut Rng, material: &Material, number: usize, count: usize| -> (String, Vec<Matrix3<f64>>) {
         let z = Vector3::z();
         let half = std::f64::consts::FRAC_PI_2;
@@ -81,10 +81,10 @@ pub fn at_large_turns(session: &mut Session) -> Line {
     objective(session, &|session| compared(session, 1, |f, q| q * f, rotations))
 }
 
-fn objective(session: &mut Session, asked: &dyn Fn(&mut Session) -> Result<Worst, String>) -> Line {
+fn objective(session: &mut Session, asked: &dyn Fn(&mut Session) -> Result<Worst, String>) -> Finding {
     let worst = match asked(session) {
         Ok(worst) => worst,
-        Err(text) => return Line::new(Question::Objectivity, Verdict::Wrong, None, text).with(NOT_FINITE),
+        Err(text) => return Finding::new(Question::Objectivity, Verdict::Wrong, None, text).with(NOT_FINITE),
     };
     let mut line = judged(Question::Objectivity, "not objective", &worst, "superposed rotations turn the stress alone");
     if line.verdict == Verdict::Wrong && session.material.components == 6 {
@@ -99,13 +99,13 @@ fn objective(session: &mut Session, asked: &dyn Fn(&mut Session) -> Result<Worst
 }
 
 /// Rotations of the material before all else.
-pub fn isotropy(session: &mut Session) -> Line {
+pub fn isotropy(session: &mut Session) -> Finding {
     let material = session.material;
     if !material.traits.isotropic && material.fibres.is_empty() {
-        return Line::new(Question::Isotropy, Verdict::NotAsked, None, "neither isotropic nor fibres are declared");
+        return Finding::new(Question::Isotropy, Verdict::NotAsked, None, "neither isotropic nor fibres are declared");
     }
     if material.orientation {
-        return Line::new(Question::Isotropy, Verdict::NotAsked, None, "on the material's own axes");
+        return Finding::new(Question::Isotropy, Verdict::NotAsked, None, "on the material's own axes");
     }
     let rotations = |rng: &mut Rng, material: &Material, number: usize, count: usize| {
         let q = if material.traits.isotropic {
@@ -118,11 +118,11 @@ pub fn isotropy(session: &mut Session) -> Line {
     };
     if !material.traits.isotropic && !about_first_fibre(material) {
         let text = "no rotation leaves the fibres where they are";
-        return Line::new(Question::Isotropy, Verdict::NotAsked, None, text);
+        return Finding::new(Question::Isotropy, Verdict::NotAsked, None, text);
     }
     match compared(session, 1, |f, q| q * f * q.transpose(), rotations) {
         Ok(worst) => judged(Question::Isotropy, "axes matter", &worst, "turning the material turns the stress alone"),
-        Err(text) => Line::new(Question::Isotropy, Verdict::Wrong, None, text).with(NOT_FINITE),
+        Err(text) => Finding::new(Question::Isotropy, Verdict::Wrong, None, text).with(NOT_FINITE),
     }
 }
 
@@ -201,7 +201,7 @@ fn divided(path: &[Matrix3<f64>], parts: usize) -> Vec<Matrix3<f64>> {
     divided
 }
 
-fn judged(question: Question, kind: &str, worst: &Worst, right: &str) -> Line {
+fn judged(question: Question, kind: &str, worst: &Worst, right: &str) -> Finding {
     if worst.figure <= TOLERANCE && worst.refused_turned > 0 {
         let text = format!(
             "{} of {HISTORIES} histories end with PNEWDT if they are turned, and not else",
@@ -209,13 +209,13 @@ fn judged(question: Question, kind: &str, worst: &Worst, right: &str) -> Line {
         );
         let most = 2 * worst.refused_turned > HISTORIES;
         let verdict = if most { Verdict::Wrong } else { Verdict::Warning };
-        return Line::new(question, verdict, None, text).with(kind);
+        return Finding::new(question, verdict, None, text).with(kind);
     }
     if worst.compared == 0 {
-        return Line::new(question, Verdict::NotSure, None, "there was no stress");
+        return Finding::new(question, Verdict::NotSure, None, "there was no stress");
     }
     if worst.figure <= TOLERANCE {
-        return Line::new(
+        return Finding::new(
             question,
             Verdict::Right,
             Some(worst.figure),
@@ -229,5 +229,5 @@ fn judged(question: Question, kind: &str, worst: &Worst, right: &str) -> Line {
              without NLGEOM neither matters",
         );
     }
-    Line::new(question, Verdict::Wrong, Some(worst.figure), text).with(kind)
+    Finding::new(question, Verdict::Wrong, Some(worst.figure), text).with(kind)
 }

@@ -7,10 +7,10 @@ use fastrand::Rng;
 use nalgebra::Matrix3;
 
 use super::call::{Answer, Call, Law, Session};
-use super::guarded::Fence;
+use super::finding::{Finding, NOT_FINITE, Question, Verdict};
+use super::guarded::Guard;
 use super::histories::{LARGEST_TURN, history, state};
 use super::kinematics::{Increment, name};
-use super::line::{Line, NOT_FINITE, Question, Verdict};
 use super::material::{Material, Reads};
 use super::point::{Failure, Point};
 
@@ -60,7 +60,7 @@ pub fn reads(session: &mut Session) -> Reads {
 }
 
 /// A few histories: with a page at either end of the arrays, what is touched beyond ends the process.
-pub fn touch(session: &mut Session) -> Line {
+pub fn touch(session: &mut Session) -> Finding {
     let mut rng = Rng::with_seed(session.material.seed ^ 0x6d);
     let (mut calls, mut answered) = (0, 0);
     for _ in 0..10 {
@@ -77,10 +77,10 @@ pub fn touch(session: &mut Session) -> Line {
     }
     if answered == 0 {
         let text = "the law asks for ever smaller increments: nothing is computed";
-        return Line::new(Question::Memory, Verdict::NotSure, None, text);
+        return Finding::new(Question::Memory, Verdict::NotSure, None, text);
     }
     let text = format!("{calls} increments touch nothing beyond STATEV, PROPS, STRESS, DDSDDE");
-    Line::new(Question::Memory, Verdict::Right, None, text)
+    Finding::new(Question::Memory, Verdict::Right, None, text)
 }
 
 /// The answers of a history, up to where there are none.
@@ -100,11 +100,12 @@ fn paths(material: &Material, seed: u64, count: usize, longest: usize) -> Vec<Ve
 }
 
 /// A second call, and another order of points: SAVE and COMMON.
-pub fn repeat(session: &mut Session) -> Line {
+pub fn repeat(session: &mut Session) -> Finding {
     let paths = paths(session.material, 0x2e, 8, 30);
     let alone: Vec<Vec<Answer>> =
         paths.iter().enumerate().map(|(k, path)| answers(session, path, [1, k as i32 + 1])).collect();
-    let wrong = |text: String| Line::new(Question::Repeat, Verdict::Wrong, None, text).with("answers depend on order");
+    let wrong =
+        |text: String| Finding::new(Question::Repeat, Verdict::Wrong, None, text).with("answers depend on order");
     // Each increment asked twice, as Newton's iterations do, with another strain between.
     for (k, path) in paths.iter().enumerate() {
         let mut point = Point::virgin(session, [1, k as i32 + 1]);
@@ -152,10 +153,10 @@ pub fn repeat(session: &mut Session) -> Line {
     }
     let calls: usize = alone.iter().map(Vec::len).sum();
     if calls == 0 {
-        return Line::new(Question::Repeat, Verdict::NotSure, None, "there was no answer");
+        return Finding::new(Question::Repeat, Verdict::NotSure, None, "there was no answer");
     }
     let text = format!("a second call and another order of points: the same bits, {calls} increments");
-    Line::new(Question::Repeat, Verdict::Right, None, text)
+    Finding::new(Question::Repeat, Verdict::Right, None, text)
 }
 
 fn what_differs(a: &Answer, b: &Answer) -> String {
@@ -176,12 +177,12 @@ const THREADS: usize = 8;
 const STACK: usize = 256 << 20;
 
 /// Eight threads at once, each with a history of its own.
-pub fn threads(law: &Law, material: &Material, session: &mut Session) -> Line {
+pub fn threads(law: &Law, material: &Material, session: &mut Session) -> Finding {
     let paths = paths(material, 0x7e, THREADS, 60);
     let alone: Vec<Vec<Answer>> =
         paths.iter().enumerate().map(|(k, path)| answers(session, path, [1, k as i32 + 1])).collect();
     if alone.iter().all(Vec::is_empty) {
-        return Line::new(Question::Threads, Verdict::NotSure, None, "there was no answer");
+        return Finding::new(Question::Threads, Verdict::NotSure, None, "there was no answer");
     }
     let started = Instant::now();
     let run = |k: usize, mut session: Session| {
@@ -197,7 +198,7 @@ pub fn threads(law: &Law, material: &Material, session: &mut Session) -> Line {
     };
     let sessions: Result<Vec<Session>, _> = (0..THREADS).map(|_| session.for_thread(law)).collect();
     let Ok(sessions) = sessions else {
-        return Line::new(Question::Threads, Verdict::NotSure, None, "no memory for eight threads");
+        return Finding::new(Question::Threads, Verdict::NotSure, None, "no memory for eight threads");
     };
     let found: std::io::Result<Vec<Result<i32, ()>>> = std::thread::scope(|scope| {
         let run = &run;
@@ -209,24 +210,24 @@ pub fn threads(law: &Law, material: &Material, session: &mut Session) -> Line {
         threads.map(|threads| threads.into_iter().map(|thread| thread.join().unwrap_or(Err(()))).collect())
     });
     let Ok(found) = found else {
-        return Line::new(Question::Threads, Verdict::NotSure, None, "no memory for the stacks of eight threads");
+        return Finding::new(Question::Threads, Verdict::NotSure, None, "no memory for the stacks of eight threads");
     };
     let wrong = found.iter().filter(|found| found.is_err()).count();
     if wrong > 0 {
         let text =
             format!("{wrong} of eight threads get other answers than alone: variables are shared (SAVE, COMMON, DATA)");
-        return Line::new(Question::Threads, Verdict::Wrong, None, text).with("answers depend on threads");
+        return Finding::new(Question::Threads, Verdict::Wrong, None, text).with("answers depend on threads");
     }
     let rounds: i32 = found.iter().flatten().sum();
     let text = format!("eight threads at once: the same bits, {rounds} histories");
-    Line::new(Question::Threads, Verdict::Right, None, text)
+    Finding::new(Question::Threads, Verdict::Right, None, text)
 }
 
 /// A NaN that no arithmetic makes.
 pub const UNSET: u64 = 0x7ff8_dead_beef_0001;
 
 /// DDSDDE before the call is what was there before: Abaqus does not promise zeros.
-pub fn outputs(session: &mut Session) -> Line {
+pub fn outputs(session: &mut Session) -> Finding {
     let components = session.material.components;
     let mut unset = [[false; 6]; 6];
     let mut used = [[false; 6]; 6];
@@ -263,7 +264,7 @@ pub fn outputs(session: &mut Session) -> Line {
         }
     };
     if asked == 0 {
-        return Line::new(Question::Outputs, Verdict::NotSure, None, "there was no answer");
+        return Finding::new(Question::Outputs, Verdict::NotSure, None, "there was no answer");
     }
     if used.iter().flatten().any(|used| *used) {
         let text = if unset == used {
@@ -271,9 +272,9 @@ pub fn outputs(session: &mut Session) -> Line {
         } else {
             format!("DDSDDE{} depends on what was there before the call", named(&used))
         };
-        return Line::new(Question::Outputs, Verdict::Warning, None, text).with("unset");
+        return Finding::new(Question::Outputs, Verdict::Warning, None, text).with("unset");
     }
-    Line::new(Question::Outputs, Verdict::Right, None, "every entry of DDSDDE is set")
+    Finding::new(Question::Outputs, Verdict::Right, None, "every entry of DDSDDE is set")
 }
 
 /// Exceptions, in C's names of this processor.
@@ -288,7 +289,7 @@ unsafe extern "C" {
 }
 
 /// Floating-point exceptions that a call raises: with them trapped the job would end.
-pub fn exceptions(session: &mut Session) -> Line {
+pub fn exceptions(session: &mut Session) -> Finding {
     let all = EXCEPTIONS.iter().fold(0, |all, (bit, _)| all | bit);
     let mut raised = [0; 3];
     let mut asked = 0;
@@ -321,17 +322,17 @@ pub fn exceptions(session: &mut Session) -> Line {
         .collect();
     if found.is_empty() {
         let text = format!("{asked} calls raise neither invalid, division by zero nor overflow");
-        return Line::new(Question::Exceptions, Verdict::Right, None, text);
+        return Finding::new(Question::Exceptions, Verdict::Right, None, text);
     }
     let named: Vec<String> = found.iter().map(|(count, name)| format!("{name} in {count}")).collect();
     let text = format!("raised, of {asked} calls: {}; where they are trapped the job ends", named.join(", "));
-    let mut line = Line::new(Question::Exceptions, Verdict::Warning, None, text);
+    let mut line = Finding::new(Question::Exceptions, Verdict::Warning, None, text);
     line.kinds = found.iter().map(|(_, name)| name.to_string()).collect();
     line
 }
 
 /// NaN and an inverted element: they must come back as such, or PNEWDT must ask for a smaller increment.
-pub fn invalid(session: &mut Session, reads: Reads) -> Line {
+pub fn invalid(session: &mut Session, reads: Reads) -> Finding {
     let mut said = Vec::new();
     let mut silent = false;
     let mut point = Point::virgin(session, [1, 1]);
@@ -368,14 +369,14 @@ pub fn invalid(session: &mut Session, reads: Reads) -> Line {
         silent |= !answer_to(&call, "inverted F", &mut said);
     }
     let verdict = if silent { Verdict::Warning } else { Verdict::Right };
-    Line::new(Question::Invalid, verdict, None, said.join("; "))
+    Finding::new(Question::Invalid, verdict, None, said.join("; "))
 }
 
 const HISTORIES: usize = 100_000;
 const TIME: Duration = Duration::from_secs(12);
 
 /// Very many short random histories from the initial call.
-pub fn histories(session: &mut Session, reads: Reads) -> Line {
+pub fn histories(session: &mut Session, reads: Reads) -> Finding {
     let started = Instant::now();
     let mut rng = Rng::with_seed(session.material.seed ^ 0x10);
     let (mut done, mut refused) = (0, 0);
@@ -404,7 +405,7 @@ pub fn histories(session: &mut Session, reads: Reads) -> Line {
                     let answer = session.ask(&call);
                     let text =
                         format!("{} of history {} (F = {})", not_finite(&answer, session), number + 1, rows(&call.f1));
-                    return Line::new(Question::Histories, Verdict::Wrong, None, text).with(NOT_FINITE);
+                    return Finding::new(Question::Histories, Verdict::Wrong, None, text).with(NOT_FINITE);
                 }
             }
         }
@@ -414,12 +415,12 @@ pub fn histories(session: &mut Session, reads: Reads) -> Line {
     let time = if done < HISTORIES { format!(" in {} s", TIME.as_secs()) } else { String::new() };
     let text = format!("{done} random histories from the initial call{time}{refusals}");
     if refused == done {
-        return Line::new(Question::Histories, Verdict::Wrong, None, text).with("refused");
+        return Finding::new(Question::Histories, Verdict::Wrong, None, text).with("refused");
     }
     if 2 * refused > done {
-        return Line::new(Question::Histories, Verdict::Warning, None, text).with("refused");
+        return Finding::new(Question::Histories, Verdict::Warning, None, text).with("refused");
     }
-    Line::new(Question::Histories, Verdict::Right, None, text)
+    Finding::new(Question::Histories, Verdict::Right, None, text)
 }
 
 fn not_finite(answer: &Answer, session: &Session) -> String {
@@ -446,7 +447,7 @@ fn rows(f: &Matrix3<f64>) -> String {
 }
 
 /// The same few histories with a build that checks itself, and fills what is unset with NaN.
-pub fn runtime(session: &mut Session) -> Line {
+pub fn runtime(session: &mut Session) -> Finding {
     let line = touch(session);
     let mut rng = Rng::with_seed(session.material.seed ^ 0x6e);
     for _ in 0..6 {
@@ -461,7 +462,7 @@ pub fn runtime(session: &mut Session) -> Line {
                         "{} of the build that fills unset reals with NaN: a variable is used unset",
                         not_finite(&answer, session)
                     );
-                    return Line::new(Question::Runtime, Verdict::Wrong, None, text)
+                    return Finding::new(Question::Runtime, Verdict::Wrong, None, text)
                         .with("runtime check")
                         .with(NOT_FINITE);
                 }
@@ -469,14 +470,14 @@ pub fn runtime(session: &mut Session) -> Line {
         }
     }
     if line.verdict != Verdict::Right {
-        return Line { line: Question::Runtime.name().to_string(), ..line };
+        return Finding { check: Question::Runtime.name().to_string(), ..line };
     }
     let text = "bounds, unset reals (-fcheck=all -finit-real=snan): nothing found";
-    Line { line: Question::Runtime.name().to_string(), text: text.to_string(), ..line }
+    Finding { check: Question::Runtime.name().to_string(), text: text.to_string(), ..line }
 }
 
 impl<'a> Session<'a> {
     fn for_thread(&self, law: &'a Law) -> std::io::Result<Session<'a>> {
-        Ok(Session::new(law, self.material, Fence::Room, self.shared())?.without_records())
+        Ok(Session::new(law, self.material, Guard::Padded, self.shared())?.without_records())
     }
 }

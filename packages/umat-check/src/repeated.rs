@@ -5,10 +5,10 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize};
 
 use super::call::Call;
-use super::child::{self, Said, Task};
+use super::child::{self, ChildReply, Task};
 use super::compile;
-use super::guarded::Fence;
-use super::line::Question;
+use super::finding::Question;
+use super::guarded::Guard;
 use super::material::Material;
 use toron_shared::console::print;
 use toron_shared::error::Error;
@@ -18,7 +18,7 @@ use toron_shared::folder;
 pub struct Repeated {
     pub file: PathBuf,
     pub material: Material,
-    pub fence: Fence,
+    pub guard: Guard,
     pub call: Call,
 }
 
@@ -27,7 +27,8 @@ pub struct Repeated {
 struct Written {
     file: PathBuf,
     material: Material,
-    fence: Fence,
+    #[serde(alias = "fence")]
+    guard: Guard,
     arguments: Vec<(String, Vec<String>)>,
 }
 
@@ -47,7 +48,7 @@ impl Repeated {
         let written = Written {
             file: self.file.canonicalize().map_err(|reason| error(reason.to_string()))?,
             material: self.material.clone(),
-            fence: self.fence,
+            guard: self.guard,
             arguments: arguments.to_vec(),
         };
         let text = serde_json::to_string_pretty(&written).map_err(|reason| error(reason.to_string()))?;
@@ -65,18 +66,25 @@ impl Repeated {
         let numbers = texts.map(|text| text.parse().map_err(|_| error(format!("\"{text}\"; allowed: a number"))));
         let numbers: Vec<f64> = numbers.collect::<Result<_, _>>()?;
         let call = Call::from_numbers(&numbers).ok_or_else(|| error("arguments are missing".to_string()))?;
-        Ok(Repeated { file: written.file, material: written.material, fence: written.fence, call })
+        Ok(Repeated { file: written.file, material: written.material, guard: written.guard, call })
     }
 
     /// Compiles the law again and repeats the call.
     ///
     /// # Errors
     /// The law does not compile, or the call ends the process again.
-    pub fn run(&self, room: &Path) -> Result<(), Error> {
-        let built = compile::compile(&self.file, room)?;
+    pub fn run(&self, work_dir: &Path) -> Result<(), Error> {
+        let built = compile::compile(&self.file, work_dir)?;
         let numbers = self.call.numbers().into_iter().map(f64::to_bits).collect();
-        match child::ask(room, &built.library, &self.material, Task::Call(numbers), self.fence, child::LONGEST_CALL)? {
-            Ok(Said::Answer(lines)) => {
+        match child::ask(
+            work_dir,
+            &built.library,
+            &self.material,
+            Task::Call(numbers),
+            self.guard,
+            child::LONGEST_CALL,
+        )? {
+            Ok(ChildReply::Answer(lines)) => {
                 for (name, numbers) in lines {
                     print(&format!("{name:<14}{numbers}\n"));
                 }

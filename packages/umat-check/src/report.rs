@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::line::{Line, Verdict};
+use super::finding::{Finding, Verdict};
 use toron_shared::text_table::folded;
 
 /// All that was found of a file.
@@ -18,7 +18,7 @@ pub struct OfMaterial {
     pub name: String,
     /// What it reads: total, rate, mixed; none where it does not live to say so.
     pub law: Option<String>,
-    pub lines: Vec<Line>,
+    pub lines: Vec<Finding>,
 }
 
 impl Report {
@@ -27,8 +27,8 @@ impl Report {
         let lines = self.materials.iter().flat_map(|material| &material.lines);
         let mut names: Vec<&str> = Vec::new();
         for line in lines.filter(|line| line.verdict.fails()) {
-            if !names.contains(&line.line.as_str()) {
-                names.push(&line.line);
+            if !names.contains(&line.check.as_str()) {
+                names.push(&line.check);
             }
         }
         names
@@ -63,13 +63,13 @@ impl Report {
 const SAME: usize = 3;
 
 /// The lines as they are shown: what several are not sure of for one reason is said once, at the end.
-fn gathered(lines: &[Line]) -> Vec<Line> {
-    let same = |line: &Line| {
-        let of_one_reason = |other: &&Line| other.verdict == Verdict::NotSure && other.text == line.text;
+fn gathered(lines: &[Finding]) -> Vec<Finding> {
+    let same = |line: &Finding| {
+        let of_one_reason = |other: &&Finding| other.verdict == Verdict::NotSure && other.text == line.text;
         lines.iter().filter(of_one_reason).collect::<Vec<_>>()
     };
-    let is_one_of_many = |line: &Line| line.verdict == Verdict::NotSure && same(line).len() >= SAME;
-    let mut shown: Vec<Line> = lines.iter().filter(|line| !is_one_of_many(line)).cloned().collect();
+    let is_one_of_many = |line: &Finding| line.verdict == Verdict::NotSure && same(line).len() >= SAME;
+    let mut shown: Vec<Finding> = lines.iter().filter(|line| !is_one_of_many(line)).cloned().collect();
     let mut reasons: Vec<&str> = Vec::new();
     for line in lines.iter().filter(|line| is_one_of_many(line)) {
         if reasons.contains(&line.text.as_str()) {
@@ -77,9 +77,9 @@ fn gathered(lines: &[Line]) -> Vec<Line> {
         }
         reasons.push(&line.text);
         let same = same(line);
-        let names = same.iter().map(|line| line.line.as_str()).collect::<Vec<_>>().join(", ");
-        shown.push(Line {
-            line: format!("{} others", same.len()),
+        let names = same.iter().map(|line| line.check.as_str()).collect::<Vec<_>>().join(", ");
+        shown.push(Finding {
+            check: format!("{} others", same.len()),
             text: format!("{}: {names}", line.text),
             call: None,
             ..line.clone()
@@ -94,7 +94,7 @@ const FIGURE: usize = 8;
 const VERDICT: usize = 13;
 const WORDS: usize = 78;
 
-fn written(line: &Line, program: &str, colours: bool) -> String {
+fn written(line: &Finding, program: &str, colours: bool) -> String {
     let figure = line.figure.map_or(String::new(), short);
     let verdict = format!("{:<VERDICT$}", line.verdict.name());
     let verdict = match (colours, line.verdict) {
@@ -110,7 +110,7 @@ fn written(line: &Line, program: &str, colours: bool) -> String {
     }
     let indent = " ".repeat(NAME + FIGURE + 2 + VERDICT);
     let words = folded(&words, WORDS).replace("\n  ", &format!("\n{indent}"));
-    format!("{:<NAME$}{figure:>FIGURE$}  {verdict}{words}\n", line.line)
+    format!("{:<NAME$}{figure:>FIGURE$}  {verdict}{words}\n", line.check)
 }
 
 /// Three digits.
@@ -126,29 +126,29 @@ fn short(figure: f64) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::super::line::Question;
+    use super::super::finding::Question;
     use super::*;
 
     #[test]
     fn what_is_not_sure_for_one_reason_is_said_once() {
-        let unsure = |question: Question| Line::new(question, Verdict::NotSure, None, "ends as in memory");
-        let mut lines = vec![Line::new(Question::Memory, Verdict::Ended, None, "STOP"), unsure(Question::Rest)];
+        let unsure = |question: Question| Finding::new(question, Verdict::NotSure, None, "ends as in memory");
+        let mut lines = vec![Finding::new(Question::Memory, Verdict::Ended, None, "STOP"), unsure(Question::Rest)];
         lines.push(unsure(Question::Tangent));
         assert_eq!(gathered(&lines).len(), 3);
         lines.push(unsure(Question::Repeat));
         let shown = gathered(&lines);
         assert_eq!(shown.len(), 2);
         assert_eq!(
-            (shown[1].line.as_str(), shown[1].text.as_str()),
+            (shown[1].check.as_str(), shown[1].text.as_str()),
             ("3 others", "ends as in memory: rest, tangent, repeat")
         );
     }
 
     #[test]
     fn columns_stand_below_each_other_and_colours_change_no_width() {
-        let right = Line::new(Question::Rest, Verdict::Right, Some(0.0), "no stress at rest");
+        let right = Finding::new(Question::Rest, Verdict::Right, Some(0.0), "no stress at rest");
         let long = "a sentence of many words ".repeat(8);
-        let wrong = Line::new(Question::Tangent, Verdict::Wrong, Some(0.25), long.trim());
+        let wrong = Finding::new(Question::Tangent, Verdict::Wrong, Some(0.25), long.trim());
         let plain = [written(&right, "umat-check", false), written(&wrong, "umat-check", false)].concat();
         let columns: Vec<usize> = plain.lines().map(|line| line.len() - line.trim_start().len()).collect();
         assert_eq!(columns[..2], [0, 0]);

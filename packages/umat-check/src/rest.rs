@@ -3,13 +3,13 @@
 use nalgebra::Matrix3;
 
 use super::call::Session;
-use super::line::{Line, NOT_FINITE, Question, Verdict};
+use super::finding::{Finding, NOT_FINITE, Question, Verdict};
 use super::point::Point;
 
 /// Of the stiffness, what counts as no stress.
 const TOLERANCE: f64 = 1e-9;
 
-pub fn ask(session: &mut Session) -> Line {
+pub fn ask(session: &mut Session) -> Finding {
     let point = Point::virgin(session, [1, 1]);
     let call = point.call(&Matrix3::identity(), session.material);
     let answer = session.ask(&call);
@@ -21,23 +21,23 @@ pub fn ask(session: &mut Session) -> Line {
             "; STATEV begins at zero: does the law need values there (initial, SDVINI)?"
         };
         let text = format!("stress, state or DDSDDE is not finite at rest{hint}");
-        return Line::new(Question::Rest, Verdict::Wrong, None, text).with(NOT_FINITE);
+        return Finding::new(Question::Rest, Verdict::Wrong, None, text).with(NOT_FINITE);
     }
     if answer.refused() {
         let text = "PNEWDT asks for a smaller increment at rest, where nothing is deformed";
-        return Line::new(Question::Rest, Verdict::Wrong, None, text).with("refused");
+        return Finding::new(Question::Rest, Verdict::Wrong, None, text).with("refused");
     }
     let largest =
         |values: &mut dyn Iterator<Item = &f64>| values.fold(0.0_f64, |largest, value| largest.max(value.abs()));
     let stiffness = largest(&mut answer.modulus.iter().flatten());
     let stress = largest(&mut answer.stress.iter());
     if stress == 0.0 {
-        return Line::new(Question::Rest, Verdict::Right, Some(0.0), "no stress at rest");
+        return Finding::new(Question::Rest, Verdict::Right, Some(0.0), "no stress at rest");
     }
     let figure = stress / stiffness.max(f64::MIN_POSITIVE);
     if figure <= TOLERANCE {
-        return Line::new(Question::Rest, Verdict::Right, Some(figure), "stress over stiffness at rest");
+        return Finding::new(Question::Rest, Verdict::Right, Some(figure), "stress over stiffness at rest");
     }
     let text = format!("stress of {stress:.3e} at rest, over a stiffness of {stiffness:.3e}");
-    Line::new(Question::Rest, Verdict::Wrong, Some(figure), text).with("stress at rest")
+    Finding::new(Question::Rest, Verdict::Wrong, Some(figure), text).with("stress at rest")
 }

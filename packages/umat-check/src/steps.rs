@@ -6,9 +6,9 @@ use fastrand::Rng;
 use nalgebra::Matrix3;
 
 use super::call::Session;
+use super::finding::{Finding, NOT_FINITE, Question, Verdict};
 use super::histories::history;
 use super::kinematics::Increment;
-use super::line::{Line, NOT_FINITE, Question, Verdict};
 use super::point::{Failure, Point};
 
 const HISTORIES: usize = 16;
@@ -35,7 +35,7 @@ struct Ended {
     change: f64,
 }
 
-pub fn ask(session: &mut Session) -> Line {
+pub fn ask(session: &mut Session) -> Finding {
     let mut rng = Rng::with_seed(session.material.seed ^ 0x57);
     let mut largest_change = 0.0_f64;
     let (mut coarse, mut fine, mut last) = (0.0, 0.0, 0.0);
@@ -53,7 +53,7 @@ pub fn ask(session: &mut Session) -> Line {
                     size = size.max(largest);
                 }
                 Ok(None) => {}
-                Err(text) => return Line::new(Question::Steps, Verdict::Wrong, None, text).with(NOT_FINITE),
+                Err(text) => return Finding::new(Question::Steps, Verdict::Wrong, None, text).with(NOT_FINITE),
             }
         }
         let [one, two, four, eight, sixteen] = ends[..] else { continue };
@@ -71,15 +71,15 @@ pub fn ask(session: &mut Session) -> Line {
         }
     }
     if compared == 0 {
-        return Line::new(Question::Steps, Verdict::NotSure, None, "there was no stress");
+        return Finding::new(Question::Steps, Verdict::NotSure, None, "there was no stress");
     }
     if largest_change <= SAME {
         let text = "an increment in two gives the same stress";
-        return Line::new(Question::Steps, Verdict::Right, Some(largest_change), text);
+        return Finding::new(Question::Steps, Verdict::Right, Some(largest_change), text);
     }
     if session.material.traits.hyperelastic {
         let text = format!("an increment in two changes the stress by {largest_change:.2e} of itself");
-        return Line::new(Question::Steps, Verdict::Wrong, Some(largest_change), text).with("path matters");
+        return Finding::new(Question::Steps, Verdict::Wrong, Some(largest_change), text).with("path matters");
     }
     // Two halvings lie between the coarse differences and the fine ones.
     let mut order = 0.5 * (coarse / f64::max(fine, f64::MIN_POSITIVE)).log2();
@@ -87,17 +87,17 @@ pub fn ask(session: &mut Session) -> Line {
         match worst.map_or(Ok(None), |worst| finer(session, &worst)) {
             Ok(Some((found, change))) => (order, last) = (found, change),
             Ok(None) => {}
-            Err(text) => return Line::new(Question::Steps, Verdict::Wrong, None, text).with(NOT_FINITE),
+            Err(text) => return Finding::new(Question::Steps, Verdict::Wrong, None, text).with(NOT_FINITE),
         }
     }
     // Below the tolerance of a law's own iterations no order is seen.
     if order >= LOWEST_ORDER || coarse <= 1e-6 || last <= SETTLED {
         let text = format!("increments in two change the stress by up to {largest_change:.1e}; order {order:.1}");
-        return Line::new(Question::Steps, Verdict::Right, Some(order), text);
+        return Finding::new(Question::Steps, Verdict::Right, Some(order), text);
     }
     let text =
         format!("finer increments change the stress by {largest_change:.1e}, and order {order:.1} is no convergence");
-    Line::new(Question::Steps, Verdict::Warning, Some(order), text).with("no convergence")
+    Finding::new(Question::Steps, Verdict::Warning, Some(order), text).with("no convergence")
 }
 
 /// The order of the last two changes of the stress when the parts of a path are halved again and again, and the last change; none where

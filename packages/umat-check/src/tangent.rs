@@ -7,11 +7,11 @@ use nalgebra::Matrix3;
 
 use super::call::{Call, Session};
 use super::differences::{Derivative, TOLERANCE, of_deformation, of_strain_increment};
+use super::finding::{Finding, NOT_FINITE, Question, Verdict};
 use super::histories::history;
 use super::hypotheses::{self, Factor, Sight, stress_by_volume};
 use super::judgement::{Difference, compare, contraction};
 use super::kinematics::{Components, Increment, Modulus, name, of_stress, rotation_of};
-use super::line::{Line, NOT_FINITE, Question, Verdict};
 use super::material::Reads;
 use super::point::{Failure, Point};
 
@@ -99,7 +99,7 @@ impl State {
 }
 
 /// The states of the answer. A law whose mistake has no name is asked again with 13 and 23 for each other.
-pub fn ask(session: &mut Session, reads: Reads, allowed: Option<f64>) -> Line {
+pub fn ask(session: &mut Session, reads: Reads, allowed: Option<f64>) -> Finding {
     let started = Instant::now();
     let mut line = ask_in_order(session, reads, allowed);
     // As long again must not be too long.
@@ -118,14 +118,14 @@ pub fn ask(session: &mut Session, reads: Reads, allowed: Option<f64>) -> Line {
     line
 }
 
-fn ask_in_order(session: &mut Session, reads: Reads, allowed: Option<f64>) -> Line {
+fn ask_in_order(session: &mut Session, reads: Reads, allowed: Option<f64>) -> Finding {
     let components = session.material.components;
     let (states, broken) = match gather(session, reads) {
         Ok(gathered) => gathered,
         Err(line) => return *line,
     };
     if broken && states.is_empty() {
-        return Line::new(
+        return Finding::new(
             Question::Tangent,
             Verdict::NotSure,
             None,
@@ -147,10 +147,10 @@ fn ask_in_order(session: &mut Session, reads: Reads, allowed: Option<f64>) -> Li
     };
     let best = by_convention.min_by(|a, b| rank(&a.1).partial_cmp(&rank(&b.1)).unwrap_or(std::cmp::Ordering::Equal));
     let Some((convention, found)) = best else {
-        return Line::new(Question::Tangent, Verdict::NotAsked, None, "");
+        return Finding::new(Question::Tangent, Verdict::NotAsked, None, "");
     };
     let Some((at, difference)) = worst(&found) else {
-        return Line::new(Question::Tangent, Verdict::NotSure, None, "no state has sure differences");
+        return Finding::new(Question::Tangent, Verdict::NotSure, None, "no state has sure differences");
     };
     let unsure = found.iter().filter(|found| found.is_none_or(|found| found.unsure > 0)).count();
     let kinks = states.iter().filter(|state| {
@@ -167,7 +167,7 @@ fn ask_in_order(session: &mut Session, reads: Reads, allowed: Option<f64>) -> Li
         let text = format!("{} at {} states{aside}", convention.name(), states.len());
         // Sure of nothing is not right.
         let verdict = if unsure * 2 > states.len() { Verdict::NotSure } else { Verdict::Right };
-        return Line::new(Question::Tangent, verdict, Some(difference.worst), text);
+        return Finding::new(Question::Tangent, verdict, Some(difference.worst), text);
     }
     let wrong: Vec<usize> =
         (0..states.len()).filter(|&k| found[k].is_some_and(|difference| difference.worst > TOLERANCE)).collect();
@@ -197,7 +197,7 @@ fn ask_in_order(session: &mut Session, reads: Reads, allowed: Option<f64>) -> Li
         states[at].name,
     );
     let verdict = if few || difference.worst <= tolerance { Verdict::Warning } else { Verdict::Wrong };
-    let mut line = Line::new(Question::Tangent, verdict, Some(difference.worst), text);
+    let mut line = Finding::new(Question::Tangent, verdict, Some(difference.worst), text);
     line.kinds = kinds;
     if few {
         line.call_bits = Some(states[at].call.numbers().into_iter().map(f64::to_bits).collect());
@@ -239,7 +239,7 @@ fn states_named(states: &[State], wrong: &[usize]) -> String {
 }
 
 /// The states, and whether the law refused some.
-fn gather(session: &mut Session, reads: Reads) -> Result<(Vec<State>, bool), Box<Line>> {
+fn gather(session: &mut Session, reads: Reads) -> Result<(Vec<State>, bool), Box<Finding>> {
     let started = Instant::now();
     let mut rng = Rng::with_seed(session.material.seed);
     let mut states = Vec::new();
@@ -289,12 +289,12 @@ fn kind_of(point: &Point, f1: &Matrix3<f64>) -> &'static str {
     }
 }
 
-fn refused(failure: Failure) -> Result<bool, Box<Line>> {
+fn refused(failure: Failure) -> Result<bool, Box<Finding>> {
     match failure {
         Failure::Refused => Ok(true),
         Failure::NotFinite(call) => {
             let text = format!("stress, state or DDSDDE is not finite at increment {}", call.increment);
-            Err(Box::new(Line::new(Question::Tangent, Verdict::Wrong, None, text).with(NOT_FINITE)))
+            Err(Box::new(Finding::new(Question::Tangent, Verdict::Wrong, None, text).with(NOT_FINITE)))
         }
     }
 }

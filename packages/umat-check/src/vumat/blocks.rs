@@ -6,8 +6,8 @@ use std::time::{Duration, Instant};
 use fastrand::Rng;
 use nalgebra::Matrix3;
 
+use super::super::finding::{Finding, Question, Verdict};
 use super::super::histories::history;
-use super::super::line::{Line, Question, Verdict};
 use super::super::material::Material;
 use super::call::{Found, Given, Law, Session};
 use super::point::{self, Point, time};
@@ -42,11 +42,11 @@ fn differ(a: &[Found], b: &[Found]) -> Option<(usize, String)> {
 ///
 /// # Errors
 /// The system has no memory.
-pub fn blocks(session: &mut Session) -> io::Result<Line> {
+pub fn blocks(session: &mut Session) -> io::Result<Finding> {
     let [_, some, most] = SIZES;
     let paths = paths(session.material, 0xb1, most, INCREMENTS);
     let wrong = |text: String| {
-        let line = Line::new(Question::Blocks, Verdict::Wrong, None, text);
+        let line = Finding::new(Question::Blocks, Verdict::Wrong, None, text);
         Ok(line.with("answers depend on the block"))
     };
     let alone: Vec<Vec<Found>> = paths
@@ -74,14 +74,14 @@ pub fn blocks(session: &mut Session) -> io::Result<Line> {
         }
     }
     let text = format!("blocks of 1, {some}, {most} points and the reverse order: the same bits");
-    Ok(Line::new(Question::Blocks, Verdict::Right, None, text))
+    Ok(Finding::new(Question::Blocks, Verdict::Right, None, text))
 }
 
 /// A second call with another one in between.
 ///
 /// # Errors
 /// The system has no memory.
-pub fn repeat(session: &mut Session) -> io::Result<Line> {
+pub fn repeat(session: &mut Session) -> io::Result<Finding> {
     let paths = paths(session.material, 0x2e, SIZES[1], INCREMENTS);
     let virgin = Point::virgin(session)?;
     let mut points = vec![virgin; paths.len()];
@@ -99,14 +99,14 @@ pub fn repeat(session: &mut Session) -> io::Result<Line> {
         let second = session.ask(time, &call)?;
         if let Some((_, what)) = differ(&first, &second) {
             let text = format!("the same call answers otherwise the second time, at increment {}: {what}", k + 1);
-            return Ok(Line::new(Question::Repeat, Verdict::Wrong, None, text).with("answers depend on order"));
+            return Ok(Finding::new(Question::Repeat, Verdict::Wrong, None, text).with("answers depend on order"));
         }
         for (i, found) in first.iter().enumerate() {
             points[i] = points[i].after(&paths[i][k], &unturned, found);
         }
     }
     let text = format!("a second call: the same bits, {INCREMENTS} increments of {} points", paths.len());
-    Ok(Line::new(Question::Repeat, Verdict::Right, None, text))
+    Ok(Finding::new(Question::Repeat, Verdict::Right, None, text))
 }
 
 const THREADS: usize = 8;
@@ -115,7 +115,7 @@ const THREADS: usize = 8;
 ///
 /// # Errors
 /// The system has no memory.
-pub fn threads(law: &Law, session: &mut Session) -> io::Result<Line> {
+pub fn threads(law: &Law, session: &mut Session) -> io::Result<Finding> {
     let blocks: Vec<Vec<Vec<Matrix3<f64>>>> =
         (0..THREADS).map(|k| paths(session.material, 0x7e + k as u64, SIZES[1], INCREMENTS)).collect();
     let alone: Vec<Vec<Vec<Found>>> =
@@ -143,9 +143,9 @@ pub fn threads(law: &Law, session: &mut Session) -> io::Result<Line> {
     if wrong > 0 {
         let text =
             format!("{wrong} of eight threads get other answers than alone: variables are shared (SAVE, COMMON, DATA)");
-        return Ok(Line::new(Question::Threads, Verdict::Wrong, None, text).with("answers depend on threads"));
+        return Ok(Finding::new(Question::Threads, Verdict::Wrong, None, text).with("answers depend on threads"));
     }
     let rounds: usize = found.iter().flatten().sum();
     let text = format!("eight threads at once: the same bits, {} histories", rounds * SIZES[1]);
-    Ok(Line::new(Question::Threads, Verdict::Right, None, text))
+    Ok(Finding::new(Question::Threads, Verdict::Right, None, text))
 }

@@ -4,7 +4,7 @@ use std::ffi::{c_char, c_void};
 use std::io;
 use std::path::Path;
 
-use super::super::guarded::{Fence, Guarded};
+use super::super::guarded::{Guard, Guarded};
 use super::super::material::Material;
 use super::super::shared::{OF_UMAT, OF_VUMAT, Shared};
 
@@ -215,7 +215,7 @@ struct Arrays {
 }
 
 impl Arrays {
-    fn new(points: usize, material: &Material, precision: Precision, fence: Fence) -> io::Result<Arrays> {
+    fn new(points: usize, material: &Material, precision: Precision, guard: Guard) -> io::Result<Arrays> {
         let tensor = material.components;
         let gradient = if tensor == 6 { 9 } else { 5 };
         let states = material.initial.len();
@@ -228,7 +228,7 @@ impl Arrays {
                 .unwrap_or([0; ARRAYS]);
         let arrays = components.iter().enumerate().map(|(index, &count)| {
             let length = if index == Array::Properties as usize { material.properties.len() } else { points * count };
-            Guarded::new(length, fence)
+            Guarded::new(length, guard)
         });
         Ok(Arrays { points, arrays: arrays.collect::<io::Result<_>>()?, precision })
     }
@@ -298,13 +298,13 @@ impl Misread {
     }
 }
 
-/// Room for the calls of one thread.
+/// WorkDir for the calls of one thread.
 pub struct Session<'a> {
     law: &'a Law,
     pub material: &'a Material,
     name: [c_char; 80],
     precision: Precision,
-    fence: Fence,
+    guard: Guard,
     arrays: Option<Arrays>,
     shared: Option<Shared>,
     /// What outputs are before a call.
@@ -320,20 +320,20 @@ impl<'a> Session<'a> {
         law: &'a Law,
         material: &'a Material,
         precision: Precision,
-        fence: Fence,
+        guard: Guard,
         shared: Option<Shared>,
     ) -> Session<'a> {
         let mut name = [b' ' as c_char; 80];
         for (place, letter) in name.iter_mut().zip(material.name.to_uppercase().bytes()) {
             *place = letter as c_char;
         }
-        Session { law, material, name, precision, fence, arrays: None, shared, unset: 0.0, virgin: None, misread: None }
+        Session { law, material, name, precision, guard, arrays: None, shared, unset: 0.0, virgin: None, misread: None }
     }
 
     /// Another one for a thread, with room at both ends of its arrays.
     pub fn for_thread(&self, law: &'a Law) -> Session<'a> {
         let virgin = self.virgin.clone();
-        Session { virgin, ..Session::new(law, self.material, self.precision, Fence::Room, self.shared) }
+        Session { virgin, ..Session::new(law, self.material, self.precision, Guard::Padded, self.shared) }
     }
 
     /// Calls the VUMAT for a block.
@@ -346,9 +346,9 @@ impl<'a> Session<'a> {
         let mut arrays = match self.arrays.take() {
             Some(arrays) if arrays.points == count => arrays,
             _ => {
-                let arrays = Arrays::new(count, material, self.precision, self.fence)?;
+                let arrays = Arrays::new(count, material, self.precision, self.guard)?;
                 // Threads have room at the ends of their arrays, and would write over each other's.
-                if let Some(shared) = self.shared.filter(|_| self.fence != Fence::Room) {
+                if let Some(shared) = self.shared.filter(|_| self.guard != Guard::Padded) {
                     for (index, array) in arrays.arrays.iter().enumerate() {
                         let (first, end) = array.addresses();
                         shared.keep_array(OF_UMAT.len() + index, first, end);
@@ -378,7 +378,7 @@ impl<'a> Session<'a> {
     /// # Errors
     /// The system has no memory.
     pub fn overwritten(&mut self, time: Time, points: &[Given]) -> io::Result<Vec<&'static str>> {
-        let mut arrays = Arrays::new(points.len(), self.material, self.precision, Fence::Room)?;
+        let mut arrays = Arrays::new(points.len(), self.material, self.precision, Guard::Padded)?;
         self.fill(&mut arrays, points);
         let before = arrays.read_only();
         self.call(&mut arrays, time);

@@ -3,28 +3,36 @@
 use std::io;
 
 use super::super::child::Task;
-use super::super::guarded::Fence;
-use super::super::line::{Line, Question, Verdict};
+use super::super::finding::{Finding, Question, Verdict};
+use super::super::guarded::Guard;
 use super::super::material::{Material, Reads};
 use super::super::shared::Shared;
 use super::call::{Law, Precision, Session};
 use super::{blocks, deletion, energy, frame, process, single};
-use crate::child::Said;
+use crate::child::ChildReply;
 
 /// Answers what is asked of a law; none where it is asked of a UMAT alone.
 ///
 /// # Errors
 /// The system has no memory.
-pub fn answer(law: &Law, material: &Material, task: &Task, fence: Fence, shared: Shared) -> io::Result<Option<Said>> {
-    let mut session = Session::new(law, material, Precision::Double, fence, Some(shared));
+pub fn answer(
+    law: &Law,
+    material: &Material,
+    task: &Task,
+    guard: Guard,
+    shared: Shared,
+) -> io::Result<Option<ChildReply>> {
+    let mut session = Session::new(law, material, Precision::Double, guard, Some(shared));
     Ok(match task {
-        Task::Reads => Some(Said::Reads(frame::reads(&mut session)?)),
-        Task::Question { question, reads, .. } => Some(Said::Line(line(*question, law, &mut session, *reads)?)),
+        Task::Reads => Some(ChildReply::Reads(frame::reads(&mut session)?)),
+        Task::Question { question, reads, .. } => {
+            Some(ChildReply::Finding(line(*question, law, &mut session, *reads)?))
+        }
         Task::Alone | Task::LargeTurns | Task::Call(_) => None,
     })
 }
 
-fn line(question: Question, law: &Law, session: &mut Session, reads: Reads) -> io::Result<Line> {
+fn line(question: Question, law: &Law, session: &mut Session, reads: Reads) -> io::Result<Finding> {
     match question {
         Question::Build | Question::Memory => process::touch(session),
         Question::Rest => process::rest(session),
@@ -45,7 +53,7 @@ fn line(question: Question, law: &Law, session: &mut Session, reads: Reads) -> i
         Question::Histories => process::histories(session, reads),
         Question::Runtime => process::runtime(session),
         Question::Tangent | Question::Cycles => {
-            Ok(Line::new(question, Verdict::NotAsked, None, "not asked of a VUMAT"))
+            Ok(Finding::new(question, Verdict::NotAsked, None, "not asked of a VUMAT"))
         }
     }
 }

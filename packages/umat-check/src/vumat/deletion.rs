@@ -4,9 +4,9 @@ use std::io;
 
 use fastrand::Rng;
 
+use super::super::finding::{Finding, Question, Verdict};
 use super::super::histories::direction;
 use super::super::kinematics::exp;
-use super::super::line::{Line, Question, Verdict};
 use super::call::Session;
 use super::point;
 
@@ -18,8 +18,8 @@ const BEYOND: f64 = 4.0;
 
 /// # Errors
 /// The system has no memory.
-pub fn ask(session: &mut Session) -> io::Result<Line> {
-    let line = |verdict, text: String| Line::new(Question::Deletion, verdict, None, text);
+pub fn ask(session: &mut Session) -> io::Result<Finding> {
+    let line = |verdict, text: String| Finding::new(Question::Deletion, verdict, None, text);
     let Some(flag) = session.material.explicit.deletion else {
         return Ok(line(Verdict::NotAsked, "deletion, the number of DELETE, is not declared".to_string()));
     };

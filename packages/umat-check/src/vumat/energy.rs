@@ -4,9 +4,9 @@ use std::io;
 
 use fastrand::Rng;
 
+use super::super::finding::{Finding, Question, Verdict};
 use super::super::histories::direction;
 use super::super::kinematics::exp;
-use super::super::line::{Line, Question, Verdict};
 use super::call::Session;
 use super::point::{self, tensor};
 
@@ -74,34 +74,34 @@ fn reported(session: &mut Session) -> io::Result<Option<Reported>> {
 
 /// # Errors
 /// The system has no memory.
-pub fn energy(session: &mut Session) -> io::Result<Line> {
+pub fn energy(session: &mut Session) -> io::Result<Finding> {
     let Some(found) = reported(session)? else {
-        return Ok(Line::new(Question::Energy, Verdict::NotSure, None, "there was no work"));
+        return Ok(Finding::new(Question::Energy, Verdict::NotSure, None, "there was no work"));
     };
     if found.untouched {
-        return Ok(Line::new(Question::Energy, Verdict::NotReported, None, "enerInternNew is not set"));
+        return Ok(Finding::new(Question::Energy, Verdict::NotReported, None, "enerInternNew is not set"));
     }
     let hyperelastic = session.material.traits.hyperelastic;
     let near = if hyperelastic { NEAR } else { NEAR_OF_OTHERS };
     let figure = found.differences[0];
     if figure <= near {
         let text = "enerInternNew is the work done per mass";
-        return Ok(Line::new(Question::Energy, Verdict::Right, Some(figure), text));
+        return Ok(Finding::new(Question::Energy, Verdict::Right, Some(figure), text));
     }
     let text = format!("enerInternNew differs from the work done per mass by {figure:.1e} of it");
     let verdict = if hyperelastic { Verdict::Wrong } else { Verdict::Warning };
     Ok(match (1..KINDS.len()).find(|&i| found.differences[i] <= near) {
         Some(i) => {
-            Line::new(Question::Energy, verdict, Some(figure), format!("{text}: it is {}", KINDS[i])).with(KINDS[i])
+            Finding::new(Question::Energy, verdict, Some(figure), format!("{text}: it is {}", KINDS[i])).with(KINDS[i])
         }
-        None => Line::new(Question::Energy, verdict, Some(figure), text).with("enerInternNew"),
+        None => Finding::new(Question::Energy, verdict, Some(figure), text).with("enerInternNew"),
     })
 }
 
 /// # Errors
 /// The system has no memory.
-pub fn dissipation(session: &mut Session) -> io::Result<Line> {
-    let line = |verdict, figure, text: &str| Line::new(Question::Dissipation, verdict, figure, text);
+pub fn dissipation(session: &mut Session) -> io::Result<Finding> {
+    let line = |verdict, figure, text: &str| Finding::new(Question::Dissipation, verdict, figure, text);
     Ok(match reported(session)? {
         None => line(Verdict::NotSure, None, "there was no work"),
         Some(found) if found.inelastic_untouched => line(Verdict::NotReported, None, "enerInelasNew stays 0"),

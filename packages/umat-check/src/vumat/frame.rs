@@ -5,9 +5,9 @@ use std::io;
 use fastrand::Rng;
 use nalgebra::Matrix3;
 
+use super::super::finding::{Finding, Question, Verdict};
 use super::super::histories::{history, rotation};
 use super::super::kinematics::{Increment, rotation_of};
-use super::super::line::{Line, Question, Verdict};
 use super::super::material::Reads;
 use super::call::{Given, Misread, Session};
 use super::point::{self, Point, tensor, time};
@@ -86,10 +86,10 @@ pub fn reads(session: &mut Session) -> io::Result<Reads> {
 ///
 /// # Errors
 /// The system has no memory.
-pub fn objectivity(session: &mut Session) -> io::Result<Line> {
+pub fn objectivity(session: &mut Session) -> io::Result<Finding> {
     if session.material.explicit.stretch_alone {
         let text = "defgradNew = U alone is declared: no argument sees a rotation";
-        return Ok(Line::new(Question::Objectivity, Verdict::NotAsked, None, text));
+        return Ok(Finding::new(Question::Objectivity, Verdict::NotAsked, None, text));
     }
     let read = arguments(session)?;
     let mut rng = Rng::with_seed(session.material.seed ^ 0x0b);
@@ -107,7 +107,7 @@ pub fn objectivity(session: &mut Session) -> io::Result<Line> {
             let found = session.ask(time(k, session.material), &[without, with])?;
             if !found.iter().all(|found| found.finite()) {
                 let text = "not finite with superposed rotations";
-                return Ok(Line::new(Question::Objectivity, Verdict::Wrong, None, text).with("NaN"));
+                return Ok(Finding::new(Question::Objectivity, Verdict::Wrong, None, text).with("NaN"));
             }
             let [stress, seen] = [0, 1].map(|i| tensor(&found[i].stress));
             largest = largest.max(stress.norm());
@@ -121,9 +121,9 @@ pub fn objectivity(session: &mut Session) -> io::Result<Line> {
             turned = turned.after(f1, &turn, &found[1]);
         }
     }
-    let line = |verdict, text: String| Line::new(Question::Objectivity, verdict, Some(figure), text);
+    let line = |verdict, text: String| Finding::new(Question::Objectivity, verdict, Some(figure), text);
     if compared == 0 {
-        return Ok(Line::new(Question::Objectivity, Verdict::NotSure, None, "there was no stress"));
+        return Ok(Finding::new(Question::Objectivity, Verdict::NotSure, None, "there was no stress"));
     }
     let of = match (read.gradient, read.stretch, read.increments) {
         (true, ..) => "defgradNew is read",
@@ -151,19 +151,20 @@ pub fn objectivity(session: &mut Session) -> io::Result<Line> {
 ///
 /// # Errors
 /// The system has no memory.
-pub fn isotropy(session: &mut Session) -> io::Result<Line> {
+pub fn isotropy(session: &mut Session) -> io::Result<Finding> {
     if !session.material.traits.isotropic {
-        return Ok(Line::new(Question::Isotropy, Verdict::NotAsked, None, "isotropic is not declared"));
+        return Ok(Finding::new(Question::Isotropy, Verdict::NotAsked, None, "isotropic is not declared"));
     }
     let Some((figure, compared)) = anisotropy(session)? else {
-        return Ok(Line::new(Question::Isotropy, Verdict::NotSure, None, "there was no stress"));
+        return Ok(Finding::new(Question::Isotropy, Verdict::NotSure, None, "there was no stress"));
     };
     if figure <= TOLERANCE {
         let text = format!("turning the material turns the stress alone, {compared} increments");
-        return Ok(Line::new(Question::Isotropy, Verdict::Right, Some(figure), text));
+        return Ok(Finding::new(Question::Isotropy, Verdict::Right, Some(figure), text));
     }
     let text = format!("the stress changes by {figure:.2e} of itself with the material turned beforehand");
-    let line = |text: String, kind: &str| Line::new(Question::Isotropy, Verdict::Wrong, Some(figure), text).with(kind);
+    let line =
+        |text: String, kind: &str| Finding::new(Question::Isotropy, Verdict::Wrong, Some(figure), text).with(kind);
     if session.material.components == 6 {
         for misread in Misread::ALL {
             session.misread = Some(misread);
@@ -208,9 +209,9 @@ fn anisotropy(session: &mut Session) -> io::Result<Option<(f64, usize)>> {
 ///
 /// # Errors
 /// The system has no memory.
-pub fn steps(session: &mut Session) -> io::Result<Line> {
+pub fn steps(session: &mut Session) -> io::Result<Finding> {
     if !session.material.traits.hyperelastic {
-        return Ok(Line::new(Question::Steps, Verdict::NotAsked, None, "hyperelastic is not declared"));
+        return Ok(Finding::new(Question::Steps, Verdict::NotAsked, None, "hyperelastic is not declared"));
     }
     let mut rng = Rng::with_seed(session.material.seed ^ 0x57);
     let (mut figure, mut compared) = (0.0_f64, 0);
@@ -236,12 +237,12 @@ pub fn steps(session: &mut Session) -> io::Result<Line> {
         }
     }
     if compared == 0 {
-        return Ok(Line::new(Question::Steps, Verdict::NotSure, None, "there was no stress"));
+        return Ok(Finding::new(Question::Steps, Verdict::NotSure, None, "there was no stress"));
     }
     if figure <= SAME {
         let text = "an increment in two gives the same stress";
-        return Ok(Line::new(Question::Steps, Verdict::Right, Some(figure), text));
+        return Ok(Finding::new(Question::Steps, Verdict::Right, Some(figure), text));
     }
     let text = format!("an increment in two changes the stress by {figure:.2e} of itself");
-    Ok(Line::new(Question::Steps, Verdict::Wrong, Some(figure), text).with("steps matter"))
+    Ok(Finding::new(Question::Steps, Verdict::Wrong, Some(figure), text).with("steps matter"))
 }

@@ -7,9 +7,9 @@ use std::time::{Duration, Instant};
 use fastrand::Rng;
 use nalgebra::Matrix3;
 
+use super::super::finding::{Finding, Question, Verdict};
 use super::super::histories::{LARGEST_TURN, direction, state};
 use super::super::kinematics::{Increment, exp};
-use super::super::line::{Line, Question, Verdict};
 use super::super::material::Reads;
 use super::super::process::{EXCEPTIONS, UNSET, feclearexcept, fetestexcept};
 use super::blocks::{SIZES, paths};
@@ -22,12 +22,12 @@ const INCREMENTS: usize = 20;
 ///
 /// # Errors
 /// The system has no memory.
-pub fn touch(session: &mut Session) -> io::Result<Line> {
+pub fn touch(session: &mut Session) -> io::Result<Finding> {
     for size in SIZES {
         point::block(session, &paths(session.material, 0x6d, size, INCREMENTS))?;
     }
     let text = format!("{INCREMENTS} increments of blocks of 1, 17, 128 points touch nothing beyond the arguments");
-    Ok(Line::new(Question::Memory, Verdict::Right, None, text))
+    Ok(Finding::new(Question::Memory, Verdict::Right, None, text))
 }
 
 /// What counts as no stress, of the stiffness.
@@ -35,24 +35,24 @@ const NO_STRESS: f64 = 1e-9;
 
 /// # Errors
 /// The system has no memory.
-pub fn rest(session: &mut Session) -> io::Result<Line> {
+pub fn rest(session: &mut Session) -> io::Result<Finding> {
     let small = exp(&(Matrix3::new(1.0, 0.0, 0.0, 0.0, 0.5, 0.0, 0.0, 0.0, -0.3) * session.material.increment));
     let found = point::block(session, &[vec![Matrix3::identity()], vec![small]])?;
     let (Some(rest), Some(strained)) = (found[0].first(), found[1].first()) else {
-        return Ok(Line::new(Question::Rest, Verdict::NotSure, None, "there was no answer"));
+        return Ok(Finding::new(Question::Rest, Verdict::NotSure, None, "there was no answer"));
     };
     if !rest.finite() {
         let text = "stress, state or energy is not finite at rest";
-        return Ok(Line::new(Question::Rest, Verdict::Wrong, None, text).with("NaN"));
+        return Ok(Finding::new(Question::Rest, Verdict::Wrong, None, text).with("NaN"));
     }
     let largest = |found: &Found| found.stress.iter().fold(0.0_f64, |largest, value| largest.max(value.abs()));
     let (stress, stiffness) = (largest(rest), largest(strained) / session.material.increment);
     let figure = if stress == 0.0 { 0.0 } else { stress / stiffness.max(f64::MIN_POSITIVE) };
     if figure <= NO_STRESS {
-        return Ok(Line::new(Question::Rest, Verdict::Right, Some(figure), "no stress at rest"));
+        return Ok(Finding::new(Question::Rest, Verdict::Right, Some(figure), "no stress at rest"));
     }
     let text = format!("stress of {stress:.3e} at rest, over a stiffness of {stiffness:.3e}");
-    Ok(Line::new(Question::Rest, Verdict::Wrong, Some(figure), text).with("stress at rest"))
+    Ok(Finding::new(Question::Rest, Verdict::Wrong, Some(figure), text).with("stress at rest"))
 }
 
 /// The strains of a data check.
@@ -62,7 +62,7 @@ const SMALL: f64 = 1e-6;
 ///
 /// # Errors
 /// The system has no memory.
-pub fn data_check(session: &mut Session) -> io::Result<Line> {
+pub fn data_check(session: &mut Session) -> io::Result<Finding> {
     let mut rng = Rng::with_seed(session.material.seed ^ 0xdc);
     let mut nothing = Point::virgin(session)?;
     nothing.state.clone_from(&session.material.initial);
@@ -76,7 +76,7 @@ pub fn data_check(session: &mut Session) -> io::Result<Line> {
         strains.iter().map(|strain| Given { strain_increment: components(strain), ..rest.clone() }).collect();
     let time = Time::data_check(session.material);
     let (with, without) = (session.ask(time, &strained)?, session.ask(time, &fictitious)?);
-    let line = |verdict, text: &str| Line::new(Question::DataCheck, verdict, None, text);
+    let line = |verdict, text: &str| Finding::new(Question::DataCheck, verdict, None, text);
     if !with.iter().chain(&without).all(Found::finite) {
         return Ok(line(Verdict::Wrong, "not finite with stepTime = totalTime = 0").with("NaN"));
     }
@@ -98,7 +98,7 @@ pub fn data_check(session: &mut Session) -> io::Result<Line> {
 ///
 /// # Errors
 /// The system has no memory.
-pub fn outputs(session: &mut Session) -> io::Result<Line> {
+pub fn outputs(session: &mut Session) -> io::Result<Finding> {
     let paths = paths(session.material, 0x0f, SIZES[1], INCREMENTS);
     let mut points = vec![Point::virgin(session)?; paths.len()];
     let unturned = Matrix3::<f64>::identity();
@@ -136,11 +136,11 @@ pub fn outputs(session: &mut Session) -> io::Result<Line> {
     }
     if let Some(name) = overwritten.first() {
         let text = format!("{name} is an input, and is written to");
-        return Ok(Line::new(Question::Outputs, Verdict::Wrong, None, text).with("input overwritten"));
+        return Ok(Finding::new(Question::Outputs, Verdict::Wrong, None, text).with("input overwritten"));
     }
     if unset.is_empty() {
         let text = "stress, state and energies are set at every point, inputs are left alone";
-        return Ok(Line::new(Question::Outputs, Verdict::Right, None, text));
+        return Ok(Finding::new(Question::Outputs, Verdict::Right, None, text));
     }
     unset.sort();
     let named = if unset.len() > 6 {
@@ -152,14 +152,14 @@ pub fn outputs(session: &mut Session) -> io::Result<Line> {
     // Energies are for the balance alone.
     let alone = unset.iter().all(|name| name.starts_with("ener"));
     let verdict = if alone { Verdict::Warning } else { Verdict::Wrong };
-    Ok(Line::new(Question::Outputs, verdict, None, text).with("unset"))
+    Ok(Finding::new(Question::Outputs, verdict, None, text).with("unset"))
 }
 
 /// Floating-point exceptions that a call raises: with them trapped the job would end.
 ///
 /// # Errors
 /// The system has no memory.
-pub fn exceptions(session: &mut Session) -> io::Result<Line> {
+pub fn exceptions(session: &mut Session) -> io::Result<Finding> {
     let all = EXCEPTIONS.iter().fold(0, |all, (bit, _)| all | bit);
     let paths = paths(session.material, 0xf9, 12, INCREMENTS);
     let mut points = vec![Point::virgin(session)?; paths.len()];
@@ -196,11 +196,11 @@ pub fn exceptions(session: &mut Session) -> io::Result<Line> {
         .collect();
     if found.is_empty() {
         let text = format!("{asked} calls raise neither invalid, division by zero nor overflow");
-        return Ok(Line::new(Question::Exceptions, Verdict::Right, None, text));
+        return Ok(Finding::new(Question::Exceptions, Verdict::Right, None, text));
     }
     let named: Vec<String> = found.iter().map(|(count, name)| format!("{name} in {count}")).collect();
     let text = format!("raised, of {asked} calls: {}; where they are trapped the job ends", named.join(", "));
-    let mut line = Line::new(Question::Exceptions, Verdict::Warning, None, text);
+    let mut line = Finding::new(Question::Exceptions, Verdict::Warning, None, text);
     line.kinds = found.iter().map(|(_, name)| name.to_string()).collect();
     Ok(line)
 }
@@ -209,7 +209,7 @@ pub fn exceptions(session: &mut Session) -> io::Result<Line> {
 ///
 /// # Errors
 /// The system has no memory.
-pub fn invalid(session: &mut Session) -> io::Result<Line> {
+pub fn invalid(session: &mut Session) -> io::Result<Finding> {
     let paths = paths(session.material, 0x1a, SIZES[1], 1);
     let virgin = Point::virgin(session)?;
     let unturned = Matrix3::<f64>::identity();
@@ -221,7 +221,7 @@ pub fn invalid(session: &mut Session) -> io::Result<Line> {
     given[middle].gradient[1][0] = f64::NAN;
     given[middle].strain_increment[0] = f64::NAN;
     let found = session.ask(time, &given)?;
-    let line = |verdict, text: &str| Line::new(Question::Invalid, verdict, None, text);
+    let line = |verdict, text: &str| Finding::new(Question::Invalid, verdict, None, text);
     let spoilt = (0..found.len()).filter(|&i| i != middle && !found[i].same(&right[i])).count();
     if spoilt > 0 {
         let text = format!("NaN at one point changes the answers at {spoilt} others of its block");
@@ -245,7 +245,7 @@ const OF_HISTORY: usize = 4;
 ///
 /// # Errors
 /// The system has no memory.
-pub fn histories(session: &mut Session, reads: Reads) -> io::Result<Line> {
+pub fn histories(session: &mut Session, reads: Reads) -> io::Result<Finding> {
     let started = Instant::now();
     let mut rng = Rng::with_seed(session.material.seed ^ 0x10);
     let mut done = 0;
@@ -271,13 +271,13 @@ pub fn histories(session: &mut Session, reads: Reads) -> io::Result<Line> {
                     k + 1,
                     done + i + 1
                 );
-                return Ok(Line::new(Question::Histories, Verdict::Wrong, None, text).with("NaN"));
+                return Ok(Finding::new(Question::Histories, Verdict::Wrong, None, text).with("NaN"));
             }
         }
         done += paths.len();
     }
     let text = format!("{done} random histories from the initial call, in blocks of {}", SIZES[2]);
-    Ok(Line::new(Question::Histories, Verdict::Right, None, text))
+    Ok(Finding::new(Question::Histories, Verdict::Right, None, text))
 }
 
 fn not_finite(found: &Found) -> String {
@@ -295,7 +295,7 @@ fn not_finite(found: &Found) -> String {
 ///
 /// # Errors
 /// The system has no memory.
-pub fn runtime(session: &mut Session) -> io::Result<Line> {
+pub fn runtime(session: &mut Session) -> io::Result<Finding> {
     for size in SIZES {
         let paths = paths(session.material, 0x6e, size, INCREMENTS);
         if let Some(found) = point::block(session, &paths)?.iter().flatten().find(|found| !found.finite()) {
@@ -303,9 +303,9 @@ pub fn runtime(session: &mut Session) -> io::Result<Line> {
                 "{} of the build that fills unset reals with NaN is not finite: a variable is used unset",
                 not_finite(found)
             );
-            return Ok(Line::new(Question::Runtime, Verdict::Wrong, None, text).with("runtime check"));
+            return Ok(Finding::new(Question::Runtime, Verdict::Wrong, None, text).with("runtime check"));
         }
     }
     let text = "bounds, unset reals (-fcheck=all -finit-real=snan): nothing found";
-    Ok(Line::new(Question::Runtime, Verdict::Right, None, text))
+    Ok(Finding::new(Question::Runtime, Verdict::Right, None, text))
 }

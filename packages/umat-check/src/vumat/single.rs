@@ -4,8 +4,8 @@ use std::io;
 
 use nalgebra::Matrix3;
 
-use super::super::guarded::Fence;
-use super::super::line::{Line, Question, Verdict};
+use super::super::finding::{Finding, Question, Verdict};
+use super::super::guarded::Guard;
 use super::super::material::Reads;
 use super::blocks::{SIZES, paths};
 use super::call::{Given, Law, Precision, Session};
@@ -19,24 +19,24 @@ const INCREMENTS: usize = 12;
 ///
 /// # Errors
 /// The system has no memory.
-pub fn ask(session: &mut Session, reads: Reads) -> io::Result<Line> {
+pub fn ask(session: &mut Session, reads: Reads) -> io::Result<Finding> {
     let Some(built) = &session.material.explicit.single else {
         let text = "no second build with real*4: the source has no vaba_param.inc, or is a library (--single)";
-        return Ok(Line::new(Question::Single, Verdict::NotAsked, None, text));
+        return Ok(Finding::new(Question::Single, Verdict::NotAsked, None, text));
     };
     let library = match built {
         Ok(library) => library,
         Err(reason) => {
             let reason = reason.lines().find(|line| line.contains("Error")).unwrap_or(reason);
             let text = format!("does not compile with real*4: {}", reason.trim());
-            return Ok(Line::new(Question::Single, Verdict::Wrong, None, text).with("does not compile"));
+            return Ok(Finding::new(Question::Single, Verdict::Wrong, None, text).with("does not compile"));
         }
     };
     let law = match Law::load(library) {
         Ok(law) => law,
-        Err(reason) => return Ok(Line::new(Question::Single, Verdict::NotSure, None, reason)),
+        Err(reason) => return Ok(Finding::new(Question::Single, Verdict::NotSure, None, reason)),
     };
-    let mut other = Session::new(&law, session.material, Precision::Single, Fence::Room, None);
+    let mut other = Session::new(&law, session.material, Precision::Single, Guard::Padded, None);
     let paths = paths(session.material, 0x51, SIZES[1], INCREMENTS);
     let virgin = Point::virgin(session)?;
     let mut points = vec![virgin; paths.len()];
@@ -56,7 +56,7 @@ pub fn ask(session: &mut Session, reads: Reads) -> io::Result<Line> {
         for (i, (double, single)) in double.iter().zip(&single).enumerate() {
             if double.finite() && !single.finite() {
                 let text = format!("not finite at increment {} of single precision, and is of double", k + 1);
-                return Ok(Line::new(Question::Single, Verdict::Wrong, None, text).with("NaN"));
+                return Ok(Finding::new(Question::Single, Verdict::Wrong, None, text).with("NaN"));
             }
             let deleted = session.material.explicit.deletion;
             let same = deleted.is_none_or(|flag| double.state[flag - 1] == single.state[flag - 1]);
@@ -73,7 +73,7 @@ pub fn ask(session: &mut Session, reads: Reads) -> io::Result<Line> {
         }
     }
     if stiffness == 0.0 {
-        return Ok(Line::new(Question::Single, Verdict::NotSure, None, "there was no stress"));
+        return Ok(Finding::new(Question::Single, Verdict::NotSure, None, "there was no stress"));
     }
     for (difference, stress, strain, increment) in differences {
         let figure = difference / (stiffness * strain + stress);
@@ -86,12 +86,12 @@ pub fn ask(session: &mut Session, reads: Reads) -> io::Result<Line> {
     let of = if reads == Reads::Rate { "stress" } else { "stiffness" };
     if roundings <= ROUNDINGS {
         let text = format!("with real*4 the stress differs by {roundings:.1} roundings of the {of} at most");
-        return Ok(Line::new(Question::Single, Verdict::Right, Some(figure), text));
+        return Ok(Finding::new(Question::Single, Verdict::Right, Some(figure), text));
     }
     let text = format!(
         "with real*4 the stress differs by {roundings:.0} roundings of the {of}, {place}; up to {ROUNDINGS:.0} are right"
     );
-    Ok(Line::new(Question::Single, Verdict::Wrong, Some(figure), text).with("single precision"))
+    Ok(Finding::new(Question::Single, Verdict::Wrong, Some(figure), text).with("single precision"))
 }
 
 /// All numbers as single precision has them, so that both builds get the same ones.

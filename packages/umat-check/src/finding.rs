@@ -1,4 +1,4 @@
-//! The lines of the report: a question, a figure, a verdict.
+//! What a check finds, a line of the report each: a question, a figure, a verdict.
 
 use serde::{Deserialize, Serialize};
 
@@ -45,9 +45,10 @@ impl Verdict {
 
 /// One answer.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-pub struct Line {
+pub struct Finding {
     /// The question's name.
-    pub line: String,
+    #[serde(rename = "line")]
+    pub check: String,
     pub verdict: Verdict,
     /// What was measured, a relative error for most.
     pub figure: Option<f64>,
@@ -62,12 +63,12 @@ pub struct Line {
     pub call_bits: Option<Vec<u64>>,
 }
 
-impl Line {
+impl Finding {
     pub fn new(question: Question, verdict: Verdict, figure: Option<f64>, text: impl Into<String>) -> Self {
         // JSON has no number that is not finite.
         let figure = figure.filter(|figure| figure.is_finite());
-        Line {
-            line: question.name().to_string(),
+        Finding {
+            check: question.name().to_string(),
             verdict,
             figure,
             text: text.into(),
