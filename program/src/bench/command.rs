@@ -14,7 +14,7 @@ use super::hosts::{Host, HostArrays, call};
 use super::scene::Scene;
 use crate::common::console::print;
 use crate::common::error::Error;
-use crate::common::folder;
+use crate::common::run_directory::{RunDirectory, Writes};
 use crate::common::text_table::plain_table;
 use crate::entries::precision::BlockPrecision;
 use toron::Hyperelastic;
@@ -61,7 +61,8 @@ struct Report {
 /// # Errors
 /// The file cannot be written.
 pub fn run(output: Option<&Path>) -> Result<(), Error> {
-    output.map_or(Ok(()), folder::create)?;
+    let writes = Writes { command: "bench", names: vec!["bench".to_string()], ..Writes::default() };
+    let locked = output.map(|output| RunDirectory::lock(output, writes)).transpose()?;
     let mut rows = measured::<f64>("f64", &[&Host::BOTH[..], &Host::DOUBLE].concat())?;
     rows.extend(measured::<f32>("f32", &Host::BOTH)?);
     let report = Report {
@@ -73,7 +74,8 @@ pub fn run(output: Option<&Path>) -> Result<(), Error> {
         choices: choices::measured()?,
     };
     print(&table(&report));
-    let Some(output) = output else { return Ok(()) };
+    let (Some(output), Some(locked)) = (output, locked) else { return Ok(()) };
+    let _directory = locked.claim()?;
     let file = output.join("bench.json");
     let file_error = |error: &dyn std::fmt::Display| Error::Input(format!("{}: {error}", file.display()));
     let text = serde_json::to_string_pretty(&report).map_err(|error| file_error(&error))?;

@@ -14,12 +14,13 @@ use super::guarded::Fence;
 use super::input::{self, Input, Over};
 use super::line::{Line, NOT_FINITE, Question, Verdict};
 use super::material::{DEFAULT_NAME, Material, Reads};
-use super::repeated::Repeated;
+use super::repeated::{self, Repeated};
 use super::report::{OfMaterial, Report};
 use super::room::Room;
 use super::shared;
 use crate::common::console::print;
 use crate::common::error::Error;
+use crate::common::run_directory::RunDirectory;
 
 #[derive(Args)]
 pub struct Arguments {
@@ -108,6 +109,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Error> {
     let Input { mut materials, mut allowed } = input::input(file, arguments.scene.as_deref(), &over)?;
     allowed.extend(arguments.allow.iter().cloned());
     let built = compile::compile(file, &room.path)?;
+    RunDirectory::check(&arguments.output, &repeated::writes(file))?;
     if arguments.vumat || vumat_alone(&built, &room.path, materials.first())? {
         let single = match &arguments.single {
             Some(library) => Some(Ok(canonical(library)?)),

@@ -12,7 +12,7 @@ use super::line::Question;
 use super::material::Material;
 use crate::common::console::print;
 use crate::common::error::Error;
-use crate::common::folder;
+use crate::common::run_directory::{RunDirectory, Writes};
 
 /// What is needed to repeat a call.
 pub struct Repeated {
@@ -20,6 +20,18 @@ pub struct Repeated {
     pub material: Material,
     pub fence: Fence,
     pub call: Call,
+}
+
+/// What the files of a law's calls are called, without their ending.
+fn name(file: &Path, question: Question) -> String {
+    let stem = file.file_stem().map_or("law".into(), |stem| stem.to_string_lossy());
+    format!("{stem}-{}", question.name())
+}
+
+/// What a check of this law may write.
+pub fn writes(file: &Path) -> Writes<'_> {
+    let names = Question::all().map(|question| name(file, question)).collect();
+    Writes { command: "check", files: vec![file], names, ..Writes::default() }
 }
 
 /// As it is written. Numbers are text: they need not be finite.
@@ -32,14 +44,13 @@ struct Written {
 }
 
 impl Repeated {
-    /// Writes `NAME-LINE.json` into the folder.
+    /// Writes `NAME-LINE.json` into the folder, under its lock.
     ///
     /// # Errors
-    /// It cannot be written.
+    /// It cannot be written, or the files there are another law's.
     pub fn write(&self, output: &Path, question: Question) -> Result<PathBuf, Error> {
-        folder::create(output)?;
-        let stem = self.file.file_stem().map_or("law".into(), |stem| stem.to_string_lossy());
-        let path = output.join(format!("{stem}-{}.json", question.name()));
+        let _directory = RunDirectory::lock(output, writes(&self.file))?.claim()?;
+        let path = output.join(format!("{}.json", name(&self.file, question)));
         let error = |reason: String| Error::Input(format!("{}: {reason}", path.display()));
         let arguments = self.call.named().map(|(name, numbers)| {
             (name.to_string(), numbers.iter().map(|number| format!("{number:e}")).collect::<Vec<_>>())

@@ -62,13 +62,14 @@ pub fn run(arguments: &Arguments) -> Result<Option<PathBuf>, Error> {
     scene.cases.iter().filter_map(|case| case.law.as_deref()).try_for_each(|file| Beside::read(file).map(drop))?;
     let output = &arguments.output;
     let names = COMMON.into_iter().chain(scene.cases.iter().map(|case| case.name.as_str())).map(String::from).collect();
-    let writes = Writes { command: "fibres", files: vec![&arguments.scene], names, restart: false };
-    let directory = RunDirectory::open(output, writes)?;
+    let files = vec![arguments.scene.as_path()];
+    let writes = Writes { command: "fibres", files, names, hands_over: FIT, ..Writes::default() };
     let folders: Vec<Folder> =
         scene.cases.iter().zip(&models).map(|(case, model)| Folder::new(output.join(&case.name), model)).collect();
     // Those that are there already need no LAMMPS. Where it is missing, nothing is removed.
     let there = folders.iter().all(|folder| folder.is_written() && folder.is_done());
     let lammps = if there || arguments.write_only { None } else { Some(Lammps::find(arguments.lmp.as_deref())?) };
+    let directory = RunDirectory::lock(output, writes)?.claim()?;
     for (case, folder) in scene.cases.iter().zip(&folders) {
         let gone = folder.write()?;
         if gone > 0 {

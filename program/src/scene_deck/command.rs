@@ -11,8 +11,8 @@ use super::model::{Conversion, Model};
 use super::{abaqus, ls_dyna, of_fabric, of_impact, openradioss};
 use crate::common::console::{print, print_error};
 use crate::common::error::Error;
-use crate::common::folder;
 use crate::common::kept_file;
+use crate::common::run_directory::{RunDirectory, Writes};
 use crate::common::units::number;
 use crate::deck::openradioss::FibreFrom;
 use crate::{fabric, impact, weave};
@@ -43,6 +43,15 @@ pub struct Arguments {
     fibre_from: Option<FibreFrom>,
 }
 
+/// A scene, as its command was given it.
+struct Given<'a> {
+    command: &'static str,
+    path: &'a Path,
+    title: &'a str,
+    /// The names of its cases.
+    cases: Vec<&'a str>,
+}
+
 /// What the writers take besides the model.
 #[derive(Clone, Debug)]
 pub struct Naming {
@@ -61,7 +70,8 @@ pub fn fabric(path: &Path, output: &Path, host: Host, arguments: &Arguments) -> 
     let scene = fabric::scene::Scene::read(path)?;
     let conversion = arguments.conversion(scene.units)?;
     let models = scene.cases.iter().map(|case| of_fabric::of_case(case, conversion));
-    arguments.write(models, &scene.title, &format!("toron fabric {}", path.display()), host, output)
+    let cases = scene.cases.iter().map(|case| case.name.as_str()).collect();
+    arguments.write(models, &Given { command: "fabric", path, title: &scene.title, cases }, host, output)
 }
 
 /// The decks of a scene of `toron impact`.
@@ -72,7 +82,8 @@ pub fn impact(path: &Path, output: &Path, host: Host, arguments: &Arguments) -> 
     let scene = impact::scene::Scene::read(path)?;
     let conversion = arguments.conversion(scene.units)?;
     let models = scene.cases.iter().map(|case| of_impact::of_case(case, conversion));
-    arguments.write(models, &scene.title, &format!("toron impact {}", path.display()), host, output)
+    let cases = scene.cases.iter().map(|case| case.name.as_str()).collect();
+    arguments.write(models, &Given { command: "impact", path, title: &scene.title, cases }, host, output)
 }
 
 /// The panel of a scene of `toron weave`, to enter a model of one's own.
@@ -89,7 +100,8 @@ pub fn weave(path: &Path, output: &Path, host: Host, arguments: &Arguments) -> R
         ))
     })?;
     let models = std::iter::once_with(|| of_fabric::of_panel(&scene.cloth, material, conversion));
-    arguments.write(models, &scene.title, &format!("toron weave {}", path.display()), host, output)
+    let cases = vec![weave::command::NAME];
+    arguments.write(models, &Given { command: "weave", path, title: &scene.title, cases }, host, output)
 }
 
 impl Arguments {
@@ -105,9 +117,8 @@ impl Arguments {
     /// Writes one model after another: only one is in the memory.
     fn write(
         &self,
-        models: impl Iterator<Item = Result<Model, Error>>,
-        title: &str,
-        command: &str,
+        mut models: impl Iterator<Item = Result<Model, Error>>,
+        given: &Given<'_>,
         host: Host,
         output: &Path,
     ) -> Result<(), Error> {
@@ -118,14 +129,20 @@ impl Arguments {
         if host != Host::Openradioss && self.fibre_from.is_some() {
             return Err(Error::Input("--fibre-from is for --deck openradioss only".to_string()));
         }
-        folder::create(output)?;
+        let Given { command, path, title, cases } = given;
+        let names = cases.iter().map(|case| format!("{}{case}", self.prefix)).collect();
+        let writes = Writes { command, files: vec![path], names, ..Writes::default() };
+        let locked = RunDirectory::lock(output, writes)?;
+        let first = models.next().transpose()?;
+        let _directory = locked.claim()?;
+        let source = ascii(&format!("toron {command} {}", path.display()));
         let Arguments { first_id, fibre_from, .. } = *self;
         let naming = Naming { first: first_id, prefix: self.prefix.clone(), fibre_from };
-        for model in models {
+        for model in first.map(Ok).into_iter().chain(models) {
             let model = model?;
             let model = Model {
                 title: ascii(title),
-                source: ascii(command),
+                source: source.clone(),
                 name: format!("{}{}", self.prefix, model.name),
                 ..model
             };
