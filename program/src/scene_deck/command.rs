@@ -171,7 +171,8 @@ fn ascii(text: &str) -> String {
     text.replace('µ', "u").chars().map(|c| if c.is_ascii() && !c.is_ascii_control() { c } else { '?' }).collect()
 }
 
-/// Writes a file of the deck as a stream, and keeps one of other contents beside it; returns its name.
+/// Writes a file of the deck as a stream; one of other contents is kept, since a user may have changed it. Returns its
+/// name.
 ///
 /// # Errors
 /// It cannot be written.
@@ -181,5 +182,18 @@ pub fn file(
     write: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
 ) -> Result<String, Error> {
     kept_file::write(&output.join(&name), write)?;
+    Ok(name)
+}
+
+/// Writes a mesh of the deck as a stream, in the place of the one before; returns its name.
+///
+/// # Errors
+/// It cannot be written.
+pub fn mesh_file(
+    output: &Path,
+    name: String,
+    write: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
+) -> Result<String, Error> {
+    kept_file::overwrite(&output.join(&name), write)?;
     Ok(name)
 }

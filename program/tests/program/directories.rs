@@ -165,6 +165,35 @@ fn a_restart_of_another_scene_takes_no_directory() {
     assert_eq!(read(&place, "toron-out/v50/toron.lock"), owner);
 }
 
+/// Decks are their scene's. Of their files the short ones are kept, the meshes are not.
+#[test]
+fn decks_are_of_their_scene() {
+    let finer = YARN.replace("columns = 2", "columns = 4");
+    let place = place("directories-decks", &[("a.toml", YARN), ("b.toml", YARN)]);
+    let deck = "--deck abaqus-explicit -o job";
+    succeeds(&place, &format!("impact a.toml {deck}"));
+    refused(
+        &place,
+        &format!("impact b.toml {deck}"),
+        &["files called scene are of toron impact ../a.toml", "-o job-b"],
+    );
+    succeeds(&place, &format!("impact b.toml {deck} --prefix b-"));
+    let mesh = read(&place, "job/scene-mesh.inp");
+    std::fs::write(place.join("a.toml"), finer).expect("a file");
+    let edited = read(&place, "job/scene.inp") + "** by hand\n";
+    std::fs::write(place.join("job/scene.inp"), &edited).expect("a file");
+    succeeds(&place, &format!("impact a.toml {deck}"));
+    assert!(read(&place, "job/scene-mesh.inp") != mesh && read(&place, "job/scene.inp-old") == edited);
+    let old = std::fs::read_dir(place.join("job")).expect("a folder").flatten();
+    let old = old.filter(|entry| entry.file_name().to_string_lossy().contains("-old"));
+    assert_eq!(old.count(), 1);
+    // A deck that is refused has no owner: no case of it may be in the way.
+    let bare = YARN.replace("hyperelastic.preset", "hyperelastic.presets");
+    std::fs::write(place.join("bare.toml"), bare).expect("a file");
+    refused(&place, "impact bare.toml --deck ls-dyna -o bare", &["presets"]);
+    assert!(!place.join("bare").exists());
+}
+
 /// What a check keeps of one law is not another's, whose file has the same name.
 #[cfg(target_os = "linux")]
 #[test]
