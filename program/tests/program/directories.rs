@@ -194,6 +194,42 @@ fn decks_are_of_their_scene() {
     assert!(!place.join("bare").exists());
 }
 
+/// Results of another scene, which hours may have gone into, are not removed without a word.
+#[test]
+fn results_of_fibres_stay_when_the_scene_changes() {
+    let scene = std::fs::read_to_string(Path::new(ROOT).join("examples/fibre_scale/smith.toml")).expect("a scene");
+    let scene = scene.split("[[case]]").next().expect("the scene").to_string();
+    let place = place("directories-fibres", &[("smith.toml", &scene)]);
+    succeeds(&place, "fibres smith.toml --write-only -o out");
+    let [history, done] = ["out/scene/history.txt", "out/scene/done.txt"];
+    for file in [history, done] {
+        std::fs::write(place.join(file), "an hour's work\n").expect("a file");
+    }
+    let changed = scene.replacen("end = ", "end = 1.01e0 # ", 1);
+    assert_ne!(changed, scene);
+    std::fs::write(place.join("smith.toml"), changed).expect("a file");
+    let said = "what an earlier run of case scene has left in out/scene is of another scene; allowed: the scene as it was, \
+                --anew, or another directory";
+    refused(&place, "fibres smith.toml --write-only -o out", &[said]);
+    assert!([history, done].iter().all(|file| place.join(file).exists()));
+    let (code, said) = toron(&place, "fibres smith.toml --write-only --anew -o out");
+    assert!(code == Some(0) && said.contains("2 files of an earlier run are removed from out\n"), "{said}");
+    assert!(![history, done].iter().any(|file| place.join(file).exists()));
+    // The input that may have been edited is kept, the beads are not.
+    assert!(place.join("out/scene/in.lmp-old").exists() && !place.join("out/scene/beads.lmp-old").exists());
+}
+
+#[cfg(unix)]
+#[test]
+fn a_program_that_is_no_lammps_is_named() {
+    let scene = std::fs::read_to_string(Path::new(ROOT).join("examples/fibre_scale/smith.toml")).expect("a scene");
+    let scene = scene.split("[[case]]").next().expect("the scene").to_string();
+    let place = place("directories-lammps", &[("smith.toml", &scene)]);
+    let said = "/bin/true -in in.lmp has ended without an error, but has not written out/scene/done.txt, as LAMMPS does at \
+                the end of in.lmp; all it said is in out/scene/said.txt; allowed: the program lmp of LAMMPS";
+    refused(&place, "fibres smith.toml --lmp /bin/true -o out", &[said]);
+}
+
 /// What a check keeps of one law is not another's, whose file has the same name.
 #[cfg(target_os = "linux")]
 #[test]
