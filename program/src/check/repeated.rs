@@ -13,6 +13,7 @@ use super::material::Material;
 use crate::common::console::print;
 use crate::common::error::Error;
 use crate::common::run_directory::{RunDirectory, Writes};
+use crate::common::toml_file;
 
 /// What is needed to repeat a call.
 pub struct Repeated {
@@ -69,9 +70,9 @@ impl Repeated {
     /// # Errors
     /// It cannot be read, or is no such file.
     pub fn read(path: &Path) -> Result<Repeated, Error> {
-        let error = |reason: String| Error::Input(format!("{}: {reason}", path.display()));
-        let text = std::fs::read(path).map_err(|reason| error(reason.to_string()))?;
-        let written: Written = serde_json::from_slice(&text).map_err(|reason| error(reason.to_string()))?;
+        let (name, text) = toml_file::read(path)?;
+        let error = |reason: String| Error::Input(format!("{name}: {reason}"));
+        let written: Written = serde_json::from_str(&text).map_err(|reason| error(reason.to_string()))?;
         let texts = written.arguments.iter().flat_map(|(_, numbers)| numbers);
         let numbers = texts.map(|text| text.parse().map_err(|_| error(format!("\"{text}\"; allowed: a number"))));
         let numbers: Vec<f64> = numbers.collect::<Result<_, _>>()?;

@@ -14,6 +14,7 @@ use crate::common::error::Error;
 use crate::common::folder;
 use crate::common::run_directory::{RunDirectory, Writes, file_error};
 use crate::common::text_table::{files, shortened, write_csv};
+use crate::common::toml_file;
 use crate::scene_deck::origin::Origin;
 
 /// Letters of a line that a message repeats.
@@ -23,7 +24,7 @@ const FIGURE: [&str; 2] = ["compare.svg", "compare.png"];
 
 #[derive(Args, Debug)]
 pub struct Arguments {
-    /// NAME.csv of toron; NAMET01.csv, which th_to_csv of OpenRadioss/Tools makes; the
+    /// NAME.csv of toron, or - for the standard input; NAMET01.csv, which th_to_csv of OpenRadioss/Tools makes; the
     /// folder of a run of LS-DYNA; the table that the script beside an Abaqus deck makes. The first one is what the
     /// others are compared with.
     #[arg(required = true)]
@@ -129,8 +130,13 @@ fn read(path: &Path, name: String, units: &UnitSystem, given: Option<Origin>) ->
         let history = of_ls_dyna::read(path, name)?;
         return Ok(history.converted(&origin(path, &decks_in(path)?, given)?, units));
     }
-    let bytes = std::fs::read(path).map_err(|error| file_error(path, &error))?;
-    let text = String::from_utf8_lossy(&bytes);
+    let (shown, text) = if toml_file::is_standard_input(path) {
+        toml_file::read(path)?
+    } else {
+        let bytes = std::fs::read(path).map_err(|error| file_error(path, &error))?;
+        (path.display().to_string(), String::from_utf8_lossy(&bytes).into_owned())
+    };
+    let path = Path::new(&shown);
     let stem = name_of(path);
     let beside = |name: String| [path.with_file_name(name)];
     let first = text.lines().find(|line| !line.starts_with('#')).unwrap_or_default();

@@ -230,6 +230,41 @@ fn a_program_that_is_no_lammps_is_named() {
     refused(&place, "fibres smith.toml --lmp /bin/true -o out", &[said]);
 }
 
+/// Whatever is called `-` is read from the standard input, or refused by name.
+#[test]
+fn the_standard_input_is_read_or_refused_by_name() {
+    let data = "[[data]]\nfile = \"-\"\nloading = \"elongation\"\n";
+    let head = "units = \"mm-tonne-s\"\n[yarn]\npreset = \"kevlar-km2-600\"\n";
+    let [strengths, mesh] =
+        [STRENGTHS.replace("lot.csv", "-"), "units = \"mm-g-ms\"\n[mesh]\nfile = \"-\"\n".to_string()];
+    let files = [
+        ("data.toml", &*format!("{head}{data}")),
+        ("path.toml", &format!("{head}[[data]]\nfile = \"a.csv\"\npath = \"-\"\n")),
+        ("a.csv", "strain (%),stress (MPa)\n1,811\n"),
+        ("strengths.toml", &strengths),
+        ("mesh.toml", &mesh),
+    ];
+    let place = place("directories-standard-input", &files);
+    // What a file of this name holds is not taken for it.
+    std::fs::write(place.join("-"), "strain (%),stress (MPa)\n1,811\n").expect("a file");
+    for (line, said) in [
+        ("fit data.toml", "data.toml:5: file is \"-\"; allowed: "),
+        ("fit path.toml", "path.toml:6: path is \"-\"; allowed: "),
+        ("fit strengths.toml", "strengths.toml:4: file is \"-\"; allowed: "),
+        ("weave mesh.toml", "mesh.toml:3: mesh.file is \"-\"; allowed: "),
+    ] {
+        refused(&place, line, &[said]);
+    }
+    #[cfg(target_os = "linux")]
+    refused(&place, "check -", &["the subroutine is -; allowed: a file"]);
+    let history = Path::new(ROOT).join("program/tests/program/compare/toron/scene.csv");
+    let input = std::fs::File::open(history).expect("a history");
+    let mut program = Command::new(env!("CARGO_BIN_EXE_toron"));
+    let answer = program.args(["compare", "-"]).current_dir(&place).stdin(input).output().expect("it starts");
+    assert!(answer.status.success(), "{}", String::from_utf8_lossy(&answer.stderr));
+    assert!(String::from_utf8_lossy(&answer.stdout).contains("132.6"), "{answer:?}");
+}
+
 /// What a check keeps of one law is not another's, whose file has the same name.
 #[cfg(target_os = "linux")]
 #[test]

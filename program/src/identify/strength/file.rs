@@ -170,12 +170,7 @@ impl Source<'_> {
             let message = format!("columns has {}; allowed: {}", key.get_ref(), QUANTITIES.join(", "));
             return Err(self.error(key.span(), &message));
         }
-        let path = self.folder().join(file.file.get_ref());
-        if !path.is_file() {
-            let message = format!("file {}: there is no such file", path.display());
-            return Err(self.error(file.file.span(), &message));
-        }
-        let columns = Columns { table: DataTable::read(&path)?, file, units };
+        let columns = Columns { table: DataTable::read(&self.file("file", &file.file)?)?, file, units };
         let positive = |key: &str, value: &Option<Spanned<f64>>| {
             value.as_ref().map(|value| self.positive(key, *value.get_ref(), value.span())).transpose()
         };

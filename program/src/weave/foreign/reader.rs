@@ -114,7 +114,7 @@ impl Source<'_> {
         let keys = table.get_ref();
         let missing = "file is missing; allowed: the name of a mesh file, .inp, .k, .key or .vtu";
         let name = keys.file.as_ref().ok_or_else(|| self.error(table.span(), missing))?;
-        let place = self.folder().join(name.get_ref());
+        let place = self.file("mesh.file", name)?;
         let file = place.display().to_string();
         let bytes = std::fs::read(&place).map_err(|error| self.error(name.span(), &format!("{file}: {error}")))?;
         let ending = place.extension().and_then(|ending| ending.to_str()).unwrap_or_default().to_lowercase();
