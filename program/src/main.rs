@@ -87,7 +87,7 @@ enum Command {
         /// The section, a TOML file (`toron init cell` writes one); - is the standard input.
         scene: PathBuf,
         /// Where the files go.
-        #[arg(short, long, default_value = "toron-out")]
+        #[arg(short, long, default_value = "toron-out/cell")]
         output: PathBuf,
         /// The program ccx of CalculiX; without it, that of the variable TORON_CCX, or the one in PATH.
         #[arg(long)]

@@ -2,7 +2,8 @@
 
 use std::process::Command;
 
-/// On Linux: has the system kill the command's process once the thread that starts it has ended, which it must therefore outlast.
+/// On Linux: has the system kill the command's process once the thread that starts it has ended, which it must
+/// therefore outlast.
 #[cfg(target_os = "linux")]
 pub fn bind(command: &mut Command) {
     use std::os::unix::process::CommandExt;
@@ -19,8 +20,8 @@ pub fn bind(command: &mut Command) {
         }
         Ok(())
     };
-    // SAFETY: between fork and exec only what is safe in a signal handler may be called. Both system calls are, and neither they nor
-    // the errors, which are plain codes, allocate or take a lock.
+    // SAFETY: between fork and exec only what is safe in a signal handler may be called. Both system calls are, and
+    // neither they nor the errors, which are plain codes, allocate or take a lock.
     unsafe { command.pre_exec(before_it_starts) };
 }
 

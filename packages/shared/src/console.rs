@@ -42,8 +42,8 @@ pub fn is_quiet() -> bool {
     format().quiet
 }
 
-/// Writes to the standard output. A reader that has gone (`toron params | head`) is no error; another reason, such as a full disk, is
-/// [kept](lost), so that a command writes its files all the same.
+/// Writes to the standard output. A reader that has gone (`toron params | head`) is no error; another reason, such as a
+/// full disk, is [kept](lost), so that a command writes its files all the same.
 pub fn print(text: &str) {
     if is_json() {
         KEPT.lock().unwrap_or_else(PoisonError::into_inner).push_str(text);
@@ -61,7 +61,8 @@ pub fn finish(command: &str, version: &str) {
 }
 
 /// A table in a text that is printed as JSON: the two lines of each heading, and rows of numbers, texts, or null where
-/// a column does not apply. Columns of words have no numbers, whatever a case is called, and the first of them says what each row is of.
+/// a column does not apply. Columns of words have no numbers, whatever a case is called, and the first of them says
+/// what each row is of.
 pub fn table_record(columns: &[Column], is_words: impl Fn(&Column) -> bool) -> String {
     let rows = columns.first().map_or(0, |column| column.entries.len());
     let entry = |(place, column): (usize, &Column), i: usize| match column.entries[i].as_str() {

@@ -13,7 +13,8 @@ use super::error::Error;
 /// The shell's code of a program that Ctrl-C has ended.
 const EXIT_CODE: i32 = 130;
 
-/// For so long a second signal says what the first one has said: `timeout` sends one to the program and one to its group.
+/// For so long a second signal says what the first one has said: `timeout` sends one to the program and one to its
+/// group.
 const SAME: Duration = Duration::from_secs(1);
 /// How often the first one is looked for.
 const LOOK: Duration = Duration::from_millis(100);

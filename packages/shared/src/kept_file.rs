@@ -1,4 +1,5 @@
-//! Files that a user may have changed by hand: a command that writes one again keeps the old one beside it.
+//! Files that are written in one go. Of one that a user may have changed by hand, a command that writes it again keeps
+//! the old one beside it.
 
 use std::ffi::OsString;
 use std::fs::File;
@@ -12,19 +13,36 @@ use super::run_directory::{file_error, is_file};
 /// Large enough for decks of many elements.
 const BUFFER: usize = 1 << 20;
 
-/// Writes a file in one go. If one is there with other contents, it gets another name first, and that is said. What is written until an
-/// error is removed.
+/// Writes a file in one go. If one is there with other contents, it gets another name first, and that is said. What is
+/// written until an error is removed.
 ///
 /// # Errors
-/// The file cannot be written, or what is there is no regular file, or something is called as the one that is being written.
+/// The file cannot be written, or what is there is no regular file, or something is called as the one that is being
+/// written.
 pub fn write(place: &Path, contents: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>) -> Result<(), Error> {
+    put(place, contents, true)
+}
+
+/// The same for a file that nobody changes by hand, such as a mesh: none is kept.
+///
+/// # Errors
+/// As for [`write`].
+pub fn overwrite(place: &Path, contents: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>) -> Result<(), Error> {
+    put(place, contents, false)
+}
+
+fn put(
+    place: &Path,
+    contents: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
+    is_kept: bool,
+) -> Result<(), Error> {
     let is_there = is_file(place)?;
     let new = with_ending(place, "-new");
     let file = File::create_new(&new).map_err(|error| match error.kind() {
         ErrorKind::AlreadyExists => file_error(&new, &"is there already; allowed: no such file"),
         _ => file_error(place, &error),
     })?;
-    let written = write_new(file, contents).and_then(|()| Ok(is_there && !are_equal(&new, place)?));
+    let written = write_new(file, contents).and_then(|()| Ok(is_kept && is_there && !are_equal(&new, place)?));
     let put = written.map_err(|error| file_error(place, &error)).and_then(|differs| {
         if differs {
             set_aside_if_there(place)?;
@@ -105,6 +123,20 @@ mod tests {
         assert_eq!(names.map(read), ["one", "two", "six", "six"]);
         assert_eq!(std::fs::read_dir(&folder).expect("a folder").count(), names.len());
         assert!(write(&folder, |_| Ok(())).expect_err("a directory").to_string().contains("is a directory"));
+        std::fs::remove_dir_all(&folder).expect("it is removed");
+    }
+
+    #[test]
+    fn a_mesh_takes_the_place_of_another() {
+        let folder = std::env::temp_dir().join(format!("toron-mesh-{}", std::process::id()));
+        std::fs::create_dir_all(&folder).expect("a folder");
+        let place = folder.join("one-mesh.k");
+        for text in ["one", "two", "two"] {
+            overwrite(&place, |file| file.write_all(text.as_bytes())).expect("it is written");
+        }
+        assert_eq!(std::fs::read_to_string(&place).expect("it is there"), "two");
+        assert_eq!(std::fs::read_dir(&folder).expect("a folder").count(), 1);
+        assert!(overwrite(&folder, |_| Ok(())).expect_err("a directory").to_string().contains("is a directory"));
         std::fs::remove_dir_all(&folder).expect("it is removed");
     }
 

@@ -1,5 +1,5 @@
-//! The directory that a command writes to: one program writes there at a time, it says whose its files are, so that no other command or
-//! scene overwrites them, and nothing of an earlier run stays that a reader would take for this one's.
+//! The directory that a command writes to: one program writes there at a time, it says whose its files are, so that no
+//! other command or scene overwrites them, and nothing of an earlier run stays that a reader would take for this one's.
 
 use std::fs::{File, OpenOptions, TryLockError};
 use std::io::{ErrorKind, Read, Seek, Write};
@@ -9,10 +9,10 @@ use serde::{Deserialize, Serialize};
 
 use super::error::Error;
 use super::file_names::{collide, is_of};
-use super::{folder, toml_file};
+use super::{folder, shell, toml_file};
 
-/// The file whose lock says that a run writes to its directory, and in which stands whose the files there are. The system releases the
-/// lock however the run ends; the file stays.
+/// The file whose lock says that a run writes to its directory, and in which stands whose the files there are. The
+/// system releases the lock however the run ends; the file stays.
 const LOCK: &str = "toron.lock";
 
 /// The directory, for as long as its lock is held.
@@ -22,7 +22,18 @@ pub struct RunDirectory {
     _lock: File,
 }
 
+/// A directory whose lock is held for a run that would overwrite nobody's files there; they are not its own yet. A run
+/// that ends before it writes leaves the directory to whom it belongs.
+#[derive(Debug)]
+pub struct Locked {
+    path: PathBuf,
+    lock: File,
+    /// What stands in [`LOCK`], and what is to stand there.
+    text: [String; 2],
+}
+
 /// What a command is about to write to a directory.
+#[derive(Clone, Debug, Default)]
 pub struct Writes<'a> {
     pub command: &'a str,
     /// The files that the command was given: a scene, histories, or none.
@@ -31,20 +42,32 @@ pub struct Writes<'a> {
     pub names: Vec<String>,
     /// Whether it goes on from checkpoints there, which it knows for its own: the scene may have been moved since.
     pub restart: bool,
+    /// The file there that another command reads next, which goes on with this one's work and may write its files anew.
+    pub hands_over: &'a str,
 }
 
 /// Who has written files to a directory: a line of [`LOCK`].
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 struct Owner {
     command: String,
     /// The files that it was given, as [`known_as`]; empty where there were none.
     scene: String,
     names: Vec<String>,
+    /// As of [`Writes`].
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    hands_over: String,
 }
 
 impl Owner {
     fn is_same_run(&self, other: &Owner) -> bool {
         self.command == other.command && self.scene == other.scene
+    }
+
+    /// Whether a run must not overwrite this one's files: those out of no file are nobody's data, and one of two goes
+    /// on with the other's work where it was handed over.
+    fn keeps_from(&self, new: &Owner) -> bool {
+        let goes_on = |after: &Owner, before: &Owner| !after.scene.is_empty() && after.scene == before.hands_over;
+        !self.scene.is_empty() && !goes_on(self, new) && !goes_on(new, self)
     }
 
     /// A name of the other's files that would be called as some of this one's.
@@ -58,7 +81,8 @@ impl Owner {
     }
 }
 
-/// What a file is called in a directory: its path from there, as they may be moved together; the standard input by what it says.
+/// What a file is called in a directory: its path from there, as they may be moved together; the standard input by what
+/// it says.
 ///
 /// # Errors
 /// The standard input cannot be read.
@@ -83,12 +107,28 @@ fn seen_from(directory: &Path, file: &Path) -> String {
     up.chain(to[common..].iter().copied()).collect::<PathBuf>().display().to_string()
 }
 
-impl RunDirectory {
-    /// Makes the directory, if it is new, takes its lock, and writes down whose the files are.
+impl Locked {
+    /// Writes down whose the files are, before the first of them is written.
     ///
     /// # Errors
-    /// It is a file, it cannot be made, another run writes there, or files of another command or scene would be overwritten.
-    pub fn open(path: &Path, writes: Writes<'_>) -> Result<RunDirectory, Error> {
+    /// It cannot be written.
+    pub fn claim(self) -> Result<RunDirectory, Error> {
+        let Locked { path, mut lock, text: [old, new] } = self;
+        if new != old {
+            let written = lock.rewind().and_then(|()| lock.set_len(0)).and_then(|()| lock.write_all(new.as_bytes()));
+            written.map_err(|error| file_error(&path.join(LOCK), &error))?;
+        }
+        Ok(RunDirectory { path, _lock: lock })
+    }
+}
+
+impl RunDirectory {
+    /// Makes the directory, if it is new, and takes its lock.
+    ///
+    /// # Errors
+    /// It is a file, it cannot be made, another run writes there, or files of another command or scene would be
+    /// overwritten.
+    pub fn lock(path: &Path, writes: Writes<'_>) -> Result<Locked, Error> {
         folder::create(path)?;
         let file = path.join(LOCK);
         is_file(&file)?;
@@ -104,20 +144,19 @@ impl RunDirectory {
         }
         let mut text = String::new();
         lock.read_to_string(&mut text).map_err(|error| file_error(&file, &error))?;
-        let Writes { command, files, names, restart } = writes;
-        let scene = files.into_iter().map(|file| known_as(path, file)).collect::<Result<Vec<_>, _>>()?;
-        let owner = Owner { command: command.to_string(), scene: scene.join(" "), names };
-        let owners = with(owners(&file, &text)?, owner, restart).map_err(|taken| {
-            let allowed = format!("allowed: another directory, or this one without {LOCK}: then they are overwritten");
-            Error::Input(format!("output is {}, where {taken}; {allowed}", path.display()))
-        })?;
-        let lines = owners.iter().map(|owner| serde_json::to_string(owner).map(|line| line + "\n"));
-        let lines: String = lines.collect::<Result<_, _>>().map_err(|error| file_error(&file, &error))?;
-        if lines != text {
-            let written = lock.rewind().and_then(|()| lock.set_len(0)).and_then(|()| lock.write_all(lines.as_bytes()));
-            written.map_err(|error| file_error(&file, &error))?;
-        }
-        Ok(RunDirectory { path: path.to_path_buf(), _lock: lock })
+        let lines = allowed(path, &text, &writes)?.iter().map(serde_json::to_string).collect::<Result<Vec<_>, _>>();
+        let lines = lines.map_err(|error| file_error(&file, &error))?.iter().map(|line| format!("{line}\n")).collect();
+        Ok(Locked { path: path.to_path_buf(), lock, text: [text, lines] })
+    }
+
+    /// That a run would overwrite nobody's files in a directory, which need not be there, without its lock: for one
+    /// that writes at the end if at all.
+    ///
+    /// # Errors
+    /// Files of another command or scene would be overwritten.
+    pub fn check(path: &Path, writes: &Writes<'_>) -> Result<(), Error> {
+        let text = std::fs::read_to_string(path.join(LOCK)).unwrap_or_default();
+        allowed(path, &text, writes).map(drop)
     }
 
     /// Removes a file that is of an earlier run, if it is there; whether it was.
@@ -133,8 +172,8 @@ impl RunDirectory {
         }
     }
 
-    /// Removes what an earlier run has written for this case: histories, plots, pictures, tables of strains, and the files for ParaView
-    /// from the number `frames` on. Its checkpoint stays. Returns how many there were.
+    /// Removes what an earlier run has written for this case: histories, plots, pictures, tables of strains, and the
+    /// files for ParaView from the number `frames` on. Its checkpoint stays. Returns how many there were.
     ///
     /// # Errors
     /// The directory cannot be read, or a file not be removed.
@@ -160,6 +199,40 @@ impl RunDirectory {
     }
 }
 
+/// Who has files in a directory once a run has written to it; `text` is what stands in [`LOCK`].
+///
+/// # Errors
+/// Files would be overwritten; the message names a directory where none would be.
+fn allowed(path: &Path, text: &str, writes: &Writes<'_>) -> Result<Vec<Owner>, Error> {
+    let Writes { command, files, names, restart, hands_over } = writes;
+    let scene = files.iter().map(|file| known_as(path, file)).collect::<Result<Vec<_>, _>>()?.join(" ");
+    let [command, hands_over] = [command, hands_over].map(|text| text.to_string());
+    let owner = Owner { command, scene, names: names.clone(), hands_over };
+    with(owners(&path.join(LOCK), text)?, owner.clone(), *restart).map_err(|taken| {
+        let other = way_out(path, files.first().copied(), &owner).display().to_string();
+        let option = shell::command(&["-o".to_string(), other]);
+        let allowed =
+            format!("allowed: another directory, as {option}, or this one without {LOCK}: then they are overwritten");
+        Error::Input(format!("output is {}, where {taken}; {allowed}", path.display()))
+    })
+}
+
+/// A directory beside this one in which a run overwrites nothing, called after the first file that the run is given.
+fn way_out(path: &Path, file: Option<&Path>, owner: &Owner) -> PathBuf {
+    let stem = file.filter(|file| !toml_file::is_standard_input(file)).and_then(Path::file_stem);
+    let stem = stem.map(|stem| stem.to_string_lossy().into_owned());
+    let beside = |ending: String| match path.file_name() {
+        Some(name) => path.with_file_name(format!("{}-{ending}", name.to_string_lossy())),
+        None => path.join(ending),
+    };
+    let would_do = |place: &PathBuf| match std::fs::read_to_string(place.join(LOCK)) {
+        Ok(text) => owners(place, &text).is_ok_and(|owners| with(owners, owner.clone(), false).is_ok()),
+        Err(_) => !place.exists(),
+    };
+    let mut places = stem.into_iter().chain((2..).map(|number: u32| number.to_string())).map(beside);
+    places.find(would_do).unwrap_or_default()
+}
+
 /// The lines of [`LOCK`]; an earlier version wrote none.
 ///
 /// # Errors
@@ -174,20 +247,22 @@ fn owners(file: &Path, text: &str) -> Result<Vec<Owner>, Error> {
     text.lines().enumerate().map(line).collect()
 }
 
-/// The owners of a directory with one more, which takes the place of the same run's before; the names of that one stay its own, since
-/// its files may be there still.
+/// The owners of a directory with one more, which takes the place of the same run's before; the names of that one stay
+/// its own, since its files may be there still.
 ///
 /// # Errors
 /// Whose files would be overwritten.
 fn with(owners: Vec<Owner>, mut new: Owner, restart: bool) -> Result<Vec<Owner>, String> {
     let is_own = |owner: &Owner| owner.is_same_run(&new) || restart && owner.command == new.command;
     let (before, mut others): (Vec<Owner>, Vec<Owner>) = owners.into_iter().partition(is_own);
-    for other in &others {
+    for other in others.iter().filter(|other| other.keeps_from(&new)) {
         if let Some(name) = new.shared(other) {
             let [other, new] = [other, &new].map(Owner::described);
             return Err(format!("files called {name} are of {other}, and {new} would overwrite them"));
         }
     }
+    // What was of nobody is this run's now.
+    others.retain(|other| !other.scene.is_empty() || new.shared(other).is_none());
     new.names.extend(before.into_iter().flat_map(|owner| owner.names));
     new.names.sort();
     new.names.dedup();
@@ -225,6 +300,7 @@ mod tests {
             command: command.into(),
             scene: scene.into(),
             names: names.iter().map(|name| name.to_string()).collect(),
+            hands_over: String::new(),
         }
     }
 
@@ -254,6 +330,51 @@ mod tests {
     }
 
     #[test]
+    fn files_out_of_no_file_are_nobody_s() {
+        let [demonstration, path] = [owner("run", "", &["plot"]), owner("run", "../a.toml", &["plot"])];
+        assert_eq!(with(vec![demonstration.clone()], path.clone(), false), Ok(vec![path.clone()]));
+        // They take no place of somebody's, and what is not overwritten stays in the list.
+        assert!(with(vec![path.clone()], demonstration.clone(), false).is_err());
+        let bench = owner("bench", "", &["bench"]);
+        assert_eq!(with(vec![bench.clone()], path.clone(), false), Ok(vec![bench, path]));
+    }
+
+    #[test]
+    fn what_is_handed_over_may_be_gone_on_with() {
+        let cell = Owner { hands_over: "fit.toml".into(), ..owner("cell", "../a.toml", &["fit", "parameters"]) };
+        let fit = owner("fit", "fit.toml", &["fit", "parameters", "yarn"]);
+        // One after the other, and both again.
+        let both = vec![cell.clone(), fit.clone()];
+        assert_eq!(with(vec![cell.clone()], fit.clone(), false), Ok(both.clone()));
+        assert_eq!(with(both.clone(), cell.clone(), false), Ok(vec![fit.clone(), cell.clone()]));
+        for other in [owner("fit", "../fit.toml", &["parameters"]), owner("cell", "../b.toml", &["fit"])] {
+            assert!(with(both.clone(), other, false).expect_err("another one").contains("are of toron cell ../a.toml"));
+        }
+    }
+
+    #[test]
+    fn a_refused_run_owns_nothing_and_is_told_where_to_go() {
+        let place = std::env::temp_dir().join(format!("toron-way-out-{}", std::process::id()));
+        let out = place.join("out");
+        let lock = |file: &str| {
+            let names = vec!["plot".to_string()];
+            let writes = Writes { command: "run", files: vec![Path::new(file)], names, ..Writes::default() };
+            RunDirectory::lock(&out, writes)
+        };
+        let text = || std::fs::read_to_string(out.join(LOCK)).expect("a file");
+        drop(lock("/x/a.toml").expect("nobody's"));
+        assert_eq!(text(), "");
+        drop(lock("/x/b.toml").and_then(Locked::claim).expect("nobody's still"));
+        let refused = || lock("/x/my path.toml").expect_err("another one's").to_string();
+        let told = |ending: &str| format!("another directory, as -o '{}-{ending}', or", out.display());
+        assert!(refused().contains(&told("my path")), "{}", refused());
+        std::fs::create_dir(place.join("out-my path")).expect("a folder");
+        assert!(refused().contains(&told("2").replace('\'', "")), "{}", refused());
+        assert_eq!(text().lines().count(), 1);
+        std::fs::remove_dir_all(&place).expect("it is removed");
+    }
+
+    #[test]
     fn a_scene_is_known_from_the_directory_on() {
         assert_eq!(seen_from(Path::new("/x/out"), Path::new("/x/a b.toml")), "../a b.toml");
         assert_eq!(seen_from(Path::new("/x"), Path::new("/x/y/a.toml")), "y/a.toml");
@@ -279,7 +400,8 @@ mod tests {
         let path = std::env::temp_dir().join(format!("toron-run-directory-{}", std::process::id()));
         let open = |files: &[&str]| {
             let (files, names) = (files.iter().map(Path::new).collect(), vec!["compare".to_string()]);
-            RunDirectory::open(&path, Writes { command: "compare", files, names, restart: false }).map(drop)
+            let writes = Writes { command: "compare", files, names, ..Writes::default() };
+            RunDirectory::lock(&path, writes).and_then(Locked::claim).map(drop)
         };
         assert!(open(&["/x/a.csv", "/x/b.csv"]).is_ok() && open(&["/x/a.csv", "/x/b.csv"]).is_ok());
         let refused = open(&["/x/a.csv", "/x/c.csv"]).expect_err("another one").to_string();

@@ -3,8 +3,8 @@
 /// What counts as the value itself: twelve digits, which is what a conversion of units keeps.
 pub const EXACT: f64 = 1e-12;
 
-/// The shortest number that says the value to twelve digits; where `width` characters do not hold it, the nearest one that
-/// they do.
+/// The shortest number that says the value to twelve digits; where `width` characters do not hold it, the nearest one
+/// that they do.
 pub fn short(value: f64, width: usize) -> String {
     let fixed = (1..17).map(|decimals| format!("{value:.decimals$}"));
     let scientific = (0..17).map(|digits| format!("{value:.digits$e}"));

@@ -1,4 +1,5 @@
-//! What is wrong with a file that is TOML but not what is wanted, in the words of its reader: key, value, what is allowed.
+//! What is wrong with a file that is TOML but not what is wanted, in the words of its reader: key, value, what is
+//! allowed.
 
 use std::ops::Range;
 

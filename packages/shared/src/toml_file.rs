@@ -1,7 +1,7 @@
 //! A TOML file that is read: its text, and errors that name file, line and what is allowed there.
 
 use std::ops::Range;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
 use serde::de::{DeserializeOwned, Error as _};
@@ -98,6 +98,24 @@ impl Source<'_> {
     /// The folder of the file, which the names of other files in it are relative to.
     pub fn folder(&self) -> &Path {
         Path::new(self.name).parent().unwrap_or(Path::new(""))
+    }
+
+    /// The file that a key names.
+    ///
+    /// # Errors
+    /// It is not there, or called as the standard input, which is the command's.
+    pub fn file(&self, key: &str, name: &Spanned<String>) -> Result<PathBuf, Error> {
+        let path = self.folder().join(name.get_ref());
+        let message = if is_standard_input(Path::new(name.get_ref())) {
+            format!(
+                "{key} is \"{STANDARD_INPUT}\"; allowed: a file's name: an argument alone may be the standard input"
+            )
+        } else if !path.is_file() {
+            format!("{key} {}: there is no such file", path.display())
+        } else {
+            return Ok(path);
+        };
+        Err(self.error(name.span(), &message))
     }
 
     /// The number, where it is finite and above 0.

@@ -14,12 +14,13 @@ use super::finding::{Finding, NOT_FINITE, Question, Verdict};
 use super::guarded::Guard;
 use super::input::{self, Input, Over};
 use super::material::{DEFAULT_NAME, Material, Reads};
-use super::repeated::Repeated;
+use super::repeated::{self, Repeated};
 use super::report::{OfMaterial, Report};
 use super::shared;
 use super::work_dir::WorkDir;
 use toron_shared::console::print;
 use toron_shared::error::Error;
+use toron_shared::run_directory::RunDirectory;
 
 #[derive(Args)]
 pub struct Arguments {
@@ -108,6 +109,7 @@ pub fn run(program: &str, arguments: &Arguments) -> Result<(), Error> {
     let Input { mut materials, mut allowed } = input::input(file, arguments.scene.as_deref(), &over)?;
     allowed.extend(arguments.allow.iter().cloned());
     let built = compile::compile(file, &work_dir.path)?;
+    RunDirectory::check(&arguments.output, &repeated::writes(file))?;
     if arguments.vumat || vumat_alone(&built, &work_dir.path, materials.first())? {
         let single = match &arguments.single {
             Some(library) => Some(Ok(canonical(library)?)),

@@ -6,6 +6,7 @@ use std::process::Command;
 
 use super::work_dir;
 use toron_shared::error::Error;
+use toron_shared::toml_file::is_standard_input;
 
 /// The routines of Abaqus that subroutines call.
 const UTILITIES: &str = include_str!("utilities.c");
@@ -188,6 +189,10 @@ fn language(file: &Path) -> Result<Language, Error> {
         "c" => Language::C,
         "cpp" | "cc" | "cxx" => Language::Cpp,
         "so" | "dylib" => Language::Library,
+        _ if is_standard_input(file) => {
+            let allowed = "a file; the standard input may be the materials, --scene -";
+            return Err(Error::Input(format!("the subroutine is {name}; allowed: {allowed}")));
+        }
         _ => {
             let allowed = "Fortran (.f .for .f90 …), C (.c), C++ (.cpp .cc), a shared library (.so)";
             return Err(Error::Input(format!("{name} ends in \"{ending}\"; allowed: {allowed}")));

@@ -181,10 +181,15 @@ impl Question {
         }
     }
 
+    /// All that may be asked.
+    pub fn all() -> impl Iterator<Item = Question> {
+        let of_vumat = Question::OF_VUMAT.into_iter().filter(|question| !Question::ASKED.contains(question));
+        Question::ASKED.into_iter().chain(of_vumat)
+    }
+
     /// Of all that may be asked, with commas.
     pub fn names() -> String {
-        let of_vumat = Question::OF_VUMAT.into_iter().filter(|question| !Question::ASKED.contains(question));
-        Question::ASKED.into_iter().chain(of_vumat).map(Question::name).collect::<Vec<_>>().join(", ")
+        Question::all().map(Question::name).collect::<Vec<_>>().join(", ")
     }
 
     pub fn parse(name: &str) -> Option<Question> {

@@ -12,7 +12,8 @@ use super::guarded::Guard;
 use super::material::Material;
 use toron_shared::console::print;
 use toron_shared::error::Error;
-use toron_shared::folder;
+use toron_shared::run_directory::{RunDirectory, Writes};
+use toron_shared::toml_file;
 
 /// What is needed to repeat a call.
 pub struct Repeated {
@@ -20,6 +21,18 @@ pub struct Repeated {
     pub material: Material,
     pub guard: Guard,
     pub call: Call,
+}
+
+/// What the files of a law's calls are called, without their ending.
+fn name(file: &Path, question: Question) -> String {
+    let stem = file.file_stem().map_or("law".into(), |stem| stem.to_string_lossy());
+    format!("{stem}-{}", question.name())
+}
+
+/// What a check of this law may write.
+pub fn writes(file: &Path) -> Writes<'_> {
+    let names = Question::all().map(|question| name(file, question)).collect();
+    Writes { command: "check", files: vec![file], names, ..Writes::default() }
 }
 
 /// As it is written. Numbers are text: they need not be finite.
@@ -33,14 +46,13 @@ struct Written {
 }
 
 impl Repeated {
-    /// Writes `NAME-LINE.json` into the folder.
+    /// Writes `NAME-LINE.json` into the folder, under its lock.
     ///
     /// # Errors
-    /// It cannot be written.
+    /// It cannot be written, or the files there are another law's.
     pub fn write(&self, output: &Path, question: Question) -> Result<PathBuf, Error> {
-        folder::create(output)?;
-        let stem = self.file.file_stem().map_or("law".into(), |stem| stem.to_string_lossy());
-        let path = output.join(format!("{stem}-{}.json", question.name()));
+        let _directory = RunDirectory::lock(output, writes(&self.file))?.claim()?;
+        let path = output.join(format!("{}.json", name(&self.file, question)));
         let error = |reason: String| Error::Input(format!("{}: {reason}", path.display()));
         let arguments = self.call.named().map(|(name, numbers)| {
             (name.to_string(), numbers.iter().map(|number| format!("{number:e}")).collect::<Vec<_>>())
@@ -59,9 +71,9 @@ impl Repeated {
     /// # Errors
     /// It cannot be read, or is no such file.
     pub fn read(path: &Path) -> Result<Repeated, Error> {
-        let error = |reason: String| Error::Input(format!("{}: {reason}", path.display()));
-        let text = std::fs::read(path).map_err(|reason| error(reason.to_string()))?;
-        let written: Written = serde_json::from_slice(&text).map_err(|reason| error(reason.to_string()))?;
+        let (name, text) = toml_file::read(path)?;
+        let error = |reason: String| Error::Input(format!("{name}: {reason}"));
+        let written: Written = serde_json::from_str(&text).map_err(|reason| error(reason.to_string()))?;
         let texts = written.arguments.iter().flat_map(|(_, numbers)| numbers);
         let numbers = texts.map(|text| text.parse().map_err(|_| error(format!("\"{text}\"; allowed: a number"))));
         let numbers: Vec<f64> = numbers.collect::<Result<_, _>>()?;

@@ -19,6 +19,7 @@ use toron::law::parameters;
 use toron_shared::console::print;
 use toron_shared::error::Error;
 use toron_shared::folder;
+use toron_shared::run_directory::{RunDirectory, Writes};
 use toron_shared::text_table::plain_table;
 
 /// The sizes of a block: one point, a few, a solver's vectors, a batch that stays in the cache, one that does not.
@@ -61,7 +62,8 @@ struct Report {
 /// # Errors
 /// The file cannot be written.
 pub fn run(output: Option<&Path>) -> Result<(), Error> {
-    output.map_or(Ok(()), folder::create)?;
+    let writes = Writes { command: "bench", names: vec!["bench".to_string()], ..Writes::default() };
+    let locked = output.map(|output| RunDirectory::lock(output, writes)).transpose()?;
     let mut rows = measured::<f64>("f64", &[&Host::BOTH[..], &Host::DOUBLE].concat())?;
     rows.extend(measured::<f32>("f32", &Host::BOTH)?);
     let report = Report {
@@ -73,7 +75,8 @@ pub fn run(output: Option<&Path>) -> Result<(), Error> {
         choices: choices::measured()?,
     };
     print(&table(&report));
-    let Some(output) = output else { return Ok(()) };
+    let (Some(output), Some(locked)) = (output, locked) else { return Ok(()) };
+    let _directory = locked.claim()?;
     let file = output.join("bench.json");
     let file_error = |error: &dyn std::fmt::Display| Error::Input(format!("{}: {error}", file.display()));
     let text = serde_json::to_string_pretty(&report).map_err(|error| file_error(&error))?;

@@ -60,9 +60,13 @@ pub fn run(path: &Path, output: &Path, ccx: Option<&Path>, restart: bool) -> Res
             "output is the folder of the scene, whose files could be overwritten; allowed: another one, -o DIR";
         return Err(Error::Input(message.to_string()));
     }
+    if restart {
+        check_checkpoints(&scene, &model, output)?;
+    }
     let own = ["fit", "parameters"].into_iter().chain(scene.loads.iter().map(|load| load.name()));
-    let writes = Writes { command: "cell", files: vec![path], names: own.map(String::from).collect(), restart };
-    let _directory = RunDirectory::open(output, writes)?;
+    let names = own.map(String::from).collect();
+    let writes = Writes { command: "cell", files: vec![path], names, restart, hands_over: FIT };
+    let _directory = RunDirectory::lock(output, writes)?.claim()?;
     let fit = output.join(FIT);
     // One of an earlier run would stand beside other tables.
     kept_file::set_aside_if_there(&fit)?;
@@ -91,6 +95,16 @@ pub fn run(path: &Path, output: &Path, ccx: Option<&Path>, restart: bool) -> Res
     let text = output::fit_file(&scene, &model, &outcomes);
     kept_file::write(&fit, |file| file.write_all(text.as_bytes()))?;
     Ok(fit)
+}
+
+/// That a restart can go on from the checkpoints that are there.
+fn check_checkpoints(scene: &Scene, model: &Model, output: &Path) -> Result<(), Error> {
+    for &load in &scene.loads {
+        if let Some(bytes) = Checkpoint::of(load.name(), output).read()? {
+            checkpoint::check(&explicit_run::Section::new(scene, model, load), &bytes)?;
+        }
+    }
+    Ok(())
 }
 
 /// What the loads have in common.

@@ -7,13 +7,14 @@ use super::root::root;
 /// The level of all intervals.
 pub const LEVEL: f64 = 0.95;
 
-/// Twice the logarithm of a likelihood ratio beyond which one value is refused: the quantile of χ² with one degree of freedom.
+/// Twice the logarithm of a likelihood ratio beyond which one value is refused: the quantile of χ² with one degree of
+/// freedom.
 pub fn refusal() -> f64 {
     Normal::standard().inverse_cdf(0.5 + 0.5 * LEVEL).powi(2)
 }
 
-/// Where a function that rises away from `start` passes `level`, sought outwards from a step of `first` on, each twice the one before; none
-/// where it does not within `farthest`. Where it is no number it has passed.
+/// Where a function that rises away from `start` passes `level`, sought outwards from a step of `first` on, each twice
+/// the one before; none where it does not within `farthest`. Where it is no number it has passed.
 pub fn crossing(of: impl Fn(f64) -> f64, start: f64, first: f64, level: f64, farthest: f64) -> Option<f64> {
     let left = |place: f64| level - of(place);
     let (mut inside, mut step) = (start, first);

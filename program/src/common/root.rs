@@ -4,7 +4,8 @@ const ITERATIONS: usize = 100;
 /// Places closer than this, over one more than their size, are the same.
 const ACCURACY: f64 = 1e-12;
 
-/// The root between two places where the signs differ: regula falsi with the step of Illinois, or a bisection where that is no number.
+/// The root between two places where the signs differ: regula falsi with the step of Illinois, or a bisection where
+/// that is no number.
 pub fn root(function: &(impl Fn(f64) -> f64 + ?Sized), near: f64, far: f64) -> f64 {
     let [mut a, mut b] = [near, far].map(|place| (place, function(place)));
     for _ in 0..ITERATIONS {

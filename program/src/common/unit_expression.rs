@@ -126,8 +126,8 @@ impl Unit {
         [self.mass, self.length, self.time] == [dimension.mass, dimension.length, dimension.time]
     }
 
-    /// Converts a value of this unit to a system's unit of the same dimension: bit for bit where the two are one unit, by
-    /// one rounding where they differ by a power of ten.
+    /// Converts a value of this unit to a system's unit of the same dimension: bit for bit where the two are one unit,
+    /// by one rounding where they differ by a power of ten.
     pub fn convert(&self, value: f64, units: &UnitSystem) -> f64 {
         let own = Dimension { mass: self.mass, length: self.length, time: self.time, name: "" };
         self.scale.convert(value, &units.scale(own))

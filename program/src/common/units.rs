@@ -1,4 +1,5 @@
-//! What the units of a system are called, for axes and summaries: MPa in mm-tonne-s, GPa in mm-kg-ms, psi in in-slinch-s.
+//! What the units of a system are called, for axes and summaries: MPa in mm-tonne-s, GPa in mm-kg-ms, psi in
+//! in-slinch-s.
 
 use toml::Spanned;
 use toron::host::units::UnitSystem;

@@ -5,8 +5,8 @@ use std::path::PathBuf;
 
 use toron_shared::error::Error;
 
-/// The corners of an element in the order of a VTK hexahedron; corner c stands on the upper side of axis i where bit i of c
-/// is set.
+/// The corners of an element in the order of a VTK hexahedron; corner c stands on the upper side of axis i where bit i
+/// of c is set.
 const CORNERS: [usize; 8] = [0, 1, 3, 2, 4, 5, 7, 6];
 const HEXAHEDRON: u8 = 12;
 

@@ -12,9 +12,9 @@ use super::{of_abaqus, of_ls_dyna, of_openradioss, of_toron, plot, report};
 use crate::scene_deck::origin::Origin;
 use toron_shared::console::print;
 use toron_shared::error::Error;
-use toron_shared::folder;
 use toron_shared::run_directory::{RunDirectory, Writes, file_error};
 use toron_shared::text_table::{files, shortened, write_csv};
+use toron_shared::{folder, toml_file};
 
 /// Letters of a line that a message repeats.
 const LONGEST: usize = 40;
@@ -23,11 +23,13 @@ const FIGURE: [&str; 2] = ["compare.svg", "compare.png"];
 
 #[derive(Args, Debug)]
 pub struct Arguments {
-    /// NAME.csv of toron; NAMET01.csv, which th_to_csv of OpenRadioss/Tools makes; the folder of a run of LS-DYNA; the
-    /// table that the script beside an Abaqus deck makes. The first one is what the others are compared with.
+    /// NAME.csv of toron, or - for the standard input; NAMET01.csv, which th_to_csv of OpenRadioss/Tools makes; the
+    /// folder of a run of LS-DYNA; the table that the script beside an Abaqus deck makes. The first one is what the
+    /// others are compared with.
     #[arg(required = true)]
     histories: Vec<PathBuf>,
-    /// What the histories are called, in their order: A,B,…; without it, as their files, with as much of their folders as tells them apart.
+    /// What the histories are called, in their order: A,B,…; without it, as their files, with as much of their folders
+    /// as tells them apart.
     #[arg(long, value_delimiter = ',')]
     names: Vec<String>,
     /// The units of table and figure.
@@ -62,8 +64,9 @@ pub fn run(arguments: &Arguments) -> Result<(), Error> {
     let judged = histories.iter().map(|history| Figures::of(history, &histories[0])).collect::<Vec<_>>();
     let judged: Vec<(&History, Figures)> = histories.iter().zip(judged).collect();
     let paths = arguments.histories.iter().map(PathBuf::as_path).collect();
-    let writes = Writes { command: "compare", files: paths, names: vec!["compare".to_string()], restart: false };
-    let _directory = RunDirectory::open(&arguments.output, writes)?;
+    let names = vec!["compare".to_string()];
+    let writes = Writes { command: "compare", files: paths, names, ..Writes::default() };
+    let _directory = RunDirectory::lock(&arguments.output, writes)?.claim()?;
     let [svg, png] = FIGURE.map(|name| arguments.output.join(name));
     plot::write(&svg, &png, &histories.iter().collect::<Vec<_>>(), &units)?;
     let lines: Vec<_> = judged.iter().map(|(history, figures)| report::line(history, figures, &units)).collect();
@@ -126,8 +129,13 @@ fn read(path: &Path, name: String, units: &UnitSystem, given: Option<Origin>) ->
         let history = of_ls_dyna::read(path, name)?;
         return Ok(history.converted(&origin(path, &decks_in(path)?, given)?, units));
     }
-    let bytes = std::fs::read(path).map_err(|error| file_error(path, &error))?;
-    let text = String::from_utf8_lossy(&bytes);
+    let (shown, text) = if toml_file::is_standard_input(path) {
+        toml_file::read(path)?
+    } else {
+        let bytes = std::fs::read(path).map_err(|error| file_error(path, &error))?;
+        (path.display().to_string(), String::from_utf8_lossy(&bytes).into_owned())
+    };
+    let path = Path::new(&shown);
     let stem = name_of(path);
     let beside = |name: String| [path.with_file_name(name)];
     let first = text.lines().find(|line| !line.starts_with('#')).unwrap_or_default();

@@ -2,7 +2,8 @@
 
 use super::history::{Curve, History, Quantity};
 
-/// The speed is the residual one if it has changed by less than this part of the first speed in the last part of the run.
+/// The speed is the residual one if it has changed by less than this part of the first speed in the last part of the
+/// run.
 const STILL: f64 = 0.01;
 const LAST: f64 = 0.1;
 

@@ -6,8 +6,8 @@ use toron::law::parameters::Dimension;
 use crate::common::units::{ENERGY, FORCE, LENGTH, SPEED, TIME};
 use crate::scene_deck::origin::Origin;
 
-/// A sum of energies falls if it does so by this many times its largest move before, which counts as so much of its size at least: the
-/// onset of contact takes 1.5e-4 of it into the first sample.
+/// A sum of energies falls if it does so by this many times its largest move before, which counts as so much of its
+/// size at least: the onset of contact takes 1.5e-4 of it into the first sample.
 const FALL: f64 = 5.0;
 const LEAST_MOVE: f64 = 5e-5;
 
@@ -56,8 +56,8 @@ impl Curve {
         Curve::new(points.filter_map(|(&time, &value)| Some((time, of(value, other.at(time)?)))))
     }
 
-    /// The first sample into which a sum of energies, which hardly moves otherwise, has fallen by far more than it has ever moved from
-    /// sample to sample before: what is deleted takes its energy with it.
+    /// The first sample into which a sum of energies, which hardly moves otherwise, has fallen by far more than it has
+    /// ever moved from sample to sample before: what is deleted takes its energy with it.
     pub fn first_fall(&self) -> Option<f64> {
         let size = self.values.first()?.abs();
         let mut largest = LEAST_MOVE * size;
@@ -124,8 +124,8 @@ pub const QUANTITIES: [Row; 11] = [
     row(Quantity::Total, "total_energy", "Sum of the energies", ENERGY),
 ];
 
-/// A run of one host. Energies and the force are those of the whole, also where a part of it was computed; the speed is that in the
-/// direction of the blow, and so is the deflection.
+/// A run of one host. Energies and the force are those of the whole, also where a part of it was computed; the speed is
+/// that in the direction of the blow, and so is the deflection.
 #[derive(Clone, Debug)]
 pub struct History {
     pub host: &'static str,
@@ -153,7 +153,8 @@ impl History {
         self.curves.iter().flatten().filter_map(|curve| curve.times.last()).copied().fold(0.0, f64::max)
     }
 
-    /// Splits the kinetic energy of all into that of the striker and that of the yarns, which are at rest when the history begins.
+    /// Splits the kinetic energy of all into that of the striker and that of the yarns, which are at rest when the
+    /// history begins.
     pub fn split_kinetic(&mut self, all: &Curve) {
         let Some(speed) = self.curve(Quantity::Speed).cloned() else { return };
         let (Some(&energy), Some(&start)) = (all.values.first(), speed.values.first()) else { return };
@@ -214,7 +215,8 @@ mod tests {
         assert_eq!(fall(&patch), Some(8.0));
         let yarn = [-13.2, -11.3, -3.9, -2.8, -0.75, -0.03, -9.6, 1.6, -0.8, 2.1, 3.2, -138.4, -8.8, -1.8];
         assert_eq!(fall(&yarn), Some(12.0));
-        // Neither the onset, nor drift, nor what comes in, is a fall; the elements of this yarn that fail take no more than that.
+        // Neither the onset, nor drift, nor what comes in, is a fall; the elements of this yarn that fail take no more
+        // than that.
         assert_eq!(fall(&[-11.6, -8.9, -3.5, -3.4, -0.5, -0.02, -7.6, -15.2, 61.9, -7.4]), None);
         assert_eq!(fall(&patch[..7]), None);
         assert_eq!(fall(&[-2.3, -5.7, -8.6, -11.5]), None);

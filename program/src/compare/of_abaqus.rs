@@ -1,4 +1,5 @@
-//! Abaqus: the histories of an output database as the script beside the deck makes a CSV file of them, `REGION:VARIABLE`.
+//! Abaqus: the histories of an output database as the script beside the deck makes a CSV file of them,
+//! `REGION:VARIABLE`.
 
 use std::path::Path;
 

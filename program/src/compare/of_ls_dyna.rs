@@ -1,6 +1,7 @@
 //! LS-DYNA: the folder of a run with its text files glstat, rbdout, nodout, rcforc and matsum.
 //!
-//! Not compared with a run: LS-DYNA was not at hand. Numbers are found by the names before them, as the public manuals print them.
+//! Not compared with a run: LS-DYNA was not at hand. Numbers are found by the names before them, as the public manuals
+//! print them.
 
 use std::path::Path;
 

@@ -1,7 +1,7 @@
 //! OpenRadioss: the time history `NAMET01` as `th_to_csv` of OpenRadioss/Tools makes a CSV file of it.
 //!
-//! Global columns have names. Others have the title of their group, number and name of what they are of, and `var` with a number: the
-//! variables of one thing stand side by side, in the order in which the deck asks for them.
+//! Global columns have names. Others have the title of their group, number and name of what they are of, and `var` with
+//! a number: the variables of one thing stand side by side, in the order in which the deck asks for them.
 
 use std::path::Path;
 

@@ -15,7 +15,8 @@ pub struct Table {
 
 impl Table {
     /// # Errors
-    /// A line with other cells than the first one has, a cell that is neither empty nor a number, times that do not rise.
+    /// A line with other cells than the first one has, a cell that is neither empty nor a number, times that do not
+    /// rise.
     pub fn read(path: &Path, text: &str) -> Result<Table, Error> {
         let name = path.display().to_string();
         let error = |line: usize, message: String| Error::Input(format!("{name}:{line}: {message}"));

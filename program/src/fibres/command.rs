@@ -39,6 +39,9 @@ pub struct Arguments {
     /// Write what LAMMPS reads, and do not run it.
     #[arg(long)]
     write_only: bool,
+    /// Begin cases anew that an earlier run has left files of with another scene: those are removed.
+    #[arg(long)]
+    anew: bool,
     /// Processes of LAMMPS.
     #[arg(long, default_value = "1", value_parser = clap::value_parser!(u16).range(1..))]
     ranks: u16,
@@ -62,19 +65,23 @@ pub fn run(arguments: &Arguments) -> Result<Option<PathBuf>, Error> {
     scene.cases.iter().filter_map(|case| case.law.as_deref()).try_for_each(|file| Beside::read(file).map(drop))?;
     let output = &arguments.output;
     let names = COMMON.into_iter().chain(scene.cases.iter().map(|case| case.name.as_str())).map(String::from).collect();
-    let writes = Writes { command: "fibres", files: vec![&arguments.scene], names, restart: false };
-    let directory = RunDirectory::open(output, writes)?;
+    let files = vec![arguments.scene.as_path()];
+    let writes = Writes { command: "fibres", files, names, hands_over: FIT, ..Writes::default() };
     let folders: Vec<Folder> =
         scene.cases.iter().zip(&models).map(|(case, model)| Folder::new(output.join(&case.name), model)).collect();
     // Those that are there already need no LAMMPS. Where it is missing, nothing is removed.
     let there = folders.iter().all(|folder| folder.is_written() && folder.is_done());
     let lammps = if there || arguments.write_only { None } else { Some(Lammps::find(arguments.lmp.as_deref())?) };
-    for (case, folder) in scene.cases.iter().zip(&folders) {
-        let gone = folder.write()?;
-        if gone > 0 {
-            print_error(&format!("case {}: the scene has changed, and what a run had left is removed\n", case.name));
-        }
+    let locked = RunDirectory::lock(output, writes)?;
+    if !arguments.anew {
+        check_scene(&scene, &folders, output)?;
     }
+    let directory = locked.claim()?;
+    let mut gone = 0;
+    for folder in &folders {
+        gone += folder.write()?;
+    }
+    print_error(&directory.removal(gone));
     if arguments.write_only {
         print(&written(&scene, output));
         return Ok(None);
@@ -126,6 +133,21 @@ pub fn run(arguments: &Arguments) -> Result<Option<PathBuf>, Error> {
     let Some(text) = pressed::output::fit_file(&scene, &pressed) else { return Ok(None) };
     kept_file::write(&fit, |file| file.write_all(text.as_bytes()))?;
     Ok(Some(fit))
+}
+
+/// That no case has results of another scene, or of an input that was changed by hand, which would go.
+fn check_scene(scene: &Scene, folders: &[Folder], output: &Path) -> Result<(), Error> {
+    for (case, folder) in scene.cases.iter().zip(folders) {
+        if folder.is_of_another()? {
+            let (name, place) = (&case.name, output.join(&case.name));
+            return Err(Error::Input(format!(
+                "what an earlier run of case {name} has left in {} is of another scene; allowed: the scene as it was, \
+                 --anew, or another directory",
+                place.display()
+            )));
+        }
+    }
+    Ok(())
 }
 
 /// What there is to run by hand, and how.

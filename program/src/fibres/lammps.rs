@@ -1,6 +1,7 @@
 //! LAMMPS as a process: where it is, a run in its folder, and what it says when it fails.
 
 use std::ffi::{OsStr, OsString};
+use std::fmt::{self, Display, Formatter};
 use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
@@ -8,9 +9,9 @@ use std::process::{Child, Command, ExitStatus, Stdio};
 use std::time::Duration;
 
 use super::input::{INPUT, RESTART};
-use toron_shared::bound_child;
 use toron_shared::error::Error;
 use toron_shared::run_directory::file_error;
+use toron_shared::{bound_child, shell};
 
 /// The variable that names the program where no option does.
 pub const VARIABLE: &str = "TORON_LMP";
@@ -29,6 +30,14 @@ pub struct Lammps {
     libraries: Option<PathBuf>,
     /// What starts several ranks, if it is not in PATH.
     mpiexec: PathBuf,
+}
+
+/// The command, as a user would give it in the folder of a case.
+impl Display for Lammps {
+    fn fmt(&self, formatter: &mut Formatter<'_>) -> fmt::Result {
+        let words = [&self.program.display().to_string(), "-in", INPUT].map(str::to_string);
+        formatter.write_str(&shell::command(&words))
+    }
 }
 
 impl Lammps {

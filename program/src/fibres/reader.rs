@@ -134,7 +134,7 @@ impl Reader<'_> {
             sample: self.up_to("sample", &file.sample, ("end", end), end / SAMPLES)?,
             pictures: self.source.pictures(&file.pictures, &name, end)?,
             step: self.up_to("step", &file.step, ("the largest stable one", 1.0), STEP)?,
-            law: file.law.as_ref().map(|law| self.source.folder().join(law.get_ref())),
+            law: file.law.as_ref().map(|law| self.source.file("law", law)).transpose()?,
             name,
         };
         Ok(case)

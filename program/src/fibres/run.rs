@@ -46,8 +46,16 @@ impl<'a> Folder<'a> {
         self.texts.iter().all(same)
     }
 
-    /// Writes what LAMMPS reads, unless it is there: then what a run has left stays, which goes otherwise. Returns how many files
-    /// have gone.
+    /// Whether a run of other files than would be written has left something here, which goes when they are.
+    ///
+    /// # Errors
+    /// Something that is no file is called as one.
+    pub fn is_of_another(&self) -> Result<bool, Error> {
+        Ok(!self.is_written() && !self.left()?.is_empty())
+    }
+
+    /// Writes what LAMMPS reads, unless it is there: then what a run has left stays, which goes otherwise. Returns how many
+    /// files have gone.
     ///
     /// # Errors
     /// A file cannot be written or removed.
@@ -57,9 +65,10 @@ impl<'a> Folder<'a> {
         }
         folder::create(&self.path)?;
         let gone = self.forget()?;
-        for (name, text) in &self.texts {
-            kept_file::write(&self.file(name), |file| file.write_all(text.as_bytes()))?;
-        }
+        let [input, beads] = &self.texts;
+        // The input is short, and a user may have changed it.
+        kept_file::write(&self.file(input.0), |file| file.write_all(input.1.as_bytes()))?;
+        kept_file::overwrite(&self.file(beads.0), |file| file.write_all(beads.1.as_bytes()))?;
         Ok(gone)
     }
 
@@ -67,18 +76,26 @@ impl<'a> Folder<'a> {
         self.path.join(name)
     }
 
-    /// Removes what runs have left; returns how many files that were.
-    fn forget(&self) -> Result<usize, Error> {
-        let mut gone = 0;
+    /// What runs have left.
+    fn left(&self) -> Result<Vec<PathBuf>, Error> {
+        let mut left = Vec::new();
         let names = [HISTORY, FRAMES, DONE, LOG, RESTARTS[0], RESTARTS[1]].map(String::from);
         for name in names.into_iter().chain(self.model.frames.iter().map(|&step| input::frame(step))) {
             let file = self.file(&name);
             if is_file(&file)? {
-                std::fs::remove_file(&file).map_err(|error| file_error(&file, &error))?;
-                gone += 1;
+                left.push(file);
             }
         }
-        Ok(gone)
+        Ok(left)
+    }
+
+    /// Removes what runs have left; returns how many files that were.
+    fn forget(&self) -> Result<usize, Error> {
+        let left = self.left()?;
+        for file in &left {
+            std::fs::remove_file(file).map_err(|error| file_error(file, &error))?;
+        }
+        Ok(left.len())
     }
 
     /// Whether a run has come to its end here.
@@ -100,12 +117,25 @@ impl<'a> Folder<'a> {
             let outcome = lammps.run(&self.path, ranks, Some(&restart), &mut look);
             let told = std::fs::read_to_string(self.file(LOG)).unwrap_or_default();
             if outcome.is_ok() || told.contains("Setting up Verlet") || before.is_none() {
-                return outcome.map(|()| start.elapsed().as_secs_f64());
+                return outcome.and_then(|()| self.check(lammps)).map(|()| start.elapsed().as_secs_f64());
             }
         }
         self.forget()?;
         lammps.run(&self.path, ranks, None, &mut look)?;
+        self.check(lammps)?;
         Ok(start.elapsed().as_secs_f64())
+    }
+
+    /// That a program which has ended well has done what LAMMPS does with the input.
+    fn check(&self, lammps: &Lammps) -> Result<(), Error> {
+        if self.is_done() {
+            return Ok(());
+        }
+        let [done, log] = [DONE, LOG].map(|name| self.file(name).display().to_string());
+        Err(Error::Input(format!(
+            "{lammps} has ended without an error, but has not written {done}, as LAMMPS does at the end of {INPUT}; all it \
+             said is in {log}; allowed: the program lmp of LAMMPS"
+        )))
     }
 
     /// The restart files, the last one first.

@@ -10,13 +10,16 @@ use toron::host::units::UnitSystem;
 use toron_shared::error::Error;
 use toron_shared::text_table::{or_dash, write_csv};
 
-/// How a case ended, in words.
+/// How a case ended, in the words of `toron impact` where it is the same.
 pub fn outcome(result: &Outcome) -> &'static str {
+    let flies_back = result.last().speed < 0.0;
     match (result.model.striker, result.first_break(), result.torn()) {
-        (_, None, _) => "nothing broke",
+        (_, None, _) if flies_back => "flies back",
+        (_, None, _) => "unbroken, not over",
         (Striking::Driven { .. }, Some(_), _) => "broken",
+        (_, Some(_), _) if flies_back => "partly broken, flies back",
         (_, Some(_), None) => "breaking",
-        (_, Some(_), Some(_)) => "torn",
+        (_, Some(_), Some(_)) => "penetrated",
     }
 }
 

@@ -9,8 +9,8 @@ use super::{output, plot, region, report, strength, worth};
 use crate::impact::scene::Scene;
 use toron_shared::console::print;
 use toron_shared::error::Error;
-use toron_shared::folder;
-use toron_shared::kept_file;
+use toron_shared::run_directory::{Locked, RunDirectory, Writes};
+use toron_shared::{folder, kept_file};
 
 /// Fits the parameters to the data of a file and writes what came of it to the directory `output`; with a scene, also what it
 /// makes of them.
@@ -19,14 +19,16 @@ use toron_shared::kept_file;
 /// The input, data that do not suffice, a file that cannot be written, or a scene that cannot be run.
 pub fn run(path: &Path, output: &Path, scene: Option<&Path>) -> Result<(), Error> {
     if let Some(strengths) = StrengthJob::read(path)? {
-        return strength::command::run(&strengths, output, scene);
+        return strength::command::run(&strengths, path, output, scene);
     }
     let job = Job::read(path)?;
     let scene = scene.map(Scene::read).transpose()?;
     let fit = job.problem.fit()?;
     let files = names(&job);
     require_new(&job.inputs, output, &files)?;
-    folder::create(output)?;
+    let directory = lock(path, output, &files, scene.is_some())?.claim()?;
+    // Of an earlier run; those of this one come at the end.
+    PLOTS.into_iter().chain([WORTH]).try_for_each(|name| directory.remove(name).map(drop))?;
     let file = output.join(&files[0]);
     kept_file::write(&file, |file| file.write_all(output::preset(&job, &fit).as_bytes()))?;
     output::write_parameters(&output.join(PARAMETERS), &job, &fit)?;
@@ -66,6 +68,14 @@ fn names(job: &Job) -> Vec<String> {
         names.extend(PLOTS.map(String::from));
     }
     names
+}
+
+/// The directory of the files, where those of another command or of other data are not overwritten.
+pub(super) fn lock(data: &Path, output: &Path, files: &[String], is_struck: bool) -> Result<Locked, Error> {
+    let worth = is_struck.then_some(WORTH);
+    let stem = |file: &str| file.rsplit_once('.').map_or(file, |(stem, _)| stem).to_string();
+    let names = files.iter().map(String::as_str).chain(worth).map(stem).collect();
+    RunDirectory::lock(output, Writes { command: "fit", files: vec![data], names, ..Writes::default() })
 }
 
 /// No file that was read is overwritten.

@@ -174,7 +174,7 @@ impl Job {
         }
         let mut known = [None; PARAMETERS];
         known.copy_from_slice(&preset.values[..PARAMETERS]);
-        let reader = Reader { source: &source, folder, units: &units, known: &known };
+        let reader = Reader { source: &source, units: &units, known: &known };
         let sets = reader.sets(&file.data, fibre.is_some())?;
         let fitted = |parameter: Parameter| sets.iter().any(|set| set.fits.contains(&parameter));
         let mut known_deviations = Vec::new();

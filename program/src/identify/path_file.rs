@@ -38,7 +38,7 @@ pub(super) fn set(
     table: &DataTable,
 ) -> Result<DataSet, Error> {
     let source = reader.source;
-    let name = reader.folder.join(path.get_ref());
+    let name = source.file("path", path)?;
     let text = std::fs::read_to_string(&name)
         .map_err(|error| source.error(path.span(), &format!("path {}: {error}", name.display())))?;
     let load_path = LoadPath::parse(Laws::Toron, &name.display().to_string(), &text)?;

@@ -2,7 +2,6 @@
 //! column.
 
 use std::ops::RangeInclusive;
-use std::path::Path;
 
 use nalgebra::Matrix3;
 use toml::Spanned;
@@ -30,8 +29,6 @@ const ORDINATES: RangeInclusive<f64> = 1e-25..=1e25;
 /// What the data sets of a file have in common.
 pub struct Reader<'a> {
     pub source: &'a Source<'a>,
-    /// In which their files are.
-    pub folder: &'a Path,
     pub units: &'a UnitSystem,
     pub known: &'a [Option<f64>; PARAMETERS],
 }
@@ -74,12 +71,7 @@ impl Reader<'_> {
 
     fn set(&self, number: usize, file: &Spanned<DataFile>) -> Result<DataSet, Error> {
         let (span, file) = (file.span(), file.get_ref());
-        let path = self.folder.join(file.file.get_ref());
-        if !path.is_file() {
-            let message = format!("file {}: there is no such file", path.display());
-            return Err(self.source.error(file.file.span(), &message));
-        }
-        let table = DataTable::read(&path)?;
+        let table = DataTable::read(&self.source.file("file", &file.file)?)?;
         let name = file.name.as_ref().map_or_else(|| format!("data-{number}"), |name| name.get_ref().clone());
         if !plain_name(&name) {
             let message =

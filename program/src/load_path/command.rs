@@ -44,9 +44,12 @@ pub fn run(laws: Laws, Arguments { path, output }: &Arguments) -> Result<(), Err
     };
     let names =
         path.points.iter().flat_map(|point| ["increments", "plot"].map(|of| format!("{of}{}", behind(&path, point))));
-    let writes = Writes { command: "run", files: file.into_iter().collect(), names: names.collect(), restart: false };
-    let _directory = RunDirectory::open(output, writes)?;
+    let files = file.into_iter().collect();
+    let writes = Writes { command: "run", files, names: names.collect(), ..Writes::default() };
+    let locked = RunDirectory::lock(output, writes)?;
     let histories = run_with_progress(&path);
+    let is_written = histories.iter().any(|history| !history.increments.is_empty());
+    let _directory = is_written.then(|| locked.claim()).transpose()?;
     print(&format!("{}\n", path.title));
     for history in &histories {
         let name = behind(&path, history.point);

@@ -5,7 +5,7 @@
 use std::io::{self, Write};
 use std::path::Path;
 
-use super::command::{Naming, file};
+use super::command::{Naming, file, mesh_file};
 use super::model::{COLLAPSED, Contact, HOURGLASS, Mesh, Model, STEP_FACTOR, Strike};
 use super::striker::{Striker, Surface};
 use crate::deck::abaqus::{self, Solver, card};
@@ -40,12 +40,12 @@ impl Names<'_> {
 pub fn write(model: &Model, naming: &Naming, output: &Path) -> Result<Vec<String>, Error> {
     let names = Names { prefix: naming.prefix.to_uppercase(), model };
     let shells = model.strike.as_ref().map(|strike| strike.striker.surface(0.0));
-    let mesh = file(output, format!("{}-mesh.inp", model.name), |out| write_mesh(&names, naming.first, out))?;
+    let mesh = mesh_file(output, format!("{}-mesh.inp", model.name), |out| write_mesh(&names, naming.first, out))?;
     let mut files = vec![mesh.clone()];
     // Apart from the yarns: readers of meshes do not know its rigid elements.
     let striker = format!("{}-striker.inp", model.name);
     if let (Some(strike), Some(shells)) = (&model.strike, &shells) {
-        files.push(file(output, striker.clone(), |out| {
+        files.push(mesh_file(output, striker.clone(), |out| {
             write_striker_mesh(&strike.striker, shells, &names, naming.first, out)
         })?);
     }

@@ -14,8 +14,8 @@ use crate::deck::openradioss::FibreFrom;
 use crate::{fabric, impact, weave};
 use toron_shared::console::{print, print_error};
 use toron_shared::error::Error;
-use toron_shared::folder;
-use toron_shared::kept_file;
+use toron_shared::run_directory::{RunDirectory, Writes};
+use toron_shared::{folder, kept_file};
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Host {
@@ -43,6 +43,15 @@ pub struct Arguments {
     fibre_from: Option<FibreFrom>,
 }
 
+/// A scene, as its command was given it.
+struct Given<'a> {
+    command: &'static str,
+    path: &'a Path,
+    title: &'a str,
+    /// The names of its cases.
+    cases: Vec<&'a str>,
+}
+
 /// What the writers take besides the model.
 #[derive(Clone, Debug)]
 pub struct Naming {
@@ -61,7 +70,8 @@ pub fn fabric(path: &Path, output: &Path, host: Host, arguments: &Arguments) -> 
     let scene = fabric::scene::Scene::read(path)?;
     let conversion = arguments.conversion(scene.units)?;
     let models = scene.cases.iter().map(|case| of_fabric::of_case(case, conversion));
-    arguments.write(models, &scene.title, &format!("toron fabric {}", path.display()), host, output)
+    let cases = scene.cases.iter().map(|case| case.name.as_str()).collect();
+    arguments.write(models, &Given { command: "fabric", path, title: &scene.title, cases }, host, output)
 }
 
 /// The decks of a scene of `toron impact`.
@@ -72,7 +82,8 @@ pub fn impact(path: &Path, output: &Path, host: Host, arguments: &Arguments) -> 
     let scene = impact::scene::Scene::read(path)?;
     let conversion = arguments.conversion(scene.units)?;
     let models = scene.cases.iter().map(|case| of_impact::of_case(case, conversion));
-    arguments.write(models, &scene.title, &format!("toron impact {}", path.display()), host, output)
+    let cases = scene.cases.iter().map(|case| case.name.as_str()).collect();
+    arguments.write(models, &Given { command: "impact", path, title: &scene.title, cases }, host, output)
 }
 
 /// The panel of a scene of `toron weave`, to enter a model of one's own.
@@ -89,7 +100,8 @@ pub fn weave(path: &Path, output: &Path, host: Host, arguments: &Arguments) -> R
         ))
     })?;
     let models = std::iter::once_with(|| of_fabric::of_panel(&scene.cloth, material, conversion));
-    arguments.write(models, &scene.title, &format!("toron weave {}", path.display()), host, output)
+    let cases = vec![weave::command::NAME];
+    arguments.write(models, &Given { command: "weave", path, title: &scene.title, cases }, host, output)
 }
 
 impl Arguments {
@@ -105,9 +117,8 @@ impl Arguments {
     /// Writes one model after another: only one is in the memory.
     fn write(
         &self,
-        models: impl Iterator<Item = Result<Model, Error>>,
-        title: &str,
-        command: &str,
+        mut models: impl Iterator<Item = Result<Model, Error>>,
+        given: &Given<'_>,
         host: Host,
         output: &Path,
     ) -> Result<(), Error> {
@@ -118,14 +129,20 @@ impl Arguments {
         if host != Host::Openradioss && self.fibre_from.is_some() {
             return Err(Error::Input("--fibre-from is for --deck openradioss only".to_string()));
         }
-        folder::create(output)?;
+        let Given { command, path, title, cases } = given;
+        let names = cases.iter().map(|case| format!("{}{case}", self.prefix)).collect();
+        let writes = Writes { command, files: vec![path], names, ..Writes::default() };
+        let locked = RunDirectory::lock(output, writes)?;
+        let first = models.next().transpose()?;
+        let _directory = locked.claim()?;
+        let source = ascii(&format!("toron {command} {}", path.display()));
         let Arguments { first_id, fibre_from, .. } = *self;
         let naming = Naming { first: first_id, prefix: self.prefix.clone(), fibre_from };
-        for model in models {
+        for model in first.map(Ok).into_iter().chain(models) {
             let model = model?;
             let model = Model {
                 title: ascii(title),
-                source: ascii(command),
+                source: source.clone(),
                 name: format!("{}{}", self.prefix, model.name),
                 ..model
             };
@@ -154,7 +171,8 @@ fn ascii(text: &str) -> String {
     text.replace('µ', "u").chars().map(|c| if c.is_ascii() && !c.is_ascii_control() { c } else { '?' }).collect()
 }
 
-/// Writes a file of the deck as a stream, and keeps one of other contents beside it; returns its name.
+/// Writes a file of the deck as a stream; one of other contents is kept, since a user may have changed it. Returns its
+/// name.
 ///
 /// # Errors
 /// It cannot be written.
@@ -164,5 +182,18 @@ pub fn file(
     write: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
 ) -> Result<String, Error> {
     kept_file::write(&output.join(&name), write)?;
+    Ok(name)
+}
+
+/// Writes a mesh of the deck as a stream, in the place of the one before; returns its name.
+///
+/// # Errors
+/// It cannot be written.
+pub fn mesh_file(
+    output: &Path,
+    name: String,
+    write: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
+) -> Result<String, Error> {
+    kept_file::overwrite(&output.join(&name), write)?;
     Ok(name)
 }

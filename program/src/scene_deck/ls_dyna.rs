@@ -5,7 +5,7 @@
 use std::io::{self, Write};
 use std::path::Path;
 
-use super::command::{Naming, file};
+use super::command::{Naming, file, mesh_file};
 use super::fields::number;
 use super::model::{COLLAPSED, Contact, Mesh, Model, Part, STEP_FACTOR, Strike};
 use super::striker::{Striker, Surface};
@@ -84,8 +84,9 @@ pub fn write(model: &Model, naming: &Naming, output: &Path) -> Result<Vec<String
         let message = format!("--first-id {}: numbers go up to {last}; allowed in LS-DYNA: {LARGEST}", naming.first);
         return Err(Error::Input(message));
     }
-    let mesh =
-        file(output, format!("{}-mesh.k", model.name), |out| write_mesh(model, shells.as_ref(), naming, &ids, out))?;
+    let mesh = mesh_file(output, format!("{}-mesh.k", model.name), |out| {
+        write_mesh(model, shells.as_ref(), naming, &ids, out)
+    })?;
     let cards = cards(model, naming, &ids)?;
     let main = file(output, format!("{}.k", model.name), |out| {
         write!(out, "{}", header(model))?;

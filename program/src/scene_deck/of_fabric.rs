@@ -10,6 +10,7 @@ use crate::explicit::contact::Shape;
 use crate::fabric::model::{check, share, start, zone};
 use crate::fabric::scene::Case;
 use crate::weave::cloth::Cloth;
+use crate::weave::command::NAME;
 use crate::weave::model as woven;
 use crate::weave::model::Yarn;
 use toron_shared::error::Error;
@@ -136,7 +137,7 @@ pub fn of_panel(
     Ok(Model {
         title: String::new(),
         source: String::new(),
-        name: "weave".to_string(),
+        name: NAME.to_string(),
         units: to,
         mesh: mesh(panel, conversion),
         parts: parts(panel, &[&material.name], |_, _| 0),

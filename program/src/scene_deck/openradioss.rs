@@ -5,7 +5,7 @@
 use std::io::{self, Write};
 use std::path::Path;
 
-use super::command::{Naming, file};
+use super::command::{Naming, file, mesh_file};
 use super::fields::number;
 use super::model::{COLLAPSED, Contact, HOURGLASS, Model, Part, STEP_FACTOR, Strike};
 use super::striker::{Striker, Surface};
@@ -108,8 +108,9 @@ enum Group {
 pub fn write(model: &Model, naming: &Naming, output: &Path) -> Result<Vec<String>, Error> {
     let ids = Ids::of(model, naming);
     let shells = model.strike.as_ref().map(|strike| strike.striker.surface(SHELLS * GAP * strike.height));
-    let mesh =
-        file(output, format!("{}_mesh.inc", model.name), |out| write_mesh(model, shells.as_ref(), naming, &ids, out))?;
+    let mesh = mesh_file(output, format!("{}_mesh.inc", model.name), |out| {
+        write_mesh(model, shells.as_ref(), naming, &ids, out)
+    })?;
     let cards = cards(model, naming, &ids)?;
     // A panel alone is included in somebody's own model, which says when it begins and ends.
     let (Some(strike), Some(shells)) = (&model.strike, &shells) else {

@@ -121,8 +121,8 @@ pub fn run<S: Scene>(scene: &S, path: &Path, output: &Path, restart: bool) -> Re
     let stem = |name: &&str| name.rsplit_once('.').map_or(*name, |(stem, _)| stem).to_string();
     let common = [SUMMARY].iter().chain(S::COMMON).map(stem);
     let files = names.iter().cloned().chain(common).collect();
-    let writes = Writes { command: S::COMMAND, files: vec![path], names: files, restart };
-    let directory = RunDirectory::open(output, writes)?;
+    let writes = Writes { command: S::COMMAND, files: vec![path], names: files, restart, ..Writes::default() };
+    let directory = RunDirectory::lock(output, writes)?.claim()?;
     print_error(&clear(scene, &names, output, &directory, restart)?);
     let interrupt = Interrupt::listen()?;
     print_note("Ctrl-C ends the run with a checkpoint, from which --restart goes on\n");

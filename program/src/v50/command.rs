@@ -18,7 +18,7 @@ use crate::struck::shots::Shots;
 use toron_shared::console::{print, print_error, print_note};
 use toron_shared::error::Error;
 use toron_shared::interrupt::Interrupt;
-use toron_shared::run_directory::{RunDirectory, Writes, is_file};
+use toron_shared::run_directory::{Locked, RunDirectory, Writes, is_file};
 use toron_shared::shell;
 
 /// The tables of a series' shots, and of those of a limit.
@@ -89,10 +89,10 @@ pub fn run(arguments: &Arguments) -> Result<(), Error> {
     let numbers = numbers(&scene, arguments.shots.as_deref())?;
     let findings = shot::before(&scene)?;
     let place = arguments.output.join(if arguments.limit { LIMIT } else { SHOTS });
+    let locked = lock(arguments, arguments.restart)?;
     check_restart(&place, arguments.restart)?;
-    let directory = open_directory(arguments, arguments.restart)?;
     print_error(&warnings([(scene.target.name(), &findings[..])]));
-    let records = open(&scene, &place)?;
+    let (records, directory) = open(Records::new(&scene, &place), &place, locked)?;
     print_note("Ctrl-C ends the run: shots under way are lost, and --restart goes on with the others\n");
     let threads = arguments.threads.unwrap_or_else(rayon::current_num_threads);
     if arguments.limit {
@@ -170,21 +170,22 @@ fn check_restart(place: &Path, restart: bool) -> Result<(), Error> {
 }
 
 /// The directory of the tables and the picture, where shots of another scene are not overwritten.
-fn open_directory(arguments: &Arguments, restart: bool) -> Result<RunDirectory, Error> {
+fn lock(arguments: &Arguments, restart: bool) -> Result<Locked, Error> {
     let names = ["shots", "limit", "v50"].map(String::from).to_vec();
-    let writes = Writes { command: "v50", files: vec![&arguments.scene], names, restart };
-    RunDirectory::open(&arguments.output, writes)
+    let writes = Writes { command: "v50", files: vec![&arguments.scene], names, restart, ..Writes::default() };
+    RunDirectory::lock(&arguments.output, writes)
 }
 
-/// The table that the shots go to, with those that are there.
-fn open(scene: &Scene, place: &Path) -> Result<Records, Error> {
-    let mut records = Records::new(scene, place);
+/// The table that the shots go to, with those that are there, and its directory, which is this run's once they have
+/// been read.
+fn open(mut records: Records, place: &Path, locked: Locked) -> Result<(Records, RunDirectory), Error> {
     if is_file(place)? {
         let count = records.read(place)?;
         print_note(&format!("{count} shots stand in {}\n", place.display()));
     }
+    let directory = locked.claim()?;
     records.open()?;
-    Ok(records)
+    Ok((records, directory))
 }
 
 /// Writes the figures and the picture, and prints the report.
@@ -217,11 +218,7 @@ fn collect(scene: &Scene, arguments: &Arguments) -> Result<(), Error> {
         }
         records.read(&table)?;
     }
-    let directory = open_directory(arguments, false)?;
-    if is_file(&place)? {
-        records.read(&place)?;
-    }
-    records.open()?;
+    let (records, directory) = open(records, &place, lock(arguments, false)?)?;
     evaluate(scene, &records, &directory, arguments)
 }
 

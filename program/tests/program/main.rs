@@ -17,6 +17,7 @@ mod cell;
 mod check;
 mod command_line;
 mod compare;
+mod directories;
 mod documents;
 mod eval;
 mod examples;

@@ -169,12 +169,7 @@ fn strengths(source: &Source<'_>, number: usize, table: &Spanned<SetFile>, units
         let message = format!("columns has {}; allowed: {}", key.get_ref(), QUANTITIES.join(", "));
         return Err(source.error(key.span(), &message));
     }
-    let path = source.folder().join(file.file.get_ref());
-    if !path.is_file() {
-        let message = format!("file {}: there is no such file", path.display());
-        return Err(source.error(file.file.span(), &message));
-    }
-    let columns = Columns { table: DataTable::read(&path)?, file, units };
+    let columns = Columns { table: DataTable::read(&source.file("file", &file.file)?)?, file, units };
     let positive = |key: &str, value: &Option<Spanned<f64>>| {
         value.as_ref().map(|value| source.positive(key, *value.get_ref(), value.span())).transpose()
     };

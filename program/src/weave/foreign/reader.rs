@@ -116,7 +116,7 @@ pub fn foreign(source: &Source<'_>, table: &Spanned<MeshFile>, units: &UnitSyste
     let keys = table.get_ref();
     let missing = "file is missing; allowed: the name of a mesh file, .inp, .k, .key or .vtu";
     let name = keys.file.as_ref().ok_or_else(|| source.error(table.span(), missing))?;
-    let place = source.folder().join(name.get_ref());
+    let place = source.file("mesh.file", name)?;
     let file = place.display().to_string();
     let bytes = std::fs::read(&place).map_err(|error| source.error(name.span(), &format!("{file}: {error}")))?;
     let ending = place.extension().and_then(|ending| ending.to_str()).unwrap_or_default().to_lowercase();
