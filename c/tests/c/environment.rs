@@ -9,6 +9,7 @@ use std::sync::LazyLock;
 
 use crate::c_programs::{PRECISIONS, compile};
 use crate::library::{LIBRARY, folder, run};
+use crate::symbols::functions;
 
 /// The program in double and in single precision, with the shared library, wherever the system finds it.
 static PROGRAMS: LazyLock<[PathBuf; 2]> = LazyLock::new(|| {
@@ -32,10 +33,8 @@ const SHARED: [&str; 3] = ["libtoron.so", "libtoron_calculix.so", "libtoron_mgis
 
 /// The functions that they give to the outside, but for those of behaviours that take a policy, which is without effect.
 fn exported() -> BTreeSet<String> {
-    let mut nm = Command::new("nm");
-    let output = run(nm.args(["-D", "--defined-only"]).args(SHARED.map(|name| LIBRARY.join(name))), "binutils");
-    let function = |line: &String| Some(line.split_once(" T ")?.1.to_string());
-    lines(&output).iter().filter_map(function).filter(|name| !name.ends_with("_setOutOfBoundsPolicy")).collect()
+    let symbols = SHARED.iter().flat_map(|name| functions(&LIBRARY.join(name)));
+    symbols.filter(|name| !name.ends_with("_setOutOfBoundsPolicy")).collect()
 }
 
 /// Entries that compute nothing: they need no environment of their own.

@@ -24,3 +24,4 @@ mod openradioss;
 mod own_law;
 mod package;
 mod structures;
+mod symbols;
