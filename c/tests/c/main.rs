@@ -6,6 +6,7 @@ mod library;
 mod python;
 
 mod abaqus;
+mod answers;
 mod c_programs;
 mod environment;
 mod fedoo;
