@@ -73,6 +73,7 @@ enum { GUARD = 64, PATTERN = 0xA5, MOST_ARRAYS = 1000 };
 static struct {
     unsigned char *start;
     size_t bytes;
+    int opaque;
 } arrays[MOST_ARRAYS];
 static int array_count;
 
@@ -88,8 +89,17 @@ static void *guarded(size_t bytes)
     FORBIDDEN(start, GUARD);
     FORBIDDEN(start + GUARD + bytes, GUARD);
     arrays[array_count].start = start;
+    arrays[array_count].opaque = 0;
     arrays[array_count++].bytes = bytes;
     return start + GUARD;
+}
+
+/* A structure whose bytes are the library's affair, or hold addresses. */
+static inline void *opaque(size_t bytes)
+{
+    void *structure = guarded(bytes);
+    arrays[array_count - 1].opaque = 1;
+    return structure;
 }
 
 static real *reals(size_t count)

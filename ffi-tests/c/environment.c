@@ -5,6 +5,8 @@
  *     --list      then prints the names of the entries that it has called
  *     --sample    one in so many cases
  *     --default   in the default environment only, for checks of another kind
+ *     --sums      that too, and prints of each entry how often it was called and the sum of what it gave back
+ *     --trace ENTRY   with --sums: the sum after each call of this entry too
  */
 #define _GNU_SOURCE /* sigaction, fork, feenableexcept */
 #include "environment_hosts.h"
@@ -85,6 +87,10 @@ int main(int argc, char **argv)
             stride = 37; /* no divisor of the numbers of yarns, deformations, ... */
         else if (strcmp(argv[i], "--default") == 0)
             environment_count = 1;
+        else if (strcmp(argv[i], "--sums") == 0)
+            environment_count = 1, sums_wanted = 1;
+        else if (strcmp(argv[i], "--trace") == 0 && i + 1 < argc)
+            traced = argv[++i];
     start();
 #ifndef SINGLE
     atexit(at_exit);
@@ -92,6 +98,7 @@ int main(int argc, char **argv)
     for (size_t i = 0; i < COUNT(all); i++) {
         entries[++entry].name = all[i].name;
         ARGUMENTS("no arguments to tell");
+        at_level(TORON_LEVEL_BEST);
         all[i].cases();
         release();
     }
@@ -101,6 +108,8 @@ int main(int argc, char **argv)
 #endif
     for (int i = 0; list && i <= entry; i++)
         puts(entries[i].name);
+    if (sums_wanted)
+        print_sums();
     return finish();
 }
 

@@ -81,7 +81,7 @@ static void abaqus_vumat(void)
         memcpy(state_old, old, STATE * n * sizeof(real));
         toron_vumat block = {
             .size = sizeof block, .nblock = (int32_t)n, .ndir = 3, .nshr = 3, .nstatev = VUMAT_STATE, .nprops = PROPERTIES,
-            .level = b.level,
+            .level = at_level(b.level),
             .props = given(yarns[b.yarn], PROPERTIES), .density = b.points == 0 ? stretches(rows, next, n) : filled(2, n),
             .strain_inc = stretches(rows, next + 1, n), .stretch_old = stretches(rows, next + 2, n),
             .stretch_new = stretches(rows, next, n), .stress_old = stretches(rows, next + 3, n), .state_old = state_old,

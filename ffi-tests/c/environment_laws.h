@@ -13,7 +13,7 @@ static size_t stride = 1;
 #ifndef SINGLE
 static void version(void)
 {
-    CALL(toron_version());
+    RUN("toron_version()", answer = (int64_t)strlen(toron_version()));
 }
 
 static void abi_version(void)
@@ -42,7 +42,7 @@ static void state_count(void)
 
 static toron_table_row *new_row(void)
 {
-    toron_table_row *row = guarded(sizeof *row);
+    toron_table_row *row = opaque(sizeof *row);
     row->size = sizeof *row;
     return row;
 }
@@ -102,7 +102,7 @@ static void hyperelastic_prepare(void)
 #define PREPARE ENTRY(toron_hyperelastic_prepare)
     for (size_t y = 0; y < COUNT(yarns); y++) {
         real *yarn = given(yarns[y], PROPERTIES);
-        toron_hyperelastic *law = guarded(sizeof *law);
+        toron_hyperelastic *law = opaque(sizeof *law);
         ARGUMENTS("yarn %zu", y);
         CALL(PREPARE(law, sizeof *law, yarn, PROPERTIES, MESSAGE));
         CALL(PREPARE(law, 3, yarn, PROPERTIES, MESSAGE));
@@ -116,7 +116,7 @@ static void hyperelastic_prepare(void)
 /* A prepared law, or one that is not, where the properties are refused. */
 static toron_hyperelastic *law_of(const real *yarn)
 {
-    toron_hyperelastic *law = guarded(sizeof *law);
+    toron_hyperelastic *law = opaque(sizeof *law);
     memset(law, 0, sizeof *law);
     PREPARE(law, sizeof *law, yarn, PROPERTIES, NULL, 0);
     return law;
@@ -164,7 +164,7 @@ static void points(int with_properties)
     point_arrays p;
     for (size_t next = 0; next_point(&next, &p);) {
         const toron_hyperelastic *law = law_of(p.yarn);
-        const toron_point all = {.size = sizeof all, .level = (int32_t)(next % 4), .density = densities[0],
+        const toron_point all = {.size = sizeof all, .level = at_level((int32_t)(next % 4)), .density = densities[0],
                                  .deformation_gradient = p.f,
                                  .fibre = p.fibre, .state_old = p.old, .state_new = p.new, .stress = p.stress, .modes = reals(24),
                                  .wave_speed = reals(1)};
@@ -184,8 +184,8 @@ static void points(int with_properties)
         point = all, point.tangent = reals(81);
         for (point.measure = -1; point.measure < 5; point.measure++)
             EVALUATE_POINT(&point);
-        point = (toron_point){.size = sizeof point, .measure = TORON_TANGENT_JAUMANN, .deformation_gradient = p.f, .fibre = p.fibre,
-                              .state_old = p.old, .tangent = point.tangent};
+        point = (toron_point){.size = sizeof point, .measure = TORON_TANGENT_JAUMANN, .level = at_level(TORON_LEVEL_BEST),
+                              .deformation_gradient = p.f, .fibre = p.fibre, .state_old = p.old, .tangent = point.tangent};
         EVALUATE_POINT(&point);
         point.level = 4;
         EVALUATE_POINT(&point);
@@ -268,7 +268,7 @@ static toron_block hyperelastic_arrays(const block_case *b, size_t next)
 {
     size_t n = b->size, old_states = b->points == 0 ? COUNT(states) : 3;
     real *old = by_component(states[0], STATE, old_states, next, n), *new = reals(STATE * n);
-    return (toron_block){.size = sizeof(toron_block), .n = n, .leading_dimension = n, .level = b->level, .density = densities[0],
+    return (toron_block){.size = sizeof(toron_block), .n = n, .leading_dimension = n, .level = at_level(b->level), .density = densities[0],
                          .deformation_gradient = {by_component(deformations[0], 9, points_of[b->points], next, n)},
                          .fibre = {by_component(fibres[0], 3, b->points == 0 ? COUNT(fibres) : 5, next, n)},
                          .energies_old = old, .invariants_old = old + INVARIANTS * n, .failure_old = old + FAILURE * n,
@@ -376,7 +376,7 @@ static void linear_elastic_prepare(void)
 #define PREPARE_LINEAR ENTRY(toron_linear_elastic_prepare)
     for (size_t y = 0; y < COUNT(linear_yarns); y++) {
         real *yarn = given(linear_yarns[y], LINEAR);
-        toron_linear_elastic *law = guarded(sizeof *law);
+        toron_linear_elastic *law = opaque(sizeof *law);
         ARGUMENTS("yarn %zu", y);
         CALL(PREPARE_LINEAR(law, sizeof *law, yarn, LINEAR, MESSAGE));
         CALL(PREPARE_LINEAR(law, 3, yarn, LINEAR, MESSAGE));
@@ -388,7 +388,7 @@ static void linear_elastic_prepare(void)
 
 static toron_linear_elastic *linear_law_of(const real *yarn)
 {
-    toron_linear_elastic *law = guarded(sizeof *law);
+    toron_linear_elastic *law = opaque(sizeof *law);
     memset(law, 0, sizeof *law);
     PREPARE_LINEAR(law, sizeof *law, yarn, LINEAR, NULL, 0);
     return law;
@@ -457,6 +457,7 @@ static void linear_points(int with_properties)
     real *yarn;
     toron_linear_point all;
     for (size_t next = 0; next_step(&next, &yarn, &all);) {
+        at_level(all.level);
         const toron_linear_elastic *law = linear_law_of(yarn);
         toron_linear_point point = all;
         for (point.rotation = -1; point.rotation < 4; point.rotation++)
@@ -548,7 +549,8 @@ static void linear_blocks(int with_properties)
         real *f_old = by_component(deformations[0], 9, b.points == 0 ? GOOD_DEFORMATIONS + 1 : REST, next + 1, n);
         const toron_linear_elastic *law = linear_law_of(yarn);
         const toron_linear_block all = {
-            .size = sizeof all, .n = n, .leading_dimension = n, .level = b.level, .density = densities[0], .f_old = {f_old},
+            .size = sizeof all, .n = n, .leading_dimension = n, .level = at_level(b.level), .density = densities[0],
+            .f_old = {f_old},
             .f_new = {by_component(deformations[0], 9, points_of[b.points], next, n)},
             .fibre = {by_component(fibres[0], 3, b.points == 0 ? COUNT(fibres) : 2, next, n)},
             .axes = by_component(axes_in_space[0], 9, b.points == 0 ? COUNT(axes_in_space) : 2, next, n), .state_old = old,

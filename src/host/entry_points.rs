@@ -213,6 +213,7 @@ pub(super) unsafe fn entry(message: Message, body: impl FnOnce() -> Result<i32, 
         Ok(status::OK) => status::OK,
         // SAFETY: the message is the caller's, and `body` has run in the default environment, as this does.
         Ok(code) => unsafe { message.refuse(&Error::Plain(code)) },
+        // SAFETY: as above.
         Err(error) => unsafe { message.refuse(&error) },
     })
 }

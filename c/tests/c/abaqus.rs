@@ -44,14 +44,3 @@ fn libraries_of_a_law_of_ones_own() {
         assert_eq!(text, if options.is_empty() { format!("{standard}{explicit}") } else { explicit.to_owned() });
     }
 }
-
-/// Nothing but Abaqus's own names.
-#[test]
-fn nothing_else_is_exported() {
-    for (library, names) in SHARED.into_iter().zip([&["umat_", "vumat_"][..], &["vumat_"]]) {
-        let output = run(Command::new("nm").args(["-D", "--defined-only"]).arg(LIBRARY.join(library)), "binutils");
-        let text = String::from_utf8_lossy(&output.stdout).into_owned();
-        let found: Vec<&str> = text.lines().filter_map(|line| Some(line.split_once(" T ")?.1)).collect();
-        assert_eq!(found, names, "{library}");
-    }
-}

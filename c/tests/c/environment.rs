@@ -9,15 +9,16 @@ use std::sync::LazyLock;
 
 use crate::c_programs::{PRECISIONS, compile};
 use crate::library::{LIBRARY, folder, run};
+use crate::symbols::functions;
 
 /// The program in double and in single precision, with the shared library, wherever the system finds it.
-static PROGRAMS: LazyLock<[PathBuf; 2]> = LazyLock::new(|| {
+pub static PROGRAMS: LazyLock<[PathBuf; 2]> = LazyLock::new(|| {
     let library = [format!("-L{}", LIBRARY.display()), "-ltoron".into()];
     PRECISIONS.map(|options| compile("environment", options, &library))
 });
 
 /// Runs a program with the shared library of a folder.
-fn run_with(program: &Path, library: &Path) -> Command {
+pub fn run_with(program: &Path, library: &Path) -> Command {
     let mut command = Command::new(program);
     command.env("LD_LIBRARY_PATH", library);
     command
@@ -31,11 +32,9 @@ fn lines(output: &Output) -> Vec<String> {
 const SHARED: [&str; 3] = ["libtoron.so", "libtoron_calculix.so", "libtoron_mgis.so"];
 
 /// The functions that they give to the outside, but for those of behaviours that take a policy, which is without effect.
-fn exported() -> BTreeSet<String> {
-    let mut nm = Command::new("nm");
-    let output = run(nm.args(["-D", "--defined-only"]).args(SHARED.map(|name| LIBRARY.join(name))), "binutils");
-    let function = |line: &String| Some(line.split_once(" T ")?.1.to_string());
-    lines(&output).iter().filter_map(function).filter(|name| !name.ends_with("_setOutOfBoundsPolicy")).collect()
+pub fn exported() -> BTreeSet<String> {
+    let symbols = SHARED.iter().flat_map(|name| functions(&LIBRARY.join(name)));
+    symbols.filter(|name| !name.ends_with("_setOutOfBoundsPolicy")).collect()
 }
 
 /// Entries that compute nothing: they need no environment of their own.

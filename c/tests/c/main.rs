@@ -6,6 +6,7 @@ mod library;
 mod python;
 
 mod abaqus;
+mod answers;
 mod c_programs;
 mod environment;
 mod fedoo;
@@ -24,3 +25,4 @@ mod openradioss;
 mod own_law;
 mod package;
 mod structures;
+mod symbols;

@@ -11,6 +11,7 @@ use libloading::Library;
 
 use crate::c_programs::CASES;
 use crate::library::{LIBRARY, OWN_LAW, ROOT, SYSTEM, folder, run};
+use crate::symbols::defined;
 use toron::host::mgis::{BehaviourDataView, INTEGRATED, StateView};
 
 /// A program of `ffi-tests/mgis`; libtoron gives it the tables.
@@ -58,19 +59,12 @@ fn every_symbol_is_required() {
     }
 }
 
-/// The symbols that a library defines.
-fn symbols(library: PathBuf, options: &[&str]) -> BTreeSet<String> {
-    let output = run(Command::new("nm").args(options).arg("--defined-only").arg(library), "binutils");
-    let text = String::from_utf8_lossy(&output.stdout).into_owned();
-    text.lines().filter_map(|line| Some(line.split_whitespace().nth(2)?.to_string())).collect()
-}
-
 /// A library of a law of one's own has what MGIS and MTest require of a behaviour, under the law's name, its names from its table, and
 /// returns the law's stress.
 #[test]
 fn a_law_of_ones_own() {
     let path = OWN_LAW.join("libown_law_double.so");
-    let exported = symbols(path.clone(), &["-D"]);
+    let exported = defined(&path, &["-D"]);
     for symbol in required("mtest").iter().filter_map(|symbol| symbol.strip_prefix("ToronHyperelastic_")) {
         assert!(exported.contains(&format!("REINFORCED_{symbol}")), "{symbol}");
     }
@@ -108,14 +102,14 @@ fn names(library: &Library, behaviour: &str, list: &str) -> Vec<String> {
 /// What the library gives to the outside: what hosts require, the bounds, and two texts; and libtoron has nothing of it.
 #[test]
 fn nothing_else_is_exported() {
-    let exported = symbols(shared(), &["-D"]);
+    let exported = defined(&shared(), &["-D"]);
     let required = required("mtest");
     let optional = |symbol: &&String| {
         let bound = symbol.ends_with("Bound");
         !bound && !symbol.ends_with("_mfront_ept") && !symbol.ends_with("_src")
     };
     assert_eq!(exported.iter().filter(optional).cloned().collect::<BTreeSet<_>>(), required);
-    let static_library = symbols(LIBRARY.join("libtoron.a"), &[]);
+    let static_library = defined(&LIBRARY.join("libtoron.a"), &[]);
     assert!(static_library.len() > 100 && static_library.is_disjoint(&exported), "libtoron.a");
 }
 

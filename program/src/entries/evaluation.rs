@@ -143,8 +143,8 @@ pub fn block<T: BlockPrecision>(
     if line.is_multiple_of(2) {
         block.fibre[0] = fibre.as_ptr();
     }
-    // SAFETY: the arrays have the sizes that the structure tells.
     let worst = match prepared(properties) {
+        // SAFETY: the arrays have the sizes that the structure tells.
         Ok(law) => unsafe { T::BLOCK(&law, &block, null_mut(), 0) },
         // The code of wrong properties.
         Err(_) => point(properties, f, tangent).status,

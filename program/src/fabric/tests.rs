@@ -94,7 +94,8 @@ fn a_crossing_is_pressed_by_the_slope_of_the_yarn_that_is_drawn() {
     let Pull { ends, pressing, steepest, friction, .. } = pull(0.0);
     let expected = 2.0 * ends[0] * steepest.sin();
     assert!(ends[0] > 1.0 && (pressing / expected - 1.0).abs() < 0.05, "{pressing} {expected} {steepest}");
-    assert!(friction >= 0.0, "{friction}");
+    // Nothing rubs: what contacts lose where nodes leave a face, 1.05e-3.
+    assert!((0.0..1.3e-3).contains(&friction), "{friction:e}");
 }
 
 /// With friction the ratio of the forces at the ends is no less than that of a rope over as many capstans, exp(μθ), θ

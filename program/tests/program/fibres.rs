@@ -1,5 +1,5 @@
 //! The fibres of a yarn as rows of beads, in LAMMPS: one of them against Smith's theory, 19 of them under a projectile, and what the
-//! program says when something is wrong. Without LAMMPS these tests say that they skip.
+//! program says when something is wrong.
 //!
 //! Where the bands come from:
 //!
@@ -17,6 +17,7 @@ use std::sync::LazyLock;
 use std::time::{Duration, Instant};
 
 use crate::library::{ROOT, folder};
+use crate::python::environment;
 use toron_program::fibres::lammps::Lammps;
 use toron_program::fibres::model::Model;
 use toron_program::fibres::outcome::{Outcome, Sample};
@@ -24,21 +25,13 @@ use toron_program::fibres::pressed::outcome::Pressed;
 use toron_program::fibres::run::Folder;
 use toron_program::fibres::scene::{Case, Scene};
 
-/// The program of LAMMPS that the requirements' environment has, if it can be made.
-static PROGRAM: LazyLock<Option<PathBuf>> = LazyLock::new(|| {
-    let requirements = Path::new(ROOT).join("ffi-tests/lammps/requirements.txt");
-    let script = Path::new(ROOT).join("ffi-tests/python/environment.sh");
-    let output = Command::new(script).arg(requirements).output().ok().filter(|output| output.status.success())?;
-    let python = PathBuf::from(String::from_utf8(output.stdout).ok()?.trim());
-    Some(python.parent()?.join("lmp")).filter(|program| program.is_file())
+/// The program of LAMMPS that the requirements' environment has.
+static LAMMPS: LazyLock<PathBuf> = LazyLock::new(|| {
+    let python = environment(&Path::new(ROOT).join("ffi-tests/lammps"));
+    let program = python.parent().expect("a folder").join("lmp");
+    assert!(program.is_file(), "{} is not there: ffi-tests/lammps/requirements.txt", program.display());
+    program
 });
-
-fn lammps() -> Option<&'static Path> {
-    if PROGRAM.is_none() {
-        println!("skipped: LAMMPS cannot be installed here (ffi-tests/lammps/requirements.txt)");
-    }
-    PROGRAM.as_deref()
-}
 
 fn example(name: &str) -> PathBuf {
     Path::new(ROOT).join("examples/fibre_scale").join(name)
@@ -75,7 +68,7 @@ fn assert_near(value: f64, expected: f64, part: f64) {
 
 #[test]
 fn a_driven_fibre_does_what_smith_says() {
-    let Some(program) = lammps() else { return };
+    let program = LAMMPS.as_path();
     let scene = scene("smith.toml");
     for (name, strain, transverse) in [("v-200", 0.498, 504.2), ("v-400", 1.271, 772.0), ("v-800", 3.258, 1156.0)] {
         let result = run(program, &scene, &case(&scene, name), "fibres-smith");
@@ -93,7 +86,7 @@ fn a_driven_fibre_does_what_smith_says() {
 
 #[test]
 fn nineteen_fibres_break_under_a_projectile() {
-    let Some(program) = lammps() else { return };
+    let program = LAMMPS.as_path();
     let scene = scene("nineteen.toml");
     let smooth = run(program, &scene, &case(&scene, "frictionless"), "fibres-nineteen");
     assert!(smooth.imbalance() < 5e-3, "{}", smooth.imbalance());
@@ -123,7 +116,7 @@ fn nineteen_fibres_break_under_a_projectile() {
 /// Rows between walls: by the stretch of their contacts they store what an elastic lattice does, and the walls' work is all there.
 #[test]
 fn rows_of_fibres_are_pressed() {
-    let Some(program) = lammps() else { return };
+    let program = LAMMPS.as_path();
     let mut scene = scene("press.toml");
     for case in &mut scene.cases {
         case.fibres = 100;
@@ -160,7 +153,7 @@ fn rows_of_fibres_are_pressed() {
 /// The fit takes what was written.
 #[test]
 fn pressed_fibres_tell_the_parameters() {
-    let Some(program) = lammps() else { return };
+    let program = LAMMPS.as_path();
     let place = fresh("fibres-fit");
     let text = std::fs::read_to_string(example("press.toml")).expect("a scene");
     let text = text.replace("fibres = 400", "fibres = 100").replace("60e-6", "20e-6");
@@ -189,7 +182,7 @@ fn said(output: &Output) -> String {
 #[cfg(unix)]
 #[test]
 fn a_run_that_was_killed_goes_on() {
-    let Some(program) = lammps() else { return };
+    let program = LAMMPS.as_path();
     let place = fresh("fibres-killed");
     let text = std::fs::read_to_string(example("nineteen.toml")).expect("a scene");
     let text = text
@@ -276,7 +269,7 @@ fn what_is_wrong_is_said() {
 /// Beads that are lost are said to be, with what to change.
 #[test]
 fn a_step_that_is_too_large_is_said() {
-    let Some(program) = lammps() else { return };
+    let program = LAMMPS.as_path();
     let scene = scene("nineteen.toml");
     let mut model = Model::new(&scene.units, &case(&scene, "frictionless")).expect("a model");
     // Some hundred times what is stable: at the first step the beads are gone.
@@ -300,7 +293,7 @@ fn what_is_only_written_is_read_after_a_run_by_hand() {
     let written = toron(&[file, "--write-only"], &out).output().expect("it starts");
     assert!(written.status.success(), "{}", said(&written));
     assert!(out.join("scene/in.lmp").is_file() && out.join("scene/beads.lmp").is_file());
-    let Some(program) = lammps() else { return };
+    let program = LAMMPS.as_path();
     let by_hand =
         Command::new(program).args(["-in", "in.lmp"]).current_dir(out.join("scene")).output().expect("it starts");
     assert!(by_hand.status.success(), "{}", String::from_utf8_lossy(&by_hand.stdout));
@@ -313,7 +306,7 @@ fn what_is_only_written_is_read_after_a_run_by_hand() {
 /// What the balance is off by is no friction where nothing rubs.
 #[test]
 fn friction_is_printed_where_something_rubs() {
-    let Some(program) = lammps() else { return };
+    let program = LAMMPS.as_path();
     let place = fresh("fibres-rubbing");
     let scene = "units = \"mm-g-ms\"\n[scene]\nfibre = { diameter = 0.012, modulus = 84.62e3, density = 1.44e-3, \
                  strain-at-failure = 0.0458 }\nhalf-length = 2.0\nspacing = 0.05\nfibres = 7\nsection = \"circle\"\n\

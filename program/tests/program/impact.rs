@@ -5,7 +5,7 @@
 //!
 //! | what | centre | width |
 //! |---|---|---|
-//! | MF at 120 m/s, 58 to 70 m/s left | 64, thesis Tab. 4.5 and OpenRadioss | what meshes, contact and damping move it by: 59.9 to 66 |
+//! | MF at 120 m/s, 60 to 64.5 m/s left | 64, thesis Tab. 4.5 and OpenRadioss; 62.2 here | what the moment of the break moves it by; meshes, contact and damping leave 59.9 to 66 |
 //! | speeds without failure, ± 2 m/s | OpenRadioss with the same law on 1200 elements | 480 elements instead of 1200 |
 //! | waves of elongation and Smith's waves, ± 2 % | √(k_el/ρ), √(E1/ρ), Smith's theory | the demand on any host of the law |
 //! | transverse wave at the clamp, 17.5 to 19.5 µs | 18 in the thesis (section 4.6), 18.6 on 1200 elements | three elements, which the wave passes in 0.3 µs each |
@@ -73,7 +73,7 @@ fn every_scene_is_valid() {
 fn multiaxial_failure_lets_the_projectile_through() {
     let result = run(&coarse("table_4_5.toml", "mf-120"));
     assert_eq!(result.end, End::Left);
-    assert_between(result.residual_speed().expect("it is through"), 58.0, 70.0);
+    assert_between(result.residual_speed().expect("it is through"), 60.0, 64.5);
     assert_balanced(&result);
 }
 

@@ -9,6 +9,7 @@ mod library;
 mod python;
 
 mod akantu;
+mod answers;
 mod build;
 mod calculix;
 #[allow(dead_code)] // each test uses its own part

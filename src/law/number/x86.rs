@@ -535,6 +535,7 @@ register! {
     split (x) (
         // SAFETY: as in `register!`: the processor has the instructions.
         F64x8(unsafe { _mm512_getmant_pd::<_MM_MANT_NORM_P75_1P5, _MM_MANT_SIGN_ZERO>(x.0) }),
+        // SAFETY: as above.
         F64x8(unsafe { _mm512_getexp_pd(_mm512_mul_pd(x.0, _mm512_set1_pd(FOUR_THIRDS))) })
     );
     // SAFETY: as in `register!`: the processor has the instructions.
@@ -569,6 +570,7 @@ register! {
     split (x) (
         // SAFETY: as in `register!`: the processor has the instructions.
         F32x16(unsafe { _mm512_getmant_ps::<_MM_MANT_NORM_P75_1P5, _MM_MANT_SIGN_ZERO>(x.0) }),
+        // SAFETY: as above.
         F32x16(unsafe { _mm512_getexp_ps(_mm512_mul_ps(x.0, _mm512_set1_ps(FOUR_THIRDS as f32))) })
     );
     // SAFETY: as in `register!`: the processor has the instructions.
