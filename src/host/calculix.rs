@@ -192,7 +192,7 @@ impl Arguments<'_> {
         // SAFETY: as many constants as kode says, and as many variables: see `Behaviour`.
         unsafe {
             let place = limit_variable::place::<f64, L>(self.constants, self.count(), kept, variables)?;
-            limit_variable::check(limit_variable::at(self.old_state, place))
+            limit_variable::check(limit_variable::at(self.old_state, place), self.old_state.add(L::DESCRIPTION.failed))
         }
     }
 

@@ -56,16 +56,18 @@ pub(super) fn at<T>(variables: *const T, place: Option<usize>) -> *const T {
     place.map_or(null(), |place| variables.wrapping_add(place))
 }
 
-/// Refuses a limit that means nothing, since no smaller step would help.
+/// The limit, or 0 where there is none or the point has failed before, by its `latch`. Refuses one that means nothing, since no smaller
+/// step would help.
 ///
 /// # Errors
 /// It is negative, NaN or infinite.
 ///
 /// # Safety
-/// `limit` is null or points to a value.
-pub(super) unsafe fn check<T: Precision>(limit: *const T) -> Result<T, Error> {
+/// `limit` is null or points to a value; `latch` points to one.
+pub(super) unsafe fn check<T: Precision>(limit: *const T, latch: *const T) -> Result<T, Error> {
     // SAFETY: as the caller promises.
-    let Some(&limit) = (unsafe { limit.as_ref() }) else { return Ok(T::splat(0.0)) };
+    let (limit, latch) = unsafe { (limit.as_ref(), *latch) };
+    let Some(&limit) = limit.filter(|_| Failure::intact(latch)) else { return Ok(T::splat(0.0)) };
     if Failure::is_limit(limit) {
         return Ok(limit);
     }

@@ -134,14 +134,19 @@ impl<R: Real> FibreFrame<R> {
         let m = [direction[0] / length, direction[1] / length, direction[2] / length];
         // Two axes across m, without a branch and without loss of digits for m near −x (Duff et al., J. Comput. Graph. Tech.
         // 6(1), 2017). For m along the first coordinate axis they are the other two coordinate axes.
-        // With |m|² = 1 their second and third component are sums of positive numbers, which keep their digits for m near the
-        // other two axes, where 1 − m2²/(1 + |m1|) would lose them.
+        // Their second and third component are 1 − m2²/(1 + |m1|) and 1 − m3²/(1 + |m1|). Where that cancels, for m near the other
+        // two axes, |m|² = 1 makes them sums of positive numbers.
         let sign = R::select(m[0].lt(zero), -one, one);
         let size = m[0].abs();
         let a = one / (one + size);
         let b = m[1] * m[2] * a;
-        let t1 = [-(sign * m[1]), (m[2] * m[2]).mul_add(a, size), -b];
-        let t2 = [-m[2], -(sign * b), sign * (m[1] * m[1]).mul_add(a, size)];
+        let [square_2, square_3] = [m[1] * m[1], m[2] * m[2]];
+        let diagonal = |own: R, other: R| {
+            let taken = own * a;
+            R::select(taken.lt(R::splat(0.5)), one - taken, other.mul_add(a, size))
+        };
+        let t1 = [-(sign * m[1]), diagonal(square_2, square_3), -b];
+        let t2 = [-m[2], -(sign * b), sign * diagonal(square_3, square_2)];
         (FibreFrame { m, t1, t2 }, usable)
     }
 
@@ -288,9 +293,9 @@ pub struct Section<R: Real> {
     rounding: R,
 }
 
-/// The fibres have slipped far where the square of their slip, (h2² + h3²)/λ², is above this times J_t²/t̂, about that of the section's
-/// shorter half axis, of which a slip of eleven costs one rounding.
-const FAR_SLIP: f64 = 128.0;
+/// The fibres have slipped far where the square of their slip, (h2² + h3²)/λ², is above this times J_t²/t̂. That is once to twice the
+/// square of the section's shorter half axis, and each half axis of slip costs about a rounding.
+const FAR_SLIP: f64 = 4.0;
 
 impl<R: Real> Section<R> {
     /// From F m, (F − χ1) t1 and (F − χ1) t2. Also returns a and b, the images of the transverse axes without their components

@@ -98,7 +98,10 @@ impl Umat {
         // SAFETY: `law` has found that neither array is null and that the counts are not negative: `nprops` and `nstatv` values.
         unsafe {
             let place = limit_variable::place::<f64, L>(self.props, count, kept, self.nstatv as usize)?;
-            limit_variable::check(limit_variable::at(self.statev.cast_const(), place))
+            limit_variable::check(
+                limit_variable::at(self.statev.cast_const(), place),
+                self.statev.add(L::DESCRIPTION.failed),
+            )
         }
     }
 }

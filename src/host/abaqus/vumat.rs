@@ -114,13 +114,13 @@ unsafe fn vumat<L: Law<T>, T: Precision>(block: *const Vumat<T>) -> Result<i32, 
     if checks {
         moduli = stiffness_at_rest(&law)?;
         // SAFETY: arrays of `nblock` points, which are not null, with the components that `Vumat` says.
-        unsafe { check_limits(block, limit, n) }?;
+        unsafe { check_limits::<L, T>(block, limit, n) }?;
     }
     // SAFETY: arrays of `nblock` points, which are not null, with the components that `Vumat` says; here and in the functions below.
     unsafe {
         for i in 0..n {
-            // State variables beyond those of the law are copied as they are, and the inelastic energy is kept: the law
-            // adds nothing to it.
+            // State variables beyond those of the law are copied as they are, and the inelastic energy, which the law does not
+            // read, is kept, or 0 where it is not finite.
             for c in L::DESCRIPTION.state.len()..block.nstatev as usize {
                 at!(block.state_new, block, c, i) = at!(block.state_old, block, c, i);
             }
@@ -140,14 +140,15 @@ unsafe fn vumat<L: Law<T>, T: Precision>(block: *const Vumat<T>) -> Result<i32, 
 ///
 /// # Safety
 /// As for [`vumat`], with `n` points.
-unsafe fn check_limits<T: Precision>(block: &Vumat<T>, limit: Option<usize>, n: usize) -> Result<(), Error> {
+unsafe fn check_limits<L: Law<T>, T: Precision>(block: &Vumat<T>, limit: Option<usize>, n: usize) -> Result<(), Error> {
     let limits = limit_variable::at(block.state_old, limit.map(|place| place * n));
     if limits.is_null() {
         return Ok(());
     }
     for index in 0..n {
-        // SAFETY: a row of the state variables, of `n` points.
-        unsafe { limit_variable::check(limits.wrapping_add(index)) }?;
+        let latch = block.state_old.wrapping_add(L::DESCRIPTION.failed * block.nblock as usize + index);
+        // SAFETY: both are rows of the state variables, of `n` points.
+        unsafe { limit_variable::check(limits.wrapping_add(index), latch) }?;
     }
     Ok(())
 }
@@ -190,9 +191,9 @@ unsafe fn elastic_check<L: Law<T>, T: Precision>([bulk, shear]: [T; 2], block: &
             }
             at!(block.state_new, block, L::DESCRIPTION.alive, i) =
                 T::splat(1.0) - at!(block.state_new, block, L::DESCRIPTION.failed, i);
-            let energies = [*block.ener_intern_old.add(i), *block.ener_inelas_old.add(i)];
-            code = if energies.into_iter().all(is_finite) { code } else { status::STATE_NOT_FINITE };
-            *block.ener_intern_new.add(i) = finite(energies[0]);
+            let energy = *block.ener_intern_old.add(i);
+            code = if is_finite(energy) { code } else { status::STATE_NOT_FINITE };
+            *block.ener_intern_new.add(i) = finite(energy);
             if code != status::OK {
                 code = if (0..components).all(|c| is_finite(strain(c))) { code } else { status::NOT_FINITE };
                 for c in 0..components {

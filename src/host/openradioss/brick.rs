@@ -61,19 +61,30 @@ impl Brick {
         [0, 1, 2].map(|i| a[i] + b[i] + c[i])
     }
 
+    /// Whether the diagonals of its eight points are that of the centre: of an undeformed element that is not even, F at a point
+    /// takes the centre's diagonal to another place than that of the deformed one, which may be a box.
+    pub fn is_even(&self) -> bool {
+        let here = self.diagonal_at([0.0; 3]);
+        self.unevenness(here) <= ALLOWED * length(here)
+    }
+
+    /// By how much the diagonal of one of its eight points differs from this one.
+    fn unevenness(&self, here: [f64; 3]) -> f64 {
+        let of_points = CORNERS.iter().map(|corner| self.diagonal_at(corner.map(|x| POINT * x)));
+        of_points.fold(0.0, |largest: f64, other| largest.max(length(difference(other, here))))
+    }
+
     /// Whether the diagonal of this element may be where F takes that of the undeformed one. Of one point, F is that of
-    /// the centre; of eight points it may differ from it by what the diagonal does from point to point.
+    /// the centre; of eight points, of an element that was [even](Self::is_even), it may differ from it by what the diagonal does
+    /// from point to point.
     pub fn has_diagonal(&self, taken: [f64; 3], one_point: bool, rounding: f64) -> bool {
         let here = self.diagonal_at([0.0; 3]);
-        let length = |[x, y, z]: [f64; 3]| libm::sqrt(x * x + y * y + z * z);
-        let from = |other| length(difference(other, here));
         let largest = self.0.iter().flatten().fold(0.0, |largest: f64, x| largest.max(libm::fabs(*x)));
         let mut allowed = ALLOWED * length(here) + ROUNDINGS * rounding * largest;
         if !one_point {
-            let of_points = CORNERS.iter().map(|corner| from(self.diagonal_at(corner.map(|x| POINT * x))));
-            allowed += 1.5 * of_points.fold(0.0, f64::max);
+            allowed += 1.5 * self.unevenness(here);
         }
-        let apart = from(taken);
+        let apart = length(difference(taken, here));
         apart <= allowed || apart.is_nan()
     }
 }
@@ -82,6 +93,10 @@ impl Brick {
 fn slopes([r, s, t]: [f64; 3], [x, y, z]: [f64; 3]) -> [f64; 3] {
     let (u, v, w) = (1.0 + r * x, 1.0 + s * y, 1.0 + t * z);
     [0.125 * r * v * w, 0.125 * s * u * w, 0.125 * t * u * v]
+}
+
+fn length([x, y, z]: [f64; 3]) -> f64 {
+    libm::sqrt(x * x + y * y + z * z)
 }
 
 fn difference(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
@@ -141,6 +156,9 @@ mod tests {
         let of_a_point = bent.diagonal_at([POINT; 3]);
         assert!(bent.has_diagonal(of_a_point, false, 1e-16) && !bent.has_diagonal(of_a_point, true, 1e-16));
         assert!(!bent.has_diagonal(diagonal.map(|x| 3.0 * x), false, 1e-16));
+        // A brick of a crimped yarn, whose end faces are tilted, pulled straight: F at its points takes the diagonal elsewhere.
+        let tilted = |by: f64| Brick(CORNERS.map(|[x, y, z]| [x + by * x * y, 0.5 * y, 0.5 * z]));
+        assert!(!tilted(0.05).is_even() && tilted(0.0).is_even());
         let mut wedge = brick();
         wedge.0[3] = wedge.0[2];
         assert_eq!(wedge.diagonal(), None, "an edge without length");

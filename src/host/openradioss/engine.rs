@@ -149,7 +149,9 @@ impl<T: Precision> Group<T> {
             // SAFETY: i is below NEL, the rows are of UVAR, and the nodes are not null where they are read.
             unsafe {
                 let known = !self.nodes.is_null() && !self.volume.is_null();
-                let diagonal = if known { Brick(self.of_nodes(self.nodes, i)).diagonal() } else { None };
+                let comparable = |brick: &Brick| brick.has_one_point((*self.volume.add(i)).into()) || brick.is_even();
+                let brick = if known { Some(Brick(self.of_nodes(self.nodes, i))).filter(comparable) } else { None };
+                let diagonal = brick.and_then(|brick| brick.diagonal());
                 // Of a model with a reference geometry, F is not 1.
                 let [a, b, c] = self.gradient(i);
                 let rows = [cross(b, c), cross(c, a), cross(a, b)];
