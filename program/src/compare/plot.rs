@@ -28,18 +28,40 @@ pub fn write(svg: &Path, png: &Path, histories: &[&History], units: &UnitSystem)
         });
         Panel::new(row.title, &unit(units, row.dimension), lines.collect())
     });
-    // A name that says the host says it alone.
-    let of_host = |history: &History| match history.name.contains(history.host) {
+    let label = format!("time ({})", unit(units, TIME));
+    let abscissa = Abscissa { label, values: times.clone(), failure: None };
+    let [title, subtitle] = heading(histories);
+    history::write(svg, png, [&title, &subtitle], panels, &abscissa)
+}
+
+/// What hosts there are, and the names of the histories: one that says its host says it alone, and so does the title
+/// where there is one host.
+fn heading(histories: &[&History]) -> [String; 2] {
+    let one_host = histories.iter().all(|history| history.host == histories[0].host);
+    let of_host = |history: &History| match one_host || history.name.contains(history.host) {
         true => history.name.clone(),
         false => format!("{}: {}", history.name, history.host),
     };
-    let hosts: Vec<String> = histories.iter().copied().map(of_host).collect();
-    let one_host = histories.iter().all(|history| history.host == histories[0].host);
     let title = match histories {
         [first, ..] if one_host => format!("Runs of {}", first.host),
         _ => "The same strike in several hosts".to_string(),
     };
-    let label = format!("time ({})", unit(units, TIME));
-    let abscissa = Abscissa { label, values: times.clone(), failure: None };
-    history::write(svg, png, [&title, &hosts.join("; ")], panels, &abscissa)
+    let names: Vec<String> = histories.iter().copied().map(of_host).collect();
+    [title, names.join("; ")]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_host_stands_once_in_the_heading() {
+        let of = |histories: [(&'static str, &str); 2]| {
+            let [one, other] = histories.map(|(host, name)| History::new(host, name.to_string()));
+            heading(&[&one, &other])
+        };
+        assert_eq!(of([("toron", "soft"), ("toron", "stiff")]), ["Runs of toron", "soft; stiff"]);
+        let both = of([("toron", "toron"), ("OpenRadioss", "long steps")]);
+        assert_eq!(both, ["The same strike in several hosts", "toron; long steps: OpenRadioss"]);
+    }
 }

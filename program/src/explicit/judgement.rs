@@ -19,8 +19,9 @@ const LARGEST_IMBALANCE: f64 = 0.01;
 /// Columns for the names of the cases that a warning is of.
 const WIDTH: usize = 98;
 
-/// Of the energy that the blow has given away, artificial viscosity may take this part.
-const LARGEST_VISCOSITY: f64 = 0.1;
+/// Of the energy that the blow has given away, artificial viscosity may take this part of a panel's, and of what whips
+/// about behind a failure.
+pub const LARGEST_VISCOSITY: f64 = 0.1;
 
 /// The verdict of a run with which nothing is wrong.
 pub const SOUND: &str = "sound";
@@ -111,11 +112,11 @@ pub fn contact(share: f64, stiffness: f64) -> Option<Finding> {
     })
 }
 
-/// Where artificial viscosity has taken too large a part of the energy that the blow has given away.
-pub fn viscosity(share: f64, remedy: &str) -> Option<Finding> {
-    let exceeds = share.is_nan() || share > LARGEST_VISCOSITY;
+/// Where artificial viscosity has taken a larger part than `most` of the energy that the blow has given away.
+pub fn viscosity(share: f64, most: f64, remedy: &str) -> Option<Finding> {
+    let exceeds = share.is_nan() || share > most;
     exceeds.then(|| {
-        let [share, most] = [share, LARGEST_VISCOSITY].map(|share| 100.0 * share);
+        let [share, most] = [share, most].map(|share| 100.0 * share);
         let text = format!(
             "artificial viscosity took {share:.0} % of the energy that the blow gave away, more than {most:.0} %:\ntake {remedy}"
         );
@@ -190,6 +191,6 @@ mod tests {
         assert_eq!(found(|share| hourglass(share, "less"), 0.1), [false, true, true]);
         assert_eq!(found(|share| contact(share, 1.0), 0.05), [false, true, true]);
         assert_eq!(found(balance, 0.01), [false, true, true]);
-        assert_eq!(found(|share| viscosity(share, "less"), 0.1), [false, true, true]);
+        assert_eq!(found(|share| viscosity(share, LARGEST_VISCOSITY, "less"), 0.1), [false, true, true]);
     }
 }

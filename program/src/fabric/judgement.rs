@@ -149,7 +149,8 @@ fn hourglass(case: &Case, measures: &Measures) -> Option<Finding> {
 }
 
 fn viscosity(measures: &Measures) -> Option<Finding> {
-    judgement::viscosity(measures.viscosity, "a finer mesh, and see how far what is left to the sphere moves with it")
+    let remedy = "a finer mesh, and see how far what is left to the sphere moves with it";
+    judgement::viscosity(measures.viscosity, judgement::LARGEST_VISCOSITY, remedy)
 }
 
 /// A sphere that the mesh cannot tell from a needle: it meets nodes, few of them.

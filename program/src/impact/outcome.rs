@@ -145,6 +145,16 @@ impl Outcome {
         if internal == 0.0 { 0.0 } else { most(|sample| sample.energies.hourglass) / internal }
     }
 
+    /// The largest part that artificial viscosity has of what the blow has given away, from this time and this way of
+    /// the projectile on, up to the break.
+    pub fn viscosity_to_break(&self, from: f64, way: f64) -> f64 {
+        let first = self.measured.first().map(|sample| sample.energies).unwrap_or_default();
+        let share = |sample: &Sample| sample.energies.viscosity_share(&first).unwrap_or(0.0);
+        self.largest_before_break(
+            |sample| if sample.time >= from && sample.travel >= way { share(sample) } else { 0.0 },
+        )
+    }
+
     /// The part that artificial viscosity has taken in the end of what the blow has given away.
     pub fn viscosity_share(&self) -> f64 {
         let first = self.measured.first().map(|sample| sample.energies).unwrap_or_default();

@@ -88,8 +88,8 @@ pub fn write(
         let title = format!("{}: {}", scene.title, case.name);
         root.draw_text(&title, &text(TITLE, &INK), (fine(LEFT), fine(TITLE_TOP)))?;
         let laws = if matches!(case.zones, Zones::Two(..)) { "; * work, where the law is linear" } else { "" };
-        let time =
-            format!("at {}, colours by the square root{laws}; verdict: {verdict}", time(&scene.units, snapshot.time));
+        let scales = "energies per reference volume, colours by the square root";
+        let time = format!("at {}, {scales}{laws}; verdict: {verdict}", time(&scene.units, snapshot.time));
         root.draw_text(&time, &text(TEXT, &GREY), (fine(LEFT), fine(TIME_TOP)))?;
         for (mode, name) in names.into_iter().enumerate() {
             let top = TOP + mode as i32 * drawing.row_height();
