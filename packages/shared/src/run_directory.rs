@@ -153,9 +153,12 @@ impl RunDirectory {
     /// that writes at the end if at all.
     ///
     /// # Errors
-    /// Files of another command or scene would be overwritten.
+    /// It is a file, its lock's file cannot be read, or files of another command or scene would be overwritten.
     pub fn check(path: &Path, writes: &Writes<'_>) -> Result<(), Error> {
-        let text = std::fs::read_to_string(path.join(LOCK)).unwrap_or_default();
+        folder::check(path)?;
+        let file = path.join(LOCK);
+        let text = if is_file(&file)? { std::fs::read_to_string(&file) } else { Ok(String::new()) };
+        let text = text.map_err(|error| file_error(&file, &error))?;
         allowed(path, &text, writes).map(drop)
     }
 

@@ -89,8 +89,11 @@ pub fn run(arguments: &Arguments) -> Result<(), Error> {
     let numbers = numbers(&scene, arguments.shots.as_deref())?;
     let findings = shot::before(&scene)?;
     let place = arguments.output.join(if arguments.limit { LIMIT } else { SHOTS });
-    let locked = lock(arguments, arguments.restart)?;
+    let writes = writes(arguments, arguments.restart);
+    // Another scene's directory is told before what this one's lacks, and what is refused leaves none.
+    RunDirectory::check(&arguments.output, &writes)?;
     check_restart(&place, arguments.restart)?;
+    let locked = RunDirectory::lock(&arguments.output, writes)?;
     print_error(&warnings([(scene.target.name(), &findings[..])]));
     let (records, directory) = open(Records::new(&scene, &place), &place, locked)?;
     print_note("Ctrl-C ends the run: shots under way are lost, and --restart goes on with the others\n");
@@ -169,11 +172,10 @@ fn check_restart(place: &Path, restart: bool) -> Result<(), Error> {
     }
 }
 
-/// The directory of the tables and the picture, where shots of another scene are not overwritten.
-fn lock(arguments: &Arguments, restart: bool) -> Result<Locked, Error> {
+/// The tables and the picture of a scene's shots.
+fn writes(arguments: &Arguments, restart: bool) -> Writes<'_> {
     let names = ["shots", "limit", "v50"].map(String::from).to_vec();
-    let writes = Writes { command: "v50", files: vec![&arguments.scene], names, restart, ..Writes::default() };
-    RunDirectory::lock(&arguments.output, writes)
+    Writes { command: "v50", files: vec![&arguments.scene], names, restart, ..Writes::default() }
 }
 
 /// The table that the shots go to, with those that are there, and its directory, which is this run's once they have
@@ -218,7 +220,7 @@ fn collect(scene: &Scene, arguments: &Arguments) -> Result<(), Error> {
         }
         records.read(&table)?;
     }
-    let (records, directory) = open(records, &place, lock(arguments, false)?)?;
+    let (records, directory) = open(records, &place, RunDirectory::lock(&arguments.output, writes(arguments, false))?)?;
     evaluate(scene, &records, &directory, arguments)
 }
 
