@@ -66,7 +66,8 @@ impl Source<'_> {
         };
         let text = name.get_ref();
         let plain = |c: char| c.is_ascii_alphanumeric() || "-_.".contains(c);
-        if text.is_empty() || !text.chars().all(plain) {
+        let pointed = text.starts_with('.') || text.ends_with('.');
+        if text.is_empty() || pointed || is_device(text) || !text.chars().all(plain) {
             return Err(self.error(name.span(), &format!("{what} \"{text}\"; allowed: {wanted}")));
         }
         match taken.find(|taken| collide(taken, text)) {
@@ -155,6 +156,13 @@ impl Source<'_> {
         }
         Err(self.error(span, &format!("{what} is {value}; allowed: a finite number")))
     }
+}
+
+/// Whether Windows takes files of that name for a device.
+fn is_device(name: &str) -> bool {
+    let stem = name.split('.').next().unwrap_or_default().to_lowercase();
+    let numbered = |begin| stem.strip_prefix(begin).is_some_and(|rest| matches!(rest.as_bytes(), [b'1'..=b'9']));
+    ["con", "prn", "aux", "nul"].contains(&stem.as_str()) || numbered("com") || numbered("lpt")
 }
 
 /// Where a file is named by this, the standard input is read.

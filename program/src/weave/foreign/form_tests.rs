@@ -399,12 +399,25 @@ fn what_of_abaqus_may_move_a_mesh_is_refused() {
     inp(&text.replace("1, 18\n", "1, Yarn0\n").replace("ElSet=Yarn0, Generate", "ElSet=Yarn0"), "set YARN0 has itself");
     inp(&text.replace("1, 18\n", "18, 1\n"), "a range from 18 to 1 by 1; allowed: upwards");
     inp(&format!("{text}*Step\n*Static\n*Model Change, Remove\nYarn0\n*End Step\n"), "*MODEL CHANGE in a step");
+    for keyword in ["Nodde", "NCopy, Change Number=9", "Adaptive Mesh", "Orientation, Name=O", "Solid Section, ElSet=Yarn0"] {
+        let step = format!("{text}*Step\n*Dynamic, Explicit\n, 1.\n*{keyword}\n1, 2.\n*End Step\n");
+        inp(&step, "in a step; allowed: procedures, loads and results");
+    }
+    for location in ["Elemnt", "Integration Point"] {
+        let distribution = format!("{text}*Distribution, Name=D, Location={location}\n, 1., 0., 0.\n");
+        inp(&distribution, &format!("*DISTRIBUTION, LOCATION={}; allowed", location.to_uppercase()));
+    }
+    inp(&format!("{text}*Distribution, Nam=D\n"), "*DISTRIBUTION has the parameter NAM; allowed: NAME");
     inp(&format!("{text}*Element, Type=C3D8R,\n*Node\n"), "a keyword line ends with a comma");
     let part = part_of(&text);
     inp(&format!("*Part, name=A\n{part}"), "*PART A of line 1 has no end");
     inp(&format!("*Part, name=A\n*Part, name=B\n{part}"), "cross.inp:2: *PART in *PART A of line 1");
     inp("*Instance, name=A-1, part=A\n*End Instance\n", "cross.inp:1: *INSTANCE of A, which the file does not have");
     inp("*Instance, name=A-1, library=old\n*End Instance\n", "cross.inp:1: *INSTANCE has the parameter LIBRARY");
+    let instanced = format!("*Part, name=A\n{part}*End Part\n*Instance, name=A-1, part=A\n*End Instance\n");
+    inp(&format!("{instanced}*Solid Section, ElSet=Yarn0, Material=M\n"), "*SOLID SECTION outside the parts");
+    let directions = "*Distribution, Name=D, Location=Element\n, 1., 0., 0.\n";
+    inp(&format!("{instanced}{directions}"), "*DISTRIBUTION of vectors outside the parts");
     inp("*End Part\n", "cross.inp:1: *END PART; allowed: behind what it ends");
     let instance =
         |lines: &str| format!("*Part, name=A\n*End Part\n*Instance, name=A-1, part=A\n{lines}*End Instance\n");
@@ -571,6 +584,8 @@ fn what_of_ls_dyna_may_move_a_mesh_is_refused() {
         "*INITIAL_FOAM_REFERENCE_GEOMETRY",
         "*DELETE_PART",
         "*CONTROL_REFINE_SOLID",
+        "*CONTROL_REFNE_SOLID",
+        "*CONTROL_ADAPTIVE",
         "*CONTROL_FORMING_POSITION",
         "*DEFINE_FIBERS",
         "*SOMETHING_NEW",

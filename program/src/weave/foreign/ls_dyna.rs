@@ -12,11 +12,10 @@ const PARTS: &str = "elements of a part";
 /// Keywords that change neither nodes nor solid elements nor the fibres in them, by how they begin: laws, sections,
 /// contacts, loads, controls, results, curves, coordinate systems and sets that something else has to name, and
 /// elements that are no solids, which are the striker's or a clamp's.
-const WITHOUT_EFFECT: [&str; 50] = [
+const WITHOUT_EFFECT: [&str; 49] = [
     "*TITLE",
     "*COMMENT",
     "*PARAMETER",
-    "*CONTROL_",
     "*DATABASE_",
     "*TERMINATION_",
     "*INTERFACE_",
@@ -64,8 +63,13 @@ const WITHOUT_EFFECT: [&str; 50] = [
     "*DEFINE_CONTACT_",
     "*DEFINE_MATERIAL_HISTORIES",
 ];
-/// Of these, those that refine, move or delete what is there.
-const WITH_EFFECT: [&str; 4] = ["*CONTROL_REFINE", "*CONTROL_ADAP", "*CONTROL_FORMING", "*CONTROL_REMESHING"];
+/// Of `*CONTROL_…` by their whole names, those with _ at the end by how they begin: others refine, move or delete what is there.
+const CONTROLS: &str = "
+    ACCURACY ACOUSTIC_ ALE BULK_VISCOSITY CHECK_SHELL CONTACT COUPLING CPM CPU DEBUG DISCRETE_ELEMENT DYNAMIC_RELAXATION EFG ENERGY
+    EOS_USER_LIBRARY EXPLICIT_THERMAL_ EXPLOSIVE_SHADOW FREQUENCY_ HOURGLASS IMPLICIT_ LSDA MAT MPP_ NONLOCAL OUTPUT PARALLEL
+    PORE_FLUID PZELECTRIC REQUIRE_REVISION RIGID SEGMENTS_IN_ALE_COUPLING SHELL SOLID SOLUTION SPH SPH_INCOMPRESSIBLE SPOTWELD_BEAM
+    STAGED_CONSTRUCTION START STEADY_STATE_ROLLING STRUCTURED STRUCTURED_TERM SUBCYCLE SUBCYCLE_ TERMINATION THERMAL_ TIMESTEP UNITS
+    VIBRO_ACOUSTIC";
 /// What is in the names of contacts that put nodes onto the surface to which they are tied, unless with an offset.
 const TIED: [&str; 2] = ["TIED", "SPOTWELD"];
 
@@ -118,8 +122,7 @@ impl ls_dyna::Reader for Reader {
             "*ELEMENT_SOLID_ORTHO" => Next::Element(true),
             "*PART" => Next::Title,
             _ => {
-                let one_of = |names: &[&str]| names.iter().any(|with| name.starts_with(with));
-                if !one_of(&WITHOUT_EFFECT) || one_of(&WITH_EFFECT) {
+                if !WITHOUT_EFFECT.iter().any(|begin| name.starts_with(begin)) && !is_control(name) {
                     let message = format!(
                         "{name}; allowed: *ELEMENT_SOLID and *ELEMENT_SOLID_ORTHO, *NODE, *PART, *INCLUDE, *INCLUDE_TRANSFORM, and \
                          keywords that leave nodes, elements and fibres as they are"
@@ -224,6 +227,11 @@ impl ls_dyna::Reader for Reader {
     fn end_file(&mut self) {
         self.offsets.pop();
     }
+}
+
+fn is_control(name: &str) -> bool {
+    let is = |rest: &str, known: &str| rest == known || known.ends_with('_') && rest.starts_with(known);
+    name.strip_prefix("*CONTROL_").is_some_and(|rest| CONTROLS.split_whitespace().any(|known| is(rest, known)))
 }
 
 impl Reader {

@@ -24,9 +24,16 @@ const WITHOUT_EFFECT: &str = "
     CONTACTDAMPING GAPCONDUCTANCE GAPHEATGENERATION
     BOUNDARY INITIALCONDITIONS EQUATION MPC TIE COUPLING KINEMATIC DISTRIBUTING KINEMATICCOUPLING DISTRIBUTINGCOUPLING
     EMBEDDEDELEMENT RELEASE TRANSFORM INTEGRATEDOUTPUTSECTION BULKVISCOSITY ASSEMBLY ENDASSEMBLY";
-/// What a step does not have that goes by the mesh as it stands.
-const NOT_IN_A_STEP: [&str; 8] =
-    ["NODE", "ELEMENT", "PART", "INSTANCE", "SYSTEM", "NMAP", "MODELCHANGE", "IMPERFECTION"];
+/// Keywords of a step besides: procedures, loads and results, which come after the mesh.
+const IN_A_STEP: &str = "
+    ENDSTEP STATIC DYNAMIC VISCO FREQUENCY BUCKLE MODALDYNAMIC STEADYSTATEDYNAMICS COMPLEXFREQUENCY HEATTRANSFER
+    COUPLEDTEMPERATUREDISPLACEMENT DYNAMICTEMPERATUREDISPLACEMENT ANNEAL SUBSTRUCTUREGENERATE CONTROLS SOLVERCONTROLS
+    FIXEDMASSSCALING VARIABLEMASSSCALING MASSADJUST SELECTCYCLICSYMMETRYMODES MODALDAMPING GLOBALDAMPING
+    CLOAD DLOAD DSLOAD DECHARGE DSECHARGE INERTIARELIEF TEMPERATURE FIELD PRESSURESTRESS CFLUX DFLUX DSFLUX FILM SFILM RADIATE
+    SRADIATE BASEMOTION CONNECTORMOTION CONNECTORLOAD PRETENSIONSECTION
+    OUTPUT NODEOUTPUT ELEMENTOUTPUT ENERGYOUTPUT CONTACTOUTPUT SURFACEOUTPUT INCREMENTATIONOUTPUT RADIATIONOUTPUT
+    INTEGRATEDOUTPUT MODALOUTPUT NODEFILE ELFILE ENERGYFILE CONTACTFILE MODALFILE FILEOUTPUT NODEPRINT ELPRINT ENERGYPRINT
+    CONTACTPRINT MODALPRINT SECTIONFILE SECTIONPRINT MONITOR PRINT CONTACTINTERFERENCE CHANGEFRICTION CLEARANCE";
 /// How the kinds of elements begin that are no volumes: rigid faces, masses, connectors, lines, membranes, shells and
 /// plane elements, which are the striker's or a clamp's, or what a mesher writes of surfaces.
 const NO_VOLUMES: [&str; 26] = [
@@ -40,7 +47,7 @@ const NO_VOLUMES: [&str; 26] = [
 /// It may not.
 pub fn check(keyword: &Keyword<'_>) -> Result<(), Error> {
     let Keyword { line, name, .. } = keyword;
-    if !WITHOUT_EFFECT.split_whitespace().any(|other| other == name) {
+    if !is_one_of(WITHOUT_EFFECT, name) {
         let message = format!(
             "{}; allowed: nodes and elements one by one, *ELSET, *SOLID SECTION, *ORIENTATION, *DISTRIBUTION, *PART, \
              *INSTANCE, *INCLUDE, and keywords that leave nodes, elements and fibres as they are",
@@ -61,11 +68,15 @@ pub fn check(keyword: &Keyword<'_>) -> Result<(), Error> {
 /// # Errors
 /// It does not.
 pub fn check_in_step(keyword: &Keyword<'_>) -> Result<(), Error> {
-    if NOT_IN_A_STEP.contains(&keyword.name.as_str()) {
-        let message = format!("{} in a step; allowed: before the first one", keyword.title());
-        return Err(keyword.line.error(&message));
+    if is_one_of(IN_A_STEP, &keyword.name) || is_one_of(WITHOUT_EFFECT, &keyword.name) {
+        return Ok(());
     }
-    Ok(())
+    let allowed = "procedures, loads and results, and what leaves nodes, elements and fibres as they are";
+    Err(keyword.line.error(&format!("{} in a step; allowed: {allowed}", keyword.title())))
+}
+
+fn is_one_of(list: &str, name: &str) -> bool {
+    list.split_whitespace().any(|other| other == name)
 }
 
 /// Nodes of the elements of a keyword; none where they are no volumes.

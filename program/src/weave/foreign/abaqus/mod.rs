@@ -183,6 +183,9 @@ impl Reader {
         for scope in self.instances {
             scope.add_to(&mut raw, &own)?;
         }
+        if !flat {
+            own.check_without_elements()?;
+        }
         if flat || !own.mesh.element.is_empty() {
             let shared = Scope::default();
             own.add_to(&mut raw, &shared)?;

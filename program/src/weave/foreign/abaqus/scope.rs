@@ -141,8 +141,14 @@ impl Scope {
             }
             "DISTRIBUTIONTABLE" => Block::Table(keyword.needed("NAME")?),
             "DISTRIBUTION" => {
-                if keyword.label("LOCATION").is_some_and(|location| location != "ELEMENT") {
-                    return Ok(Block::Nothing);
+                keyword.allow(&["NAME", "LOCATION", "TABLE", "INPUT"])?;
+                match keyword.label("LOCATION").as_deref() {
+                    None | Some("ELEMENT") => {}
+                    // Of nodes: thicknesses and offsets, of no solid.
+                    Some("NODE") => return Ok(Block::Nothing),
+                    Some(other) => {
+                        return Err(line.error(&format!("*DISTRIBUTION, LOCATION={other}; allowed: ELEMENT, NODE")));
+                    }
                 }
                 let name = keyword.label("NAME").unwrap_or_default();
                 let distribution = Distribution::new(line.place(), keyword.label("TABLE"));

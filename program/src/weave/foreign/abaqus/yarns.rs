@@ -52,6 +52,23 @@ impl Scope {
         self.mesh.add_to(raw, yarns.into_iter().map(|yarn| yarn.name).collect(), &yarn, &directions, PARTS)
     }
 
+    /// That nothing outside the parts says what fibres of elements in them are.
+    ///
+    /// # Errors
+    /// A section, or directions that nothing takes.
+    pub fn check_without_elements(&self) -> Result<(), Error> {
+        if !self.mesh.element.is_empty() {
+            return Ok(());
+        }
+        let directions = self.distributions.values().filter(|one| self.is_of_vectors(one, self).unwrap_or(true));
+        let outside = self.sections.iter().map(|section| (&section.place, "*SOLID SECTION"));
+        let mut outside = outside.chain(directions.map(|one| (&one.place, "*DISTRIBUTION of vectors")));
+        let what = |(place, what): (&Place, &str)| {
+            place.error(&format!("{what} outside the parts; allowed: in the part, or in the instance, of its elements"))
+        };
+        outside.next().map_or(Ok(()), |one| Err(what(one)))
+    }
+
     /// What is a yarn: by sections, else by sets; an instance without either is one.
     fn yarns(&self) -> Result<Vec<Yarn>, Error> {
         let mut sections = [&self.sections, &self.of_elements, &self.of_sets].into_iter();
