@@ -9,6 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use super::error::Error;
 use super::file_names::{collide, is_of};
+use super::kept_file::set_aside_if_there;
 use super::{folder, shell, toml_file};
 
 /// The file whose lock says that a run writes to its directory, and in which stands whose the files there are. The
@@ -30,6 +31,8 @@ pub struct Locked {
     lock: File,
     /// What stands in [`LOCK`], and what is to stand there.
     text: [String; 2],
+    /// The names of the run's files, where none that is there can be an earlier run's: nothing says so.
+    foreign: Vec<String>,
 }
 
 /// What a command is about to write to a directory.
@@ -108,12 +111,19 @@ fn seen_from(directory: &Path, file: &Path) -> String {
 }
 
 impl Locked {
-    /// Writes down whose the files are, before the first of them is written.
+    /// Writes down whose the files are, before the first of them is written. In a directory that no run has written to, files of the
+    /// same names are a user's own, and get other names.
     ///
     /// # Errors
-    /// It cannot be written.
+    /// It cannot be written, or a file not be renamed.
     pub fn claim(self) -> Result<RunDirectory, Error> {
-        let Locked { path, mut lock, text: [old, new] } = self;
+        let Locked { path, mut lock, text: [old, new], foreign } = self;
+        for entry in std::fs::read_dir(&path).map_err(|error| file_error(&path, &error))? {
+            let name = entry.map_err(|error| file_error(&path, &error))?.file_name();
+            if name.to_str().is_some_and(|name| foreign.iter().any(|own| is_of(name, own, 0))) {
+                set_aside_if_there(&path.join(name))?;
+            }
+        }
         if new != old {
             let written = lock.rewind().and_then(|()| lock.set_len(0)).and_then(|()| lock.write_all(new.as_bytes()));
             written.map_err(|error| file_error(&path.join(LOCK), &error))?;
@@ -146,7 +156,8 @@ impl RunDirectory {
         lock.read_to_string(&mut text).map_err(|error| file_error(&file, &error))?;
         let lines = allowed(path, &text, &writes)?.iter().map(serde_json::to_string).collect::<Result<Vec<_>, _>>();
         let lines = lines.map_err(|error| file_error(&file, &error))?.iter().map(|line| format!("{line}\n")).collect();
-        Ok(Locked { path: path.to_path_buf(), lock, text: [text, lines] })
+        let foreign = if text.is_empty() && !writes.restart { writes.names } else { Vec::new() };
+        Ok(Locked { path: path.to_path_buf(), lock, text: [text, lines], foreign })
     }
 
     /// That a run would overwrite nobody's files in a directory, which need not be there, without its lock: for one
@@ -375,6 +386,34 @@ mod tests {
         assert!(refused().contains(&told("2").replace('\'', "")), "{}", refused());
         assert_eq!(text().lines().count(), 1);
         std::fs::remove_dir_all(&place).expect("it is removed");
+    }
+
+    #[test]
+    fn a_users_own_files_get_other_names() {
+        let path = std::env::temp_dir().join(format!("toron-own-files-{}", std::process::id()));
+        std::fs::create_dir_all(&path).expect("a directory");
+        let there = |name: &str| std::fs::read_to_string(path.join(name)).ok();
+        for name in ["fast.csv", "notes.csv"] {
+            std::fs::write(path.join(name), name).expect("a file");
+        }
+        let open = || {
+            let names = vec!["fast".to_string()];
+            RunDirectory::lock(
+                &path,
+                Writes { command: "impact", files: vec![Path::new("/x.toml")], names, ..Writes::default() },
+            )
+            .and_then(Locked::claim)
+        };
+        drop(open().expect("a directory"));
+        assert_eq!(
+            [there("fast.csv"), there("fast.csv-old"), there("notes.csv")].map(|text| text.is_some()),
+            [false, true, true]
+        );
+        // From now on a file of that name is the run's.
+        std::fs::write(path.join("fast.csv"), "history").expect("a file");
+        drop(open().expect("a directory"));
+        assert_eq!(there("fast.csv").as_deref(), Some("history"));
+        std::fs::remove_dir_all(&path).expect("it is removed");
     }
 
     #[test]

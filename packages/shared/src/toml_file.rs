@@ -201,3 +201,23 @@ impl<'de, const N: usize> Deserialize<'de> for Numbers<N> {
         Ok(Numbers(numbers))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_name_of_files_is_none_of_a_folder_or_a_device() {
+        let name = |text: &str| {
+            let source = Source { name: "x.toml", text: "" };
+            source.name_of("case", Some(&Spanned::new(0..0, text.to_string())), 0..0, std::iter::empty())
+        };
+        for wrong in ["", ".", "..", ".hidden", "a.", "a/b", "nul", "COM1", "con.a", "ä"] {
+            let error = name(wrong).expect_err("no name").to_string();
+            assert!(error.starts_with(&format!("x.toml:1: case \"{wrong}\"; allowed: a name")), "{error}");
+        }
+        for right in ["a", "a.b", "-", "console", "com10", "80-m_s"] {
+            assert_eq!(name(right).as_deref(), Ok(right));
+        }
+    }
+}

@@ -399,7 +399,9 @@ fn what_of_abaqus_may_move_a_mesh_is_refused() {
     inp(&text.replace("1, 18\n", "1, Yarn0\n").replace("ElSet=Yarn0, Generate", "ElSet=Yarn0"), "set YARN0 has itself");
     inp(&text.replace("1, 18\n", "18, 1\n"), "a range from 18 to 1 by 1; allowed: upwards");
     inp(&format!("{text}*Step\n*Static\n*Model Change, Remove\nYarn0\n*End Step\n"), "*MODEL CHANGE in a step");
-    for keyword in ["Nodde", "NCopy, Change Number=9", "Adaptive Mesh", "Orientation, Name=O", "Solid Section, ElSet=Yarn0"] {
+    for keyword in
+        ["Nodde", "NCopy, Change Number=9", "Adaptive Mesh", "Orientation, Name=O", "Solid Section, ElSet=Yarn0"]
+    {
         let step = format!("{text}*Step\n*Dynamic, Explicit\n, 1.\n*{keyword}\n1, 2.\n*End Step\n");
         inp(&step, "in a step; allowed: procedures, loads and results");
     }
