@@ -1,5 +1,6 @@
-//! Dependencies between this repository's packages point down: each package stands in the table below those that need it, and has the
-//! arrows that are listed there and no others. A library of a solver that needed `toron-c` would export its symbols.
+//! Dependencies between this repository's packages point down: each package stands in the table below those that need
+//! it, and has the arrows that are listed there and no others. A library of a solver that needed `toron-c` would export
+//! its symbols.
 
 use std::collections::BTreeMap;
 use std::path::Path;

@@ -95,11 +95,12 @@ const DOUBLE: Bounds = Bounds {
     flattened: [truth::DOUBLE.back, truth::DOUBLE.invariants, truth::DOUBLE.energies],
     forward: 2e-15,
 };
-/// CalculiX takes S, whose largest components cancel in F S Fᵀ where the section is distorted to an aspect ratio of 2·10⁵: the exact
-/// S, rounded and pushed forward exactly, has an error of 8400 there; found are 6800. The same cancels where the yarn is pressed flat:
-/// 470; found are 666.
+/// CalculiX takes S, whose largest components cancel in F S Fᵀ where the section is distorted to an aspect ratio of
+/// 2·10⁵: the exact S, rounded and pushed forward exactly, has an error of 8400 there; found are 6800. The same cancels
+/// where the yarn is pressed flat: 470; found are 666.
 const SECOND_PIOLA_KIRCHHOFF: Bounds = Bounds { distorted: 8.2e3, flattened: [800.0, 3.0, 2.8], ..DOUBLE };
-/// The polar decomposition comes between: U instead of F, whose roundings are not small against small strains. Found are 1.83, 2.50, 2.50.
+/// The polar decomposition comes between: U instead of F, whose roundings are not small against small strains. Found
+/// are 1.83, 2.50, 2.50.
 const POLAR: Bounds = Bounds { forward: f64::INFINITY, back: 2.2, energies: 3.0, ..DOUBLE };
 const SINGLE: Bounds = Bounds {
     epsilon: 6e-8,
