@@ -1,6 +1,7 @@
-/* A program that a user has compiled with this folder's header, and has not touched since: it must give the same with every later
- * library of ABI 2. Every function that takes a structure, and one of each other kind; in double precision or, with -DSINGLE, in single.
- * It compiles with the library's own header too, whose structures may only grow at their ends. */
+/* A program that a user has compiled with this folder's header, and has not touched since: it must give the same
+ * with every later library of ABI 2. Every function that takes a structure, and one of each other kind; in double
+ * precision or, with -DSINGLE, in single. It compiles with the library's own header too, whose structures may only
+ * grow at their ends. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -103,7 +104,8 @@ enum { LINEAR = TORON_LINEAR_ELASTIC_PROPERTIES, LINEAR_STATE = TORON_LINEAR_ELA
 static const real stretch = (real)1.01;
 static const real rest[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
 static real columns[9] = {0, 0, 0, 0, 1, 0, 0, 0, 1}, properties[COUNT], linear_properties[LINEAR], density;
-/* sigma11 of the hyperelastic law, k_el ln(stretch)/stretch, its dS11/dE11 and its energy; of the linear one E1 ln(stretch). */
+/* sigma11 of the hyperelastic law, k_el ln(stretch)/stretch, its dS11/dE11 and its energy; of the linear one E1
+ * ln(stretch). */
 static double wanted, tangent_wanted, energy_wanted, wanted_of_linear;
 
 static int near(double a, double b)

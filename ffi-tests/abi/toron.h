@@ -1,5 +1,5 @@
-/* The header of ABI 2 as it was frozen, but for the functions that `program.c` does not call: it is not changed, since programs
- * compiled with it run with every later library of ABI 2. */
+/* The header of ABI 2 as it was frozen, but for the functions that `program.c` does not call: it is not changed,
+ * since programs compiled with it run with every later library of ABI 2. */
 #ifndef TORON_H
 #define TORON_H
 #define TORON_FROZEN

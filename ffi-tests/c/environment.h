@@ -160,15 +160,16 @@ static void put_arrays_back(void)
     }
 }
 
-/* ---- What the calls of an entry give back in the default environment, as one number (FNV-1a): those at the baseline, which every
- * processor has and whose last digits are its own, apart from the others. */
+/* ---- What the calls of an entry give back in the default environment, as one number (FNV-1a): those at the
+ * baseline, which every processor has and whose last digits are its own, apart from the others. */
 
 static struct {
     uint64_t sum;
     int calls;
 } answers[MOST_ENTRIES][2];
 static int at_baseline;
-/* Whether they are wanted, and the entry whose sum is printed after each call: what differs between two libraries is found by it. */
+/* Whether they are wanted, and the entry whose sum is printed after each call: what differs between two libraries
+ * is found by it. */
 static int sums_wanted;
 static const char *traced = "";
 

@@ -38,7 +38,8 @@ fn c_programs_with_the_shared_library() {
     c_program("hosts", &[], &library, true);
 }
 
-/// What a user has compiled against the frozen header of ABI 2 runs with today's library, and compiles with today's header.
+/// What a user has compiled against the frozen header of ABI 2 runs with today's library, and compiles with today's
+/// header.
 #[test]
 fn a_program_compiled_against_the_frozen_abi() {
     let (source, library) = (Path::new(ROOT).join("ffi-tests/abi"), LIBRARY.display());

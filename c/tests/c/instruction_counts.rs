@@ -1,13 +1,13 @@
 //! Instructions a point, counted by valgrind: the same on every run, unlike times.
 //!
 //! `instruction_counts.txt` holds what they were; growth by more than 5 % fails. A change that is meant to cost, or
-//! that gains, is recorded by `TORON_RECORD_COUNTS=1 cargo test -p toron-c instruction`, and the file committed with it.
-//! Counts belong to a compiler too: record them anew with a new one. Valgrind knows no AVX-512, so that the block runs at
-//! AVX2.
+//! that gains, is recorded by `TORON_RECORD_COUNTS=1 cargo test -p toron-c instruction`, and the file committed with
+//! it. Counts belong to a compiler too: record them anew with a new one. Valgrind knows no AVX-512, so that the block
+//! runs at AVX2.
 //!
-//! `umat` and `point` are one point a call, in fused arithmetic; both prepare the law at every call, `point-prepared` and
-//! `point-tangent` do not. Here the change of the floating-point environment is counted too. `linear` is the linear elastic law, whose
-//! frame follows the fibre where the name says nothing else.
+//! `umat` and `point` are one point a call, in fused arithmetic; both prepare the law at every call, `point-prepared`
+//! and `point-tangent` do not. Here the change of the floating-point environment is counted too. `linear` is the linear
+//! elastic law, whose frame follows the fibre where the name says nothing else.
 #![cfg(all(target_arch = "x86_64", target_os = "linux"))]
 
 use std::fmt::Write;
@@ -18,7 +18,8 @@ use crate::library::{BUILD, LIBRARY, ROOT, SYSTEM, run};
 
 /// How many points the program evaluates.
 const POINTS: f64 = 1024.0;
-/// The program's names of what it runs, the function whose instructions count, and whether it evaluates the points in lanes.
+/// The program's names of what it runs, the function whose instructions count, and whether it evaluates the points in
+/// lanes.
 const ENTRIES: [(&str, &str, bool); 41] = [
     ("umat-f64", "toron_abaqus_umat_f64", false),
     ("umat-tangent-f64", "toron_abaqus_umat_tangent_f64", false),

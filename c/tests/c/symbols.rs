@@ -1,7 +1,9 @@
-//! What each library that solvers and programs load gives to the outside, symbol by symbol, as `symbols/` lists it: a symbol that goes or
-//! comes changes what loads. `TORON_WRITE_SYMBOLS=1 cargo test -p toron-c symbols` writes the lists anew.
+//! What each library that solvers and programs load gives to the outside, symbol by symbol, as `symbols/` lists it: a
+//! symbol that goes or comes changes what loads. `TORON_WRITE_SYMBOLS=1 cargo test -p toron-c symbols` writes the lists
+//! anew.
 //!
-//! Each shared library is bound when it is loaded: it needs nothing but versioned symbols of the C library and of the compiler's.
+//! Each shared library is bound when it is loaded: it needs nothing but versioned symbols of the C library and of the
+//! compiler's.
 #![cfg(all(target_arch = "x86_64", target_os = "linux"))]
 
 use std::collections::BTreeSet;
@@ -11,7 +13,8 @@ use std::process::Command;
 
 use crate::library::{LIBRARY, OWN_LAW, ROOT, run};
 
-/// The shared libraries: of the installation, of solvers, of a law of one's own. The static ones beside some of them have the same symbols.
+/// The shared libraries: of the installation, of solvers, of a law of one's own. The static ones beside some of them
+/// have the same symbols.
 fn libraries() -> [(PathBuf, bool); 9] {
     let ours = [
         "toron_abaqus",
@@ -90,7 +93,8 @@ fn static_libraries_have_the_symbols_of_the_shared_ones() {
     }
 }
 
-/// A symbol that a library wants of its solver would keep it from being loaded anywhere else, even to be asked for its names.
+/// A symbol that a library wants of its solver would keep it from being loaded anywhere else, even to be asked for its
+/// names.
 #[test]
 fn libraries_need_the_system_alone() {
     for (library, _) in libraries() {

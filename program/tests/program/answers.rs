@@ -1,6 +1,7 @@
-//! What `toron eval` answers to the truth's cases through every entry, bit for bit: `answers/sums.txt` has a number for each entry and
-//! category, `answers/samples.jsonl` some answers as they are written. `TORON_WRITE_ANSWERS=1 cargo test -p toron-program answers`
-//! writes both anew. What every exported entry answers to much else is recorded by `c/tests/c/answers.rs`.
+//! What `toron eval` answers to the truth's cases through every entry, bit for bit: `answers/sums.txt` has a number for
+//! each entry and category, `answers/samples.jsonl` some answers as they are written. `TORON_WRITE_ANSWERS=1 cargo test
+//! -p toron-program answers` writes both anew. What every exported entry answers to much else is recorded by
+//! `c/tests/c/answers.rs`.
 //!
 //! Numbers of AVX2 and AVX-512, which give the same bits; a processor with neither has nothing to compare.
 

@@ -5,7 +5,7 @@
 //!
 //! | what | centre | width |
 //! |---|---|---|
-//! | MF at 120 m/s, 60 to 64.5 m/s left | 64, thesis Tab. 4.5 and OpenRadioss; 62.2 here | what the moment of the break moves it by; meshes, contact and damping leave 59.9 to 66 |
+//! | MF at 120 m/s, 60 to 64.5 m/s left | 64, thesis Tab. 4.5; 62.2 on this mesh | what moves the moment of the break |
 //! | speeds without failure, ± 2 m/s | OpenRadioss with the same law on 1200 elements | 480 elements instead of 1200 |
 //! | waves of elongation and Smith's waves, ± 2 % | √(k_el/ρ), √(E1/ρ), Smith's theory | the demand on any host of the law |
 //! | transverse wave at the clamp, 17.5 to 19.5 µs | 18 in the thesis (section 4.6), 18.6 on 1200 elements | three elements, which the wave passes in 0.3 µs each |
