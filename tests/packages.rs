@@ -12,8 +12,10 @@ use serde_json::Value;
 type Arrows = (&'static str, &'static [&'static str], &'static [&'static str]);
 
 /// From the ground up.
-const ARROWS: [Arrows; 14] = [
-    ("toron", &[], &["toron-program"]),
+const ARROWS: [Arrows; 17] = [
+    ("toron", &[], &[]),
+    ("toron-shared", &[], &[]),
+    ("umat-check", &["toron-shared"], &[]),
     ("toron-solvers", &["toron"], &[]),
     ("toron-abaqus", &["toron", "toron-solvers"], &[]),
     ("toron-abaqus-sp", &["toron", "toron-solvers"], &[]),
@@ -22,7 +24,8 @@ const ARROWS: [Arrows; 14] = [
     ("toron-openradioss", &["toron", "toron-solvers"], &[]),
     ("toron-openradioss-sp", &["toron", "toron-solvers"], &[]),
     ("toron-c", &["toron"], &["toron-solvers"]),
-    ("toron-program", &["toron", "toron-solvers"], &[]),
+    ("toron-program", &["toron", "toron-shared", "toron-solvers", "umat-check"], &[]),
+    ("toron-benches", &[], &["toron", "toron-program"]),
     // `examples/own_law`.
     ("reinforced-solid", &["toron"], &[]),
     ("own-law-double", &["reinforced-solid", "toron-solvers"], &[]),
