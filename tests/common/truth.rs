@@ -142,7 +142,7 @@ pub fn cases() -> Vec<Case> {
     read(include_str!("../truth/points.jsonl"))
 }
 
-/// 158 points far from what a yarn does, where sums over F cancel: fibres that have slipped up to 10⁸ times the section's size,
+/// 176 points far from what a yarn does, where sums over F cancel: fibres that have slipped up to 10⁸ times the section's size,
 /// oblique fibres that are short beside F, pressed or with their section blown up, fibre directions next to a coordinate axis.
 pub fn far_cases() -> Vec<Case> {
     read(include_str!("../truth/far.jsonl"))
