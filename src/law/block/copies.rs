@@ -213,6 +213,8 @@ unsafe fn copied<T: Scalar, const COUNT: usize, const ROWS: usize>(
                 of_fibre.copy_in(from, to.cast_mut(), 1);
             }
         }
+        // The stride of an array that is not read may be any number.
+        let limit = if block.limits().is_null() { 1 } else { limit };
         copies.group(limit, 0).copy_in(block.limits(), of_copies.limit.cast_mut(), 1);
         let groups = [
             (block.energies_old, energies, 4),
@@ -443,6 +445,7 @@ unsafe fn copied_linear<T: Scalar, const COUNT: usize>(
             of_fibre.copy_in(block.fibre[c], of_copies.fibre[c].cast_mut(), 1);
             of_fibre.copy_in(block.second_axis[c], of_copies.second_axis[c].cast_mut(), 1);
         }
+        let limit = if block.limit.is_null() { 1 } else { limit };
         copies.group(limit, 0).copy_in(block.limit, of_copies.limit.cast_mut(), 1);
         of_axes.copy_in(block.axes, of_copies.axes, 9);
         of_state.copy_in(block.state_old, of_copies.state_old.cast_mut(), LINEAR_ELASTIC_STATE);
