@@ -26,19 +26,11 @@ const MPA_BY_MM: f64 = 1e9;
 
 /// What is said of the weights of a case.
 pub fn text(units: &UnitSystem, case: &Case, panel: &Model) -> String {
-    let plies = plies(units, case, panel);
-    let all: f64 = plies.iter().map(|ply| ply.areal_density).sum();
-    let mut yarns: Vec<String> = plies.iter().map(PlyWeight::yarns).collect();
-    if yarns.windows(2).all(|pair| pair[0] == pair[1]) {
-        yarns.truncate(1);
-    } else {
-        yarns = yarns.into_iter().zip(1..).map(|(text, ply)| format!("ply {ply} {text}")).collect();
-    }
     let striker = case
         .striker
         .density
         .map_or(String::new(), |density| format!("{} {} kg/m³; ", case.sphere.shape.name(), number(density)));
-    format!("{striker}panel {} kg/m²; {}", number(all), yarns.join("; "))
+    striker + &PlyWeight::text(&plies(units, case, panel))
 }
 
 fn plies(units: &UnitSystem, case: &Case, panel: &Model) -> Vec<PlyWeight> {

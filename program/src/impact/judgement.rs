@@ -3,9 +3,9 @@
 
 use super::outcome::Outcome;
 use super::scene::{Case, Striker};
+use super::weights;
 use crate::common::units::{TIME, number, unit};
 use crate::explicit::judgement::{self, Finding};
-use crate::material::linear_density::LinearDensity;
 use toron::host::units::UnitSystem;
 
 /// Artificial viscosity may take this part of what the blow has given away while the yarn is whole. Runs of the
@@ -44,15 +44,9 @@ fn hourglass_remedy(case: &Case) -> String {
 /// What is wrong before the first step.
 pub fn before(units: &UnitSystem, case: &Case) -> Vec<Finding> {
     let mut findings = judgement::units(case.zones.materials(), units);
-    let weight = yarn(units, case).and_then(|yarn| yarn.warning(units));
+    let weight = weights::yarn(units, case).and_then(|yarn| yarn.warning(units));
     findings.extend(weight.map(|text| Finding::new("units", text)));
     findings
-}
-
-/// What the yarn weighs, of the material in the middle.
-pub fn yarn(units: &UnitSystem, case: &Case) -> Option<LinearDensity> {
-    let density = case.zones.inner().density?;
-    Some(LinearDensity::of(case.yarn.area(), density, units))
 }
 
 /// Where the contact stores too much energy.

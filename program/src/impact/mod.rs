@@ -12,4 +12,5 @@ pub mod run;
 pub mod scene;
 pub mod strength;
 pub mod summary;
+pub mod weights;
 pub mod yarn_picture;

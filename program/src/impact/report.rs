@@ -2,10 +2,11 @@
 
 use std::path::Path;
 
-use super::judgement::{self, judge};
+use super::judgement::judge;
 use super::outcome::Outcome;
 use super::scene::{Case, LEFT_OUT, Scene, Striker};
 use super::summary::outcome;
+use super::weights;
 use crate::common::units::{SPEED, TIME, number, one_digit, unit};
 use crate::explicit::judgement::{verdict, warnings};
 use crate::material::fibre_wave::FibreWave;
@@ -23,8 +24,8 @@ type Results<'a> = [(&'a Case, Outcome)];
 pub fn report(scene: &Scene, results: &Results, output: &Path) -> String {
     let waves = waves(scene, results);
     let yarns: Vec<_> = results.iter().map(|(case, _)| (case.name.as_str(), case.zones.names())).collect();
-    let weight = |case: &Case| judgement::yarn(&scene.units, case).map_or(NONE.to_string(), |yarn| yarn.text());
-    let weights: Vec<_> = results.iter().map(|(case, _)| (case.name.as_str(), weight(case))).collect();
+    let weights: Vec<_> =
+        results.iter().map(|(case, _)| (case.name.as_str(), weights::text(&scene.units, case))).collect();
     let findings: Vec<_> = results.iter().map(|(case, result)| (case, judge(&scene.units, case, result))).collect();
     let warnings = warnings(findings.iter().map(|(case, findings)| (case.name.as_str(), &findings[..])));
     let parts = [

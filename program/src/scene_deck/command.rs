@@ -11,11 +11,16 @@ use super::model::{Conversion, Model};
 use super::{abaqus, ls_dyna, of_fabric, of_impact, openradioss};
 use crate::common::units::number;
 use crate::deck::openradioss::FibreFrom;
+use crate::explicit::judgement::warnings;
 use crate::{fabric, impact, weave};
 use toron_shared::console::{print, print_error};
 use toron_shared::error::Error;
+use toron_shared::kept_file;
 use toron_shared::run_directory::{RunDirectory, Writes};
-use toron_shared::{folder, kept_file};
+use toron_shared::text_table::of_cases;
+
+/// Columns of a terminal.
+const WIDTH: usize = 129;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Host {
@@ -52,6 +57,14 @@ struct Given<'a> {
     cases: Vec<&'a str>,
 }
 
+/// A model, and what is known of it before it is run.
+struct Known {
+    model: Model,
+    weights: String,
+    /// As they are printed.
+    warnings: String,
+}
+
 /// What the writers take besides the model.
 #[derive(Clone, Debug)]
 pub struct Naming {
@@ -69,9 +82,17 @@ pub struct Naming {
 pub fn fabric(path: &Path, output: &Path, host: Host, arguments: &Arguments) -> Result<(), Error> {
     let scene = fabric::scene::Scene::read(path)?;
     let conversion = arguments.conversion(scene.units)?;
-    let models = scene.cases.iter().map(|case| of_fabric::of_case(case, conversion));
+    let known = scene.cases.iter().map(|case| {
+        let panel = case.cloth.model();
+        let found = fabric::judgement::before(&scene.units, case, &panel);
+        Ok(Known {
+            model: of_fabric::of_case(case, &panel, conversion)?,
+            weights: fabric::weights::text(&scene.units, case, &panel),
+            warnings: warnings([(case.name.as_str(), &found[..])]),
+        })
+    });
     let cases = scene.cases.iter().map(|case| case.name.as_str()).collect();
-    arguments.write(models, &Given { command: "fabric", path, title: &scene.title, cases }, host, output)
+    arguments.write(known, &Given { command: "fabric", path, title: &scene.title, cases }, host, output)
 }
 
 /// The decks of a scene of `toron impact`.
@@ -81,9 +102,16 @@ pub fn fabric(path: &Path, output: &Path, host: Host, arguments: &Arguments) -> 
 pub fn impact(path: &Path, output: &Path, host: Host, arguments: &Arguments) -> Result<(), Error> {
     let scene = impact::scene::Scene::read(path)?;
     let conversion = arguments.conversion(scene.units)?;
-    let models = scene.cases.iter().map(|case| of_impact::of_case(case, conversion));
+    let known = scene.cases.iter().map(|case| {
+        let found = impact::judgement::before(&scene.units, case);
+        Ok(Known {
+            model: of_impact::of_case(case, conversion)?,
+            weights: impact::weights::text(&scene.units, case),
+            warnings: warnings([(case.name.as_str(), &found[..])]),
+        })
+    });
     let cases = scene.cases.iter().map(|case| case.name.as_str()).collect();
-    arguments.write(models, &Given { command: "impact", path, title: &scene.title, cases }, host, output)
+    arguments.write(known, &Given { command: "impact", path, title: &scene.title, cases }, host, output)
 }
 
 /// The panel of a scene of `toron weave`, to enter a model of one's own.
@@ -99,9 +127,16 @@ pub fn weave(path: &Path, output: &Path, host: Host, arguments: &Arguments) -> R
             path.display()
         ))
     })?;
-    let models = std::iter::once_with(|| of_fabric::of_panel(&scene.cloth, material, conversion));
+    let known = std::iter::once_with(|| {
+        let panel = scene.cloth.model();
+        Ok(Known {
+            model: of_fabric::of_panel(&scene.cloth, &panel, material, conversion)?,
+            weights: weave::report::weights(&scene, &panel),
+            warnings: weave::report::warnings(&scene, &panel),
+        })
+    });
     let cases = vec![weave::command::NAME];
-    arguments.write(models, &Given { command: "weave", path, title: &scene.title, cases }, host, output)
+    arguments.write(known, &Given { command: "weave", path, title: &scene.title, cases }, host, output)
 }
 
 impl Arguments {
@@ -114,10 +149,11 @@ impl Arguments {
         Ok(Conversion { from, to })
     }
 
-    /// Writes one model after another: only one is in the memory.
+    /// Writes one model after another, only one is in the memory; before each stands what a run would say before its
+    /// first step.
     fn write(
         &self,
-        mut models: impl Iterator<Item = Result<Model, Error>>,
+        mut known: impl Iterator<Item = Result<Known, Error>>,
         given: &Given<'_>,
         host: Host,
         output: &Path,
@@ -133,28 +169,25 @@ impl Arguments {
         let names = cases.iter().map(|case| format!("{}{case}", self.prefix)).collect();
         let writes = Writes { command, files: vec![path], names, ..Writes::default() };
         let locked = RunDirectory::lock(output, writes)?;
-        let first = models.next().transpose()?;
+        let first = known.next().transpose()?;
         let _directory = locked.claim()?;
         let source = ascii(&format!("toron {command} {}", path.display()));
         let Arguments { first_id, fibre_from, .. } = *self;
         let naming = Naming { first: first_id, prefix: self.prefix.clone(), fibre_from };
-        for model in first.map(Ok).into_iter().chain(models) {
-            let model = model?;
-            let model = Model {
-                title: ascii(title),
-                source: source.clone(),
-                name: format!("{}{}", self.prefix, model.name),
-                ..model
-            };
+        for known in first.map(Ok).into_iter().chain(known) {
+            let Known { model, weights, warnings } = known?;
+            let name = format!("{}{}", self.prefix, model.name);
+            print_error(&warnings);
+            if !weights.is_empty() {
+                print(&of_cases(&format!("Weights of {name}"), &[(&name, weights)], WIDTH));
+            }
+            let model = Model { title: ascii(title), source: source.clone(), name, ..model };
             let files = match host {
                 Host::Openradioss => openradioss::write(&model, &naming, output)?,
                 Host::LsDyna => ls_dyna::write(&model, &naming, output)?,
                 Host::AbaqusExplicit => abaqus::write(&model, &naming, output)?,
             };
             print(&report(&model, &files));
-            for warning in model.materials.iter().filter_map(|material| material.unit_warning()) {
-                print_error(&format!("toron: warning: {warning}\n"));
-            }
         }
         Ok(())
     }

@@ -33,10 +33,9 @@ pub fn refuse_strength(case: &str, scatters: bool) -> Result<(), Error> {
 
 /// # Errors
 /// A strength that scatters, a material that the host or the deck's units cannot have, a sphere under which there is nothing.
-pub fn of_case(case: &Case, conversion: Conversion) -> Result<Model, Error> {
+pub fn of_case(case: &Case, panel: &woven::Model, conversion: Conversion) -> Result<Model, Error> {
     refuse_strength(&case.name, case.strength.is_some())?;
-    let panel = case.cloth.model();
-    check(case, &panel)?;
+    check(case, panel)?;
     if case.sphere.aim != [0.0; 2] {
         let [x, y] = case.sphere.aim;
         return Err(Error::Input(format!("aim is [{x}, {y}] in case {}; allowed in a deck: none", case.name)));
@@ -67,11 +66,11 @@ pub fn of_case(case: &Case, conversion: Conversion) -> Result<Model, Error> {
     let of_element = |yarn: &Yarn, element| {
         place(case.own_material(yarn.ply, yarn.family).unwrap_or_else(|| zone(&case.zones, corners(element))))
     };
-    let parts = parts(&panel, &names, of_element);
-    let mesh = mesh(&panel, conversion);
-    let mut supports = symmetry(&panel, &case.cloth);
+    let parts = parts(panel, &names, of_element);
+    let mesh = mesh(panel, conversion);
+    let mut supports = symmetry(panel, &case.cloth);
     if case.held {
-        supports.push(rim(&panel));
+        supports.push(rim(panel));
     }
     let length = |value| conversion.of(value, LENGTH);
     let [height, _] = case.cloth.yarn_heights();
@@ -83,7 +82,7 @@ pub fn of_case(case: &Case, conversion: Conversion) -> Result<Model, Error> {
             mass: share(case) * conversion.of(case.mass, MASS),
             velocity: -conversion.of(case.speed, SPEED),
             friction: case.sphere.friction,
-            centre: [0.0, 0.0, length(start(case, &panel)?)],
+            centre: [0.0, 0.0, length(start(case, panel)?)],
             side: 0.0,
             divisions: divisions(case.sphere.radius, height),
         },
@@ -125,13 +124,13 @@ pub fn of_case(case: &Case, conversion: Conversion) -> Result<Model, Error> {
 /// The deck's units cannot have the material.
 pub fn of_panel(
     cloth: &Cloth,
+    panel: &woven::Model,
     material: &crate::material::model::Material,
     conversion: Conversion,
 ) -> Result<Model, Error> {
     let Conversion { from, to } = conversion;
     let material = Material::of_scene(material, &from, &to)?;
     check_mesh(cloth)?;
-    let panel = &cloth.model();
     let mut supports = symmetry(panel, cloth);
     supports.push(Support { fixed: [false; 3], ..rim(panel) });
     Ok(Model {

@@ -110,9 +110,7 @@ pub fn before(scene: &Scene) -> Result<Vec<Finding>, Error> {
 pub fn weights(scene: &Scene) -> Result<String, Error> {
     match scene.target.at(&scene.plain_shot(1, scene.shots.speeds[0]), scene.last()) {
         Target::Panel(case) => Ok(fabric::weights::text(&scene.units, &case, &StruckPanel::new(&case)?.panel)),
-        Target::Yarn(case) => {
-            Ok(impact::judgement::yarn(&scene.units, &case).map_or(String::new(), |yarn| yarn.text()))
-        }
+        Target::Yarn(case) => Ok(impact::weights::text(&scene.units, &case)),
     }
 }
 

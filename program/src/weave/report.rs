@@ -1,7 +1,5 @@
 //! The figures of a panel for the terminal.
 
-use std::fmt::Write;
-
 use super::cloth::Cloth;
 use super::figures::Figures;
 use super::foreign::reader::Foreign;
@@ -35,13 +33,7 @@ pub fn section_warnings(figures: &Figures, pitches: [f64; 2], units: &UnitSystem
 pub fn report(scene: &Scene, model: &Model) -> String {
     let length = scene.units.names()[0];
     let figures = scene.cloth.figures(model);
-    let weights: Vec<Option<PlyWeight>> = (0..figures.len())
-        .map(|ply| {
-            let densities = scene.materials.get(ply)?.each_ref().map(|material| material.density);
-            let [warp, weft] = densities;
-            Some(PlyWeight::of(&figures[ply], scene.cloth.pitches()[ply], [warp?, weft?], &scene.units))
-        })
-        .collect();
+    let weights = of_plies(scene, &figures);
     let in_kg = |areal: Option<f64>| {
         areal.map_or("no material that has a density".to_string(), |areal| format!("{} kg/m²", number(areal)))
     };
@@ -66,10 +58,8 @@ pub fn report(scene: &Scene, model: &Model) -> String {
             add(&[("", String::new())]);
         }
     }
-    let mut of_mesh = Vec::new();
     if let Cloth::Foreign(foreign) = &scene.cloth {
         add(&of_mesh_file(foreign, length, of_weight(weights[0])));
-        of_mesh = foreign.checks.warnings();
     }
     if plies.len() > 1 {
         let [lowest, highest] = model.heights();
@@ -82,6 +72,35 @@ pub fn report(scene: &Scene, model: &Model) -> String {
             ("areal density", in_kg(all)),
         ]);
     }
+    match warnings(scene, model) {
+        none if none.is_empty() => text,
+        warnings => text + "\n" + &warnings,
+    }
+}
+
+/// Of each ply, where its yarns have a density.
+fn of_plies(scene: &Scene, figures: &[Figures]) -> Vec<Option<PlyWeight>> {
+    let of_ply = |ply: usize| {
+        let [warp, weft] = scene.materials.get(ply)?.each_ref().map(|material| material.density);
+        Some(PlyWeight::of(&figures[ply], scene.cloth.pitches()[ply], [warp?, weft?], &scene.units))
+    };
+    (0..figures.len()).map(of_ply).collect()
+}
+
+/// What the panel weighs; nothing where yarns have no density.
+pub fn weights(scene: &Scene, model: &Model) -> String {
+    let plies: Option<Vec<PlyWeight>> = of_plies(scene, &scene.cloth.figures(model)).into_iter().collect();
+    plies.map_or(String::new(), |plies| PlyWeight::text(&plies))
+}
+
+/// Warnings of what looks wrong, each once.
+pub fn warnings(scene: &Scene, model: &Model) -> String {
+    let figures = scene.cloth.figures(model);
+    let weights = of_plies(scene, &figures);
+    let of_mesh = match &scene.cloth {
+        Cloth::Foreign(foreign) => foreign.checks.warnings(),
+        Cloth::Woven(_) => Vec::new(),
+    };
     let waves = scene.materials.iter().flatten().filter_map(|material| FibreWave::of(material, &scene.units));
     let of_waves = waves.filter_map(|wave| wave.unit_warning(&scene.units));
     let of_weights = weights.iter().enumerate().flat_map(|(ply, weight)| match weight {
@@ -95,11 +114,7 @@ pub fn report(scene: &Scene, model: &Model) -> String {
             warnings.push(warning);
         }
     }
-    for (number, warning) in warnings.iter().enumerate() {
-        let before = if number == 0 { "\n" } else { "" };
-        let _ = writeln!(text, "{before}warning: {}", warning.replace('\n', "\n  "));
-    }
-    text
+    warnings.iter().map(|warning| format!("warning: {}\n", warning.replace('\n', "\n  "))).collect()
 }
 
 fn of_ply(ply: &Ply, figures: &Figures, length: &str, weight: [Option<Row>; 2]) -> Vec<Row> {

@@ -39,6 +39,18 @@ impl PlyWeight {
         }
     }
 
+    /// Of plies, as `panel 0.1769 kg/m²; warp and weft 651.4 dtex of 1351 kg/m³`; yarns are told apart where they differ.
+    pub fn text(plies: &[PlyWeight]) -> String {
+        let all: f64 = plies.iter().map(|ply| ply.areal_density).sum();
+        let mut yarns: Vec<String> = plies.iter().map(PlyWeight::yarns).collect();
+        if yarns.windows(2).all(|pair| pair[0] == pair[1]) {
+            yarns.truncate(1);
+        } else {
+            yarns = yarns.into_iter().zip(1..).map(|(text, ply)| format!("ply {ply} {text}")).collect();
+        }
+        format!("panel {} kg/m²; {}", number(all), yarns.join("; "))
+    }
+
     /// What to say where no fabric or yarn weighs that: the units are likely wrong.
     pub fn warnings(&self, units: &UnitSystem) -> Vec<String> {
         let areal = (!KNOWN.contains(&self.areal_density)).then(|| {

@@ -7,6 +7,9 @@ use std::process::Command;
 
 use nalgebra::{Matrix3, Vector3};
 
+use toron_program::explicit::judgement::warnings as warnings_of;
+use toron_program::fabric;
+
 use crate::library::{ROOT, folder, run};
 use crate::python;
 
@@ -361,6 +364,55 @@ fn decks_have_cylinders_and_yarns_of_two_materials() {
         let (warp, weft) = (material("warp"), material("weft"));
         assert!(warp.len() > 3 && weft.len() > 3 && warp[0] != weft[0], "{host}: {parts:?}");
         assert!(warp.iter().all(|other| *other == warp[0]) && weft.iter().all(|other| *other == weft[0]), "{host}");
+    }
+}
+
+/// A deck is where nothing else looks for slips: it says what a run, or the mesh alone, would say of the same scene.
+#[test]
+fn a_deck_says_what_is_wrong_with_its_scene() {
+    let output = folder("scene-decks-slips");
+    let tutorial = "units = \"mm-g-ms\"\n[weave]\npattern = \"plain\"\nwarp = { pitch = 1.18, width = 0.95, height = 0.128 }\n\
+        along = 4\ncolumns = 4\n[weave.panel]\nshape = \"circle\"\nradius = 2.0\n";
+    let strike = "[scene]\nspeed = 0.06\nmass = 0.692\nradius = 5.556\ncontact-stiffness = 1e2\nend = 1.0\n\
+        hyperelastic.density = 1.3514\n[[case]]\nname = \"a\"\n[[case]]\nname = \"b\"\nhyperelastic.density = 1.3514e-3\n";
+    let yarn = "units = \"mm-g-ms\"\n[scene]\nhalf-length = 1.0\nheight = 11.5\nwidth = 53.37\nlayers = 8\nrows = 2\ncolumns = 4\n\
+        mass = 9.91e-3\nradius = 1.1\ncontact-stiffness = 1e6\nspeed = 120.0\nend = 0.01\n";
+    let material = "[material]\npreset = \"kevlar-km2-600\"\nproperties = { k_ld = 126.0 }\ndensity = 1.3514\n";
+    let known = "warning: case b: with along = 4 and columns = 4 the yarns";
+    for (command, text, weights, warnings) in [
+        (
+            "fabric",
+            format!("{tutorial}{strike}"),
+            "Weights of b: sphere 963.2 kg/m³; panel ",
+            &[known, "warning: case a: "][..],
+        ),
+        ("impact", yarn.to_string(), "Weights of scene: ", &["warning: case scene: a yarn has "]),
+        (
+            "weave",
+            format!("{tutorial}{material}"),
+            "Weights of weave: panel ",
+            &["warning: with along", "warning: the panel weighs"],
+        ),
+    ] {
+        let scene = output.join(format!("{command}.toml"));
+        std::fs::write(&scene, text).expect("the scene can be written");
+        let mut toron = Command::new(env!("CARGO_BIN_EXE_toron"));
+        let deck = toron.arg(command).arg(&scene).args(["--deck", "ls-dyna", "-o"]).arg(output.join(command));
+        let answer = run(deck, "");
+        let [said, log] = [answer.stdout, answer.stderr].map(|text| String::from_utf8(text).expect("a text"));
+        let place = said.find(weights).expect(&said);
+        assert!(said[place..].contains(" elements, "), "the weights stand before the files: {said}");
+        assert!(warnings.iter().all(|warning| log.contains(warning)), "{log}");
+        if command == "fabric" {
+            let scene = fabric::scene::Scene::read(&scene).expect("a scene");
+            for case in &scene.cases {
+                let found = fabric::judgement::before(&scene.units, case, &case.cloth.model());
+                assert!(
+                    ["units", "sizes", "striker", "crimp"].iter().all(|word| found.iter().any(|f| f.name == *word))
+                );
+                assert!(log.contains(&warnings_of([(case.name.as_str(), &found[..])])), "{log}");
+            }
+        }
     }
 }
 
