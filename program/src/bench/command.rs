@@ -18,7 +18,6 @@ use toron::law::block::Precision;
 use toron::law::parameters;
 use toron_shared::console::print;
 use toron_shared::error::Error;
-use toron_shared::folder;
 use toron_shared::run_directory::{RunDirectory, Writes};
 use toron_shared::text_table::plain_table;
 

@@ -10,7 +10,7 @@ use crate::identify::report::line;
 use toron_shared::console::print;
 use toron_shared::error::Error;
 use toron_shared::text_table::write_csv;
-use toron_shared::{folder, kept_file};
+use toron_shared::kept_file;
 
 const FIGURES: &str = "strengths.csv";
 
