@@ -283,7 +283,7 @@ mod tests {
         let density = 1.3514e-3 * density;
         let text = format!(
             "units = \"mm-g-ms\"\n[weave]\npreset = \"kevlar-s706\"\nalong = 4\ncolumns = 4\n\
-             [weave.panel]\nshape = \"circle\"\nradius = 2.0\npart = \"quarter\"\n\
+             [weave.panel]\nshape = \"circle\"\nradius = 3.0\npart = \"quarter\"\n\
              [scene]\nspeed = 1.0\nstriker-density = 7.8e-3\nradius = {radius}\ncontact-stiffness = 1e5\nend = 1.0\n\
              hyperelastic.density = {density}\n"
         );

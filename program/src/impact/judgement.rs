@@ -38,8 +38,7 @@ fn hourglass_remedy(case: &Case) -> String {
 /// What is wrong before the first step.
 pub fn before(units: &UnitSystem, case: &Case) -> Vec<Finding> {
     let mut findings = judgement::units(case.zones.materials(), units);
-    let weight = weights::yarn(units, case).and_then(|yarn| yarn.warning(units));
-    findings.extend(weight.map(|text| Finding::new("units", text)));
+    findings.extend(weights::findings(units, case));
     findings
 }
 

@@ -625,7 +625,7 @@ fn types_are_told_by_key_and_value() {
 fn the_program_writes_what_came_of_a_scene() {
     let directory = Path::new(env!("CARGO_TARGET_TMPDIR")).join("impact");
     std::fs::create_dir_all(&directory).expect("a directory can be made");
-    let text = "units = \"mm-g-ms\"\nabscissa = \"elements\"\n[scene]\nhalf-length = 1.0\nheight = 0.115\nwidth = 0.5337\n\
+    let text = "units = \"mm-g-ms\"\nabscissa = \"elements\"\n[scene]\nhalf-length = 1.2\nheight = 0.115\nwidth = 0.5337\n\
                 layers = 8\nrows = 2\ncolumns = 4\nmass = 9.91e-3\nradius = 1.1\ncontact-stiffness = 1e6\nspeed = 120.0\n\
                 end = 2e-4\npictures = [1e-4]\nframes = 2\n[[case]]\nname = \"a\"\n[[case]]\nname = \"b\"\nrows = 1\n\
                 [[case]]\nname = \"c-of-a-name-that-is-longer-than-a-table-has-room-for\"\nstriker = \"driven\"\n";
