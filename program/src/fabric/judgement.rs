@@ -7,7 +7,7 @@
 use nalgebra::Vector3;
 
 use super::measure::Sample;
-use super::run::Outcome;
+use super::run::{End, Outcome};
 use super::scene::Case;
 use super::weights;
 use crate::common::units::{LENGTH, TIME, number, unit};
@@ -110,6 +110,10 @@ pub fn judge(
     front_at_rim: Option<f64>,
 ) -> Vec<Finding> {
     let mut findings = before(units, case, panel);
+    if outcome.end == End::Interrupted {
+        findings.push(judgement::interrupted());
+        return findings;
+    }
     let ended = outcome.failed.unwrap_or(f64::INFINITY);
     let spread = measures.travel >= case.sphere.radius || front_at_rim.is_some_and(|time| time <= ended);
     if spread {
@@ -253,7 +257,6 @@ mod tests {
     use super::*;
     use crate::explicit::energies::{Balance, Energies};
     use crate::explicit::judgement::verdict;
-    use crate::fabric::run::End;
     use crate::fabric::scene::Scene;
 
     /// A run of the coarse example, but for its size.

@@ -1,7 +1,7 @@
 //! What is wrong with a run, as far as the yarn's scenes have it, and what to change; `docs/guides/impact.md` has the
 //! bounds.
 
-use super::outcome::Outcome;
+use super::outcome::{End, Outcome};
 use super::scene::{Case, Striker};
 use super::weights;
 use crate::common::units::{TIME, number, unit};
@@ -11,6 +11,10 @@ use toron::host::units::UnitSystem;
 /// All that is wrong with a run.
 pub fn judge(units: &UnitSystem, case: &Case, result: &Outcome) -> Vec<Finding> {
     let mut findings = before(units, case);
+    if result.end == End::Interrupted {
+        findings.push(judgement::interrupted());
+        return findings;
+    }
     findings.extend(hourglass(case, result));
     findings.extend(contact(case, result));
     findings.extend(judgement::balance(result.balance.imbalance()));

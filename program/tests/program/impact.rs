@@ -16,9 +16,10 @@
 use std::path::{Path, PathBuf};
 
 use toron::Rotation;
-use toron_program::explicit::judgement::Finding;
+use toron::host::units::UnitSystem;
+use toron_program::explicit::judgement::{Finding, verdict};
 use toron_program::identify::parameter::Parameter;
-use toron_program::impact::judgement::{contact, hourglass};
+use toron_program::impact::judgement::{contact, hourglass, judge};
 use toron_program::impact::outcome::{End, OfYarn, Outcome, Sample};
 use toron_program::impact::run::{self, StruckYarn};
 use toron_program::impact::scene::{Case, Outputs, Scene, Striker, Zones};
@@ -313,6 +314,24 @@ fn much_hourglass_energy_is_warned_of() {
     result.measured.retain(|sample| sample.time < 0.0032);
     result.measured.last_mut().expect("some are left").energies.hourglass = largest;
     assert_eq!(hourglass(&case, &result), None);
+}
+
+/// A yarn whose run somebody has ended is not judged by what there is of it.
+#[test]
+fn an_interrupted_run_has_no_other_verdict() {
+    struct Impatient;
+    impl Observer<OfYarn> for Impatient {
+        fn interrupts(&self) -> bool {
+            true
+        }
+    }
+    let case = tiny("table_4_5.toml", "mf-120", 1);
+    let result = run::run(&case, &mut Impatient).expect("it begins");
+    assert_eq!(result.end, End::Interrupted);
+    let units = UnitSystem::parse("mm-g-ms").expect("a system");
+    assert_eq!(verdict(&judge(&units, &case, &result)), "interrupted: go on with --restart");
+    let line = toron_program::impact::summary::line(&units, &case, &result);
+    assert!(line.contains(&("verdict".to_string(), "interrupted: go on with --restart".to_string())), "{line:?}");
 }
 
 /// A contact that stores more than a twentieth of the energy is warned of.
