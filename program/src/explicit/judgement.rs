@@ -25,6 +25,8 @@ pub const LARGEST_VISCOSITY: f64 = 0.1;
 
 /// The verdict of a run with which nothing is wrong.
 pub const SOUND: &str = "sound";
+/// The verdict of a run that somebody has ended before its time.
+pub const INTERRUPTED: &str = "interrupted: go on with --restart";
 /// Between what a verdict says of the run up to the first failure and what it says of the rest.
 const THEN: &str = " to failure; then ";
 
@@ -56,8 +58,17 @@ pub fn add_after_failure(findings: &mut Vec<Finding>, failed: &str, found: impl 
     }
 }
 
-/// The words of all findings, each once: those of the run up to the first failure, and those of what followed.
+/// That a run was interrupted, which is no more judged then: what is measured of it is not what it comes to.
+pub fn interrupted() -> Finding {
+    Finding::new(INTERRUPTED, "it was interrupted, and is judged when it has ended: go on with --restart".to_string())
+}
+
+/// The words of all findings, each once: those of the run up to the first failure, and those of what followed. One that
+/// was interrupted has no verdict but that.
 pub fn verdict(findings: &[Finding]) -> String {
+    if findings.iter().any(|finding| finding.name == INTERRUPTED) {
+        return INTERRUPTED.to_string();
+    }
     let names = |after: bool| {
         let mut names: Vec<&str> = Vec::new();
         for finding in findings.iter().filter(|finding| finding.after_failure == after) {
@@ -174,6 +185,7 @@ mod tests {
             (&["mesh"], &["viscosity", "mesh"], "mesh to failure; then viscosity", ("mesh", Some("viscosity"))),
             (&["mesh"], &["mesh"], "mesh", ("mesh", None)),
             (&[], &[], "sound", ("sound", None)),
+            (&["units", INTERRUPTED], &[], INTERRUPTED, (INTERRUPTED, None)),
         ] {
             let mut findings = words(before);
             add_after_failure(&mut findings, "the break", words(after));

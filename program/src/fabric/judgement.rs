@@ -7,7 +7,7 @@
 use nalgebra::Vector3;
 
 use super::measure::Sample;
-use super::run::Outcome;
+use super::run::{End, Outcome};
 use super::scene::Case;
 use super::weights;
 use crate::common::units::{LENGTH, TIME, number, unit};
@@ -110,6 +110,10 @@ pub fn judge(
     front_at_rim: Option<f64>,
 ) -> Vec<Finding> {
     let mut findings = before(units, case, panel);
+    if outcome.end == End::Interrupted {
+        findings.push(judgement::interrupted());
+        return findings;
+    }
     let ended = outcome.failed.unwrap_or(f64::INFINITY);
     let spread = measures.travel >= case.sphere.radius || front_at_rim.is_some_and(|time| time <= ended);
     if spread {
@@ -254,7 +258,6 @@ mod tests {
     use super::*;
     use crate::explicit::energies::{Balance, Energies};
     use crate::explicit::judgement::verdict;
-    use crate::fabric::run::End;
     use crate::fabric::scene::Scene;
 
     /// A run of the coarse example, but for its size.
@@ -284,7 +287,7 @@ mod tests {
         let density = 1.3514e-3 * density;
         let text = format!(
             "units = \"mm-g-ms\"\n[weave]\npreset = \"kevlar-s706\"\nalong = 4\ncolumns = 4\n\
-             [weave.panel]\nshape = \"circle\"\nradius = 2.0\npart = \"quarter\"\n\
+             [weave.panel]\nshape = \"circle\"\nradius = 3.0\npart = \"quarter\"\n\
              [scene]\nspeed = 1.0\nstriker-density = 7.8e-3\nradius = {radius}\ncontact-stiffness = 1e5\nend = 1.0\n\
              hyperelastic.density = {density}\n"
         );

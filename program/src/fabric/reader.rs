@@ -1,7 +1,6 @@
 //! A scene from its TOML file. The format is described in `docs/guides/fabric.md`.
 
 use std::f64::consts::PI;
-use std::ops::RangeInclusive;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -17,6 +16,7 @@ use crate::explicit::mutual_contact::Parameters;
 use crate::material::file::MaterialFile;
 use crate::material::model::Material;
 use crate::material::of_law::{HYPERELASTIC, LINEAR_ELASTIC, LawName};
+use crate::struck::blow::DENSITIES;
 use crate::struck::keys::{self, Reader};
 use crate::struck::shots::read_shots;
 use crate::weave::cloth::Cloth;
@@ -38,8 +38,6 @@ const FRICTION: [f64; 2] = [0.23, 0.18];
 /// Over a yarn's height: how near nodes are to faces that are looked at in every step, and how deep they may be.
 const MARGIN: f64 = 0.8;
 const DEEPEST: f64 = 0.5;
-/// What solids have in kg/m³: balsa from 100, osmium 22 600.
-const DENSITIES: RangeInclusive<f64> = 100.0..=23e3;
 /// A mass and a density that differ by less than this part are the same.
 const SAME_MASS: f64 = 0.02;
 

@@ -3,9 +3,10 @@
 use std::ops::RangeInclusive;
 
 use super::scene::Case;
-use crate::common::units::{CONTACT_STIFFNESS, LENGTH, SPEED, number, unit};
+use crate::common::units::number;
 use crate::explicit::contact::Shape;
 use crate::explicit::judgement::Finding;
+use crate::struck::blow;
 use crate::weave::figures::Figures;
 use crate::weave::geometry::Family;
 use crate::weave::model::Model;
@@ -16,13 +17,6 @@ use toron::host::units::UnitSystem;
 const STEEL: RangeInclusive<f64> = 7.6e3..=8.2e3;
 /// By how much a sphere is too light whose diameter was taken for its radius.
 const DIAMETER_FOR_RADIUS: f64 = 8.0;
-/// A striker's radius over what the panel reaches from its middle.
-const LARGEST_RADIUS: f64 = 2.0;
-/// Speeds at which panels are struck, in m/s, and stiffnesses of contact that yarns take, in MPa/mm, with a margin on
-/// both sides.
-const SPEEDS: RangeInclusive<f64> = 0.5..=3e3;
-const STIFFNESSES: RangeInclusive<f64> = 1e3..=1e7;
-const MPA_BY_MM: f64 = 1e9;
 
 /// What is said of the weights of a case.
 pub fn text(units: &UnitSystem, case: &Case, panel: &Model) -> String {
@@ -44,64 +38,24 @@ fn plies(units: &UnitSystem, case: &Case, panel: &Model) -> Vec<PlyWeight> {
 
 /// Weights and sizes that cannot be meant.
 pub fn findings(units: &UnitSystem, case: &Case, panel: &Model) -> Vec<Finding> {
-    let plies = plies(units, case, panel);
-    let weights = plies.iter().flat_map(|ply| ply.warnings(units));
-    let mut texts: Vec<String> = Vec::new();
-    for text in weights.chain(slow_or_fast(units, case)).chain(soft_or_hard(units, case)) {
-        if !texts.contains(&text) {
-            texts.push(text);
+    let mut findings: Vec<Finding> = Vec::new();
+    for text in plies(units, case, panel).iter().flat_map(|ply| ply.warnings(units)) {
+        let finding = Finding::new("units", text);
+        if !findings.contains(&finding) {
+            findings.push(finding);
         }
     }
-    let units_of = texts.into_iter().map(|text| Finding::new("units", text));
-    let sizes = large(units, case, panel).map(|text| Finding::new("sizes", text));
-    units_of.chain(sizes).chain(striker(case)).collect()
+    let Case { sphere, speed, .. } = case;
+    findings.extend(blow::slow_or_fast(units, *speed));
+    findings.extend(blow::soft_or_hard(units, sphere.stiffness));
+    findings.extend(blow::large(units, sphere, "panel", reach(panel)));
+    findings.extend(striker(case));
+    findings
 }
 
-fn slow_or_fast(units: &UnitSystem, case: &Case) -> Option<String> {
-    let speed = case.speed / units.from_si(1.0, SPEED);
-    (!SPEEDS.contains(&speed)).then(|| {
-        format!(
-            "the speed of {} {} is {} m/s, and panels are struck at {} to {}:\n\
-             it is most likely not in the units of the file, {}",
-            number(case.speed),
-            unit(units, SPEED),
-            number(speed),
-            SPEEDS.start(),
-            SPEEDS.end(),
-            units.names().join("-")
-        )
-    })
-}
-
-fn soft_or_hard(units: &UnitSystem, case: &Case) -> Option<String> {
-    let stiffness = case.sphere.stiffness / units.from_si(MPA_BY_MM, CONTACT_STIFFNESS);
-    (!STIFFNESSES.contains(&stiffness)).then(|| {
-        format!(
-            "contact-stiffness is {:e} {}, {} MPa/mm, and yarns take {:e} to {:e}:\n\
-             it is most likely not in the units of the file, {}",
-            case.sphere.stiffness,
-            unit(units, CONTACT_STIFFNESS),
-            number(stiffness),
-            STIFFNESSES.start(),
-            STIFFNESSES.end(),
-            units.names().join("-")
-        )
-    })
-}
-
-/// A striker beside which the panel is small.
-fn large(units: &UnitSystem, case: &Case, panel: &Model) -> Option<String> {
-    let reach = panel.nodes.iter().map(|[x, y, _]| x.hypot(*y)).fold(0.0, f64::max);
-    let radius = case.sphere.radius;
-    (radius > LARGEST_RADIUS * reach).then(|| {
-        let ([radius, reach], unit) = ([radius, reach].map(number), unit(units, LENGTH));
-        format!(
-            "the {}'s radius of {radius} {unit} is more than {LARGEST_RADIUS} times what the panel reaches from the middle, {reach} {unit}:\n\
-             one of the two is most likely not in the units of the file, {}",
-            case.sphere.shape.name(),
-            units.names().join("-")
-        )
-    })
+/// How far the panel reaches from its middle along the axes: a corner is no measure, and a strip may be narrow.
+fn reach(panel: &Model) -> f64 {
+    panel.nodes.iter().flat_map(|[x, y, _]| [x.abs(), y.abs()]).fold(0.0, f64::max)
 }
 
 /// A density that is not steel's, where nothing says that it is meant.
@@ -163,9 +117,13 @@ mod tests {
         for (text, word, part) in [
             (scene(3.0, PRESET, &BLOW.replace("2.778", "5.556")), "striker", "is radius the diameter?"),
             (scene(3.0, PRESET, &BLOW.replace("0.692", "0.346")), "striker", "give striker-density"),
-            (scene(3.0, PRESET, &BLOW.replace("60.0", "0.06")), "units", "is 0.06000 m/s, and panels are struck at"),
+            (
+                scene(3.0, PRESET, &BLOW.replace("60.0", "0.06")),
+                "units",
+                "is 0.06000 m/s, and yarns and panels are struck at",
+            ),
             (scene(3.0, PRESET, &BLOW.replace("1e5", "1e2")), "units", "100.0 MPa/mm, and yarns take"),
-            (scene(2.0, PRESET, &tungsten.replace("2.778", "5.0")), "sizes", "more than 2 times what the panel"),
+            (scene(1.2, PRESET, BLOW), "sizes", "sphere's radius of 2.778 mm is more than what the panel reaches"),
             (scene(0.15, inches, BLOW), "units", "dtex, and yarns 10.00 to 60000"),
         ] {
             let (names, texts, _) = found(&text);

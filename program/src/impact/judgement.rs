@@ -1,7 +1,7 @@
 //! What is wrong with a run, as far as the yarn's scenes have it, and what to change; `docs/guides/impact.md` has the
 //! bounds.
 
-use super::outcome::Outcome;
+use super::outcome::{End, Outcome};
 use super::scene::{Case, Striker};
 use super::weights;
 use crate::common::units::{TIME, number, unit};
@@ -18,6 +18,10 @@ const PASSES: f64 = 4.0;
 /// All that is wrong with a run.
 pub fn judge(units: &UnitSystem, case: &Case, result: &Outcome) -> Vec<Finding> {
     let mut findings = before(units, case);
+    if result.end == End::Interrupted {
+        findings.push(judgement::interrupted());
+        return findings;
+    }
     findings.extend(hourglass(case, result));
     findings.extend(contact(case, result));
     findings.extend(viscosity(case, result));
@@ -44,8 +48,7 @@ fn hourglass_remedy(case: &Case) -> String {
 /// What is wrong before the first step.
 pub fn before(units: &UnitSystem, case: &Case) -> Vec<Finding> {
     let mut findings = judgement::units(case.zones.materials(), units);
-    let weight = weights::yarn(units, case).and_then(|yarn| yarn.warning(units));
-    findings.extend(weight.map(|text| Finding::new("units", text)));
+    findings.extend(weights::findings(units, case));
     findings
 }
 

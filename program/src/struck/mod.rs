@@ -2,6 +2,7 @@
 //! checkpoints, histories, and the command that runs a scene's cases. [`impact`](crate::impact) strikes a yarn,
 //! [`fabric`](crate::fabric) a panel.
 
+pub mod blow;
 pub mod checkpoint;
 pub mod command;
 pub mod history;

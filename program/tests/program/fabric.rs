@@ -494,7 +494,11 @@ fn a_run_that_is_interrupted_says_how_it_goes_on_and_does_so_with_the_same_bits(
             format!("output is {}, to which another run writes (toron.lock is locked); allowed: ", output.display());
         assert!(answer.status.code() == Some(2) && error.contains(&wanted), "{error}");
     };
-    let [_, log] = interrupted_after(4, program(&output, &text, 2), &history, second);
+    let [report, log] = interrupted_after(4, program(&output, &text, 2), &history, second);
+    let verdict = "interrupted: go on with --restart";
+    let summary = std::fs::read_to_string(output.join("summary.csv")).expect("a summary");
+    assert!(summary.contains(&format!(",{verdict},")), "{summary}");
+    assert!(report.contains(&format!("  {verdict}  ")) && !report.contains("too early to judge"), "{report}");
     assert!(log.contains("case scene was interrupted after time 0.0") && log.contains(" --restart\n"), "{log}");
     let read = |from: &Path| std::fs::read_to_string(from.join("scene.csv")).expect("a history");
     let first = read(&output);

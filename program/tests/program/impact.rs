@@ -16,9 +16,10 @@
 use std::path::{Path, PathBuf};
 
 use toron::Rotation;
-use toron_program::explicit::judgement::Finding;
+use toron::host::units::UnitSystem;
+use toron_program::explicit::judgement::{Finding, verdict};
 use toron_program::identify::parameter::Parameter;
-use toron_program::impact::judgement::{contact, hourglass};
+use toron_program::impact::judgement::{contact, hourglass, judge};
 use toron_program::impact::outcome::{End, OfYarn, Outcome, Sample};
 use toron_program::impact::run::{self, StruckYarn};
 use toron_program::impact::scene::{Case, Outputs, Scene, Striker, Zones};
@@ -313,6 +314,24 @@ fn much_hourglass_energy_is_warned_of() {
     result.measured.retain(|sample| sample.time < 0.0032);
     result.measured.last_mut().expect("some are left").energies.hourglass = largest;
     assert_eq!(hourglass(&case, &result), None);
+}
+
+/// A yarn whose run somebody has ended is not judged by what there is of it.
+#[test]
+fn an_interrupted_run_has_no_other_verdict() {
+    struct Impatient;
+    impl Observer<OfYarn> for Impatient {
+        fn interrupts(&self) -> bool {
+            true
+        }
+    }
+    let case = tiny("table_4_5.toml", "mf-120", 1);
+    let result = run::run(&case, &mut Impatient).expect("it begins");
+    assert_eq!(result.end, End::Interrupted);
+    let units = UnitSystem::parse("mm-g-ms").expect("a system");
+    assert_eq!(verdict(&judge(&units, &case, &result)), "interrupted: go on with --restart");
+    let line = toron_program::impact::summary::line(&units, &case, &result);
+    assert!(line.contains(&("verdict".to_string(), "interrupted: go on with --restart".to_string())), "{line:?}");
 }
 
 /// A contact that stores more than a twentieth of the energy is warned of.
@@ -625,7 +644,7 @@ fn types_are_told_by_key_and_value() {
 fn the_program_writes_what_came_of_a_scene() {
     let directory = Path::new(env!("CARGO_TARGET_TMPDIR")).join("impact");
     std::fs::create_dir_all(&directory).expect("a directory can be made");
-    let text = "units = \"mm-g-ms\"\nabscissa = \"elements\"\n[scene]\nhalf-length = 1.0\nheight = 0.115\nwidth = 0.5337\n\
+    let text = "units = \"mm-g-ms\"\nabscissa = \"elements\"\n[scene]\nhalf-length = 1.2\nheight = 0.115\nwidth = 0.5337\n\
                 layers = 8\nrows = 2\ncolumns = 4\nmass = 9.91e-3\nradius = 1.1\ncontact-stiffness = 1e6\nspeed = 120.0\n\
                 end = 2e-4\npictures = [1e-4]\nframes = 2\n[[case]]\nname = \"a\"\n[[case]]\nname = \"b\"\nrows = 1\n\
                 [[case]]\nname = \"c-of-a-name-that-is-longer-than-a-table-has-room-for\"\nstriker = \"driven\"\n";
