@@ -9,8 +9,8 @@ use crate::identify::command::{lock, require_new};
 use crate::identify::report::line;
 use toron_shared::console::print;
 use toron_shared::error::Error;
-use toron_shared::text_table::write_csv;
 use toron_shared::kept_file;
+use toron_shared::text_table::write_csv;
 
 const FIGURES: &str = "strengths.csv";
 
