@@ -39,7 +39,7 @@ impl PlyWeight {
         }
     }
 
-    /// Of plies, as `panel 0.1769 kg/m²; warp and weft 651.4 dtex of 1351 kg/m³`; yarns are told apart where they differ.
+    /// Of plies, as `panel 0.1769 kg/m²; warp and weft 651.4 dtex of 1351 kg/m³`, told apart where they differ.
     pub fn text(plies: &[PlyWeight]) -> String {
         let all: f64 = plies.iter().map(|ply| ply.areal_density).sum();
         let mut yarns: Vec<String> = plies.iter().map(PlyWeight::yarns).collect();
