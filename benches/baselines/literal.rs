@@ -15,7 +15,7 @@ pub fn point(yarn: &Yarn<f64>, f: &Matrix3<f64>, state: &[f64; HYPERELASTIC_STAT
         return ([0.0; 6], *state, status::OK);
     }
     let jacobian = f.determinant();
-    if !(jacobian > 0.0) {
+    if jacobian.is_nan() || jacobian <= 0.0 {
         return ([0.0; 6], *state, status::INVERTED);
     }
     let c = f.transpose() * f;
