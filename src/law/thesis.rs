@@ -2,7 +2,7 @@
 //!
 //! Nothing of the library calls it. It is written for any number type, without regard to speed or to rounding: the tests hold the
 //! library's stress against it in 320 binary digits, the benchmark in double precision, where its cancellations show.
-//! [`hyperelastic`](super::hyperelastic) has the form that is computed, [`kinematics`](super::kinematics) why it does not cancel.
+//! [`hyperelastic`](super::hyperelastic) has the form that is computed, `kinematics` why it does not cancel.
 
 use nalgebra::{ClosedAddAssign, ClosedDivAssign, ClosedMulAssign, ClosedSubAssign, Matrix3, Scalar, Vector3};
 use num_traits::{One, Zero};

@@ -26,7 +26,7 @@ pub fn write(place: &Path, contents: impl FnOnce(&mut BufWriter<File>) -> io::Re
 /// The same for a file that nobody changes by hand, such as a mesh: none is kept.
 ///
 /// # Errors
-/// As for [`write`].
+/// As for [`write()`].
 pub fn overwrite(place: &Path, contents: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>) -> Result<(), Error> {
     put(place, contents, false)
 }

@@ -313,7 +313,7 @@ impl Reader<'_> {
     /// The material of this law's table.
     ///
     /// # Errors
-    /// As for [`Source::material_of_law`].
+    /// As for [`material_of_law`].
     pub fn material(&self, law: &'static str, table: &Option<Spanned<MaterialFile>>) -> Result<Material, Error> {
         // A property of the scene is wrong only beside the failure of a case: that is the line to change.
         let place = |name: &str| self.own.given(law, name).or(self.own.failure.as_ref().map(Spanned::span));
