@@ -134,19 +134,18 @@ impl<R: Real> FibreFrame<R> {
         let m = [direction[0] / length, direction[1] / length, direction[2] / length];
         // Two axes across m, without a branch and without loss of digits for m near −x (Duff et al., J. Comput. Graph. Tech.
         // 6(1), 2017). For m along the first coordinate axis they are the other two coordinate axes.
-        // Their second and third component are 1 − m2²/(1 + |m1|) and 1 − m3²/(1 + |m1|). Where that cancels, for m near the other
-        // two axes, |m|² = 1 makes them sums of positive numbers.
+        // Their second and third component are 1 − m2²/(1 + |m1|) and 1 − m3²/(1 + |m1|). With |m|² = 1 that of the larger of the two
+        // squares is a sum of positive numbers, which keeps its digits for m near that axis, where the difference cancels.
         let sign = R::select(m[0].lt(zero), -one, one);
         let size = m[0].abs();
         let a = one / (one + size);
         let b = m[1] * m[2] * a;
         let [square_2, square_3] = [m[1] * m[1], m[2] * m[2]];
-        let diagonal = |own: R, other: R| {
-            let taken = own * a;
-            R::select(taken.lt(R::splat(0.5)), one - taken, other.mul_add(a, size))
-        };
-        let t1 = [-(sign * m[1]), diagonal(square_2, square_3), -b];
-        let t2 = [-m[2], -(sign * b), sign * diagonal(square_3, square_2)];
+        let (second, smaller) = (square_3.lt(square_2), square_2.min(square_3));
+        let [difference, sum] = [(-smaller).mul_add(a, one), smaller.mul_add(a, size)];
+        let [diagonal_2, diagonal_3] = [R::select(second, sum, difference), R::select(second, difference, sum)];
+        let t1 = [-(sign * m[1]), diagonal_2, -b];
+        let t2 = [-m[2], -(sign * b), sign * diagonal_3];
         (FibreFrame { m, t1, t2 }, usable)
     }
 
