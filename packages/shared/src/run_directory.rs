@@ -119,9 +119,11 @@ impl Locked {
     pub fn claim(self) -> Result<RunDirectory, Error> {
         let Locked { path, mut lock, text: [old, new], foreign } = self;
         for entry in std::fs::read_dir(&path).map_err(|error| file_error(&path, &error))? {
-            let name = entry.map_err(|error| file_error(&path, &error))?.file_name();
-            if name.to_str().is_some_and(|name| foreign.iter().any(|own| is_of(name, own, 0))) {
-                set_aside_if_there(&path.join(name))?;
+            let entry = entry.map_err(|error| file_error(&path, &error))?;
+            let is_own = entry.file_name().to_str().is_some_and(|name| foreign.iter().any(|own| is_of(name, own, 0)));
+            // What is no regular file cannot be written to, and is named then.
+            if is_own && entry.file_type().is_ok_and(|kind| kind.is_file()) {
+                set_aside_if_there(&entry.path())?;
             }
         }
         if new != old {
