@@ -528,6 +528,9 @@ fn cases_that_have_ended_are_not_begun_again() {
     for stale in ["first-panel-7.png", "second-panel-7.png", "second.checkpoint"] {
         std::fs::write(output.join(stale), "").expect("a file");
     }
+    // Without a run that has written there, they would be a user's own.
+    let owner = r#"{"command":"weave","scene":"weave.toml","names":["weave"]}"#;
+    std::fs::write(output.join("toron.lock"), format!("{owner}\n")).expect("a file");
     let second = output.join("second.csv");
     let [report, log] = interrupted_after(4, program(&output, &text, 2), &second, || ());
     let of = |report: &str| report.lines().find(|line| line.starts_with("first ")).expect("a case").to_string();
