@@ -12,7 +12,7 @@
 use std::collections::BTreeMap;
 use std::fmt;
 
-use nalgebra::Matrix3;
+use nalgebra::{Matrix3, Matrix6};
 use serde::Deserialize;
 use toron::Point;
 use toron::law::parameters::HYPERELASTIC_PROPERTIES;
@@ -128,6 +128,48 @@ impl Case {
             }
         }
         Some((error / size).sqrt())
+    }
+
+    /// Whether rounding F may take I_tc to the other side of 0, where the curvature of the compaction's energy changes without bound.
+    pub fn at_the_kink_of_compaction(&self) -> bool {
+        self.itc.value() != 0.0 && self.itc.value().abs() <= f64::EPSILON * self.sensitivity_invariants[1].value()
+    }
+
+    /// What the rounding of dS/dE does to DDSDDE, over |DDSDDE|: the root mean square of what half a unit in the last place of
+    /// each entry becomes when it is pushed forward.
+    pub fn rounding_of_material_tangent(&self) -> f64 {
+        const PAIRS: [(usize, usize); 6] = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)];
+        let (f, jacobian) = (self.deformation_gradient(), self.deformation_gradient().determinant());
+        let stress = {
+            let [s11, s22, s33, s12, s13, s23] = self.sigma.each_ref().map(Truth::value);
+            Matrix3::new(s11, s12, s13, s12, s22, s23, s13, s23, s33)
+        };
+        let jaumann = self.ddsdde.as_ref().map(|rows| rows.each_ref().map(|row| row.each_ref().map(Truth::value)));
+        let Some(jaumann) = jaumann else { return 0.0 };
+        let truesdell = Matrix6::from_fn(|a, b| {
+            let ((i, j), (k, l)) = (PAIRS[a], PAIRS[b]);
+            let one = |x: usize, y: usize| f64::from(x == y);
+            let turned = one(i, k) * stress[(j, l)] + one(i, l) * stress[(j, k)];
+            jaumann[a][b] - 0.5 * (turned + one(j, k) * stress[(i, l)] + one(j, l) * stress[(i, k)])
+        });
+        let forward = |f: &Matrix3<f64>| {
+            Matrix6::from_fn(|a, b| {
+                let ((i, j), (k, l)) = (PAIRS[a], PAIRS[b]);
+                f[(i, k)] * f[(j, l)] + if k == l { 0.0 } else { f[(i, l)] * f[(j, k)] }
+            })
+        };
+        let back = forward(&f.try_inverse().expect("F has an inverse"));
+        let (material, forward) = (jacobian * back * truesdell * back.transpose(), forward(&f));
+        let mut sum = 0.0;
+        for (i, x) in forward.column_iter().enumerate() {
+            for (j, y) in forward.column_iter().enumerate().take(i + 1) {
+                // |x⊗y + y⊗x|², or |x⊗x|².
+                let pair = x.norm_squared() * y.norm_squared();
+                let square = if i == j { pair } else { 2.0 * (pair + x.dot(&y).powi(2)) };
+                sum += square * (material[(i, j)] * f64::EPSILON / 2.0).powi(2) / 3.0;
+            }
+        }
+        sum.sqrt() / (jacobian * Matrix6::from_fn(|a, b| jaumann[a][b]).norm())
     }
 
     /// |σ − truth|/(|truth| + K), which is `back` times ε, and |σ − truth|/|truth|, 0 where the truth is.

@@ -160,30 +160,30 @@ fn entries_in_double_precision() {
     meets_the_truth("vumat", &POLAR);
 }
 
-/// DDSDDE of the entries that return another tangent, which is pushed forward: beside the kinks of `distortion` the strong shears
-/// magnify the rounding of dS/dE most. The exact dS/dE, rounded and pushed forward exactly, has an error of 1.05e-12 in the worst
-/// case, and 1.53e-12 are found; MFront's factors √2 round it otherwise. Where the yarn is pressed to a thousandth, the fourth power of that comes in.
+/// DDSDDE of the entries that return another tangent, which is pushed forward exactly: a strong shear magnifies the rounding of
+/// dS/dE. What that alone does decides, for the error of the exact dS/dE, rounded, is by chance: in the worst shear its root mean
+/// square is 2.1e-12, and one in ten of 200 roundings exceeds 2.5e-12. Found are at most 1.65 times the root mean square in shears,
+/// 3.7 times where the section is distorted or the yarn pressed flat, and 5.5e-15 where nothing is magnified.
 #[test]
 fn tangents_that_are_pushed_forward() {
-    tangent_through("mgis", 1e-12);
-    tangent_through("calculix", 1.8e-12);
-}
-
-fn tangent_through(via: &str, bound: f64) {
-    let lines = evaluated(&["--via", via, "--tangent"], include_bytes!("../../../tests/truth/points.jsonl"));
-    let mut worst = 0.0_f64;
-    for (case, line) in cases().iter().zip(&lines) {
-        let order = [0, 1, 2, 3, 5, 4];
-        let rows = order.map(|i| order.map(|j| number(&line["ddsdde"][i][j])));
-        if let (Some(error), false) = (case.tangent_error(&rows), case.category == "distortion") {
-            let flattened = case.category == "flattened";
-            let bound = if flattened { 1e-3 } else { bound };
-            assert!(error <= bound, "{via}, case {}, {}: {error:e}", case.id, case.category);
-            worst = if flattened { worst } else { worst.max(error) };
+    for via in ["mgis", "calculix"] {
+        let lines = evaluated(&["--via", via, "--tangent"], include_bytes!("../../../tests/truth/points.jsonl"));
+        let mut worst = [0.0_f64; 2];
+        for (case, line) in cases().iter().zip(&lines) {
+            let order = [0, 1, 2, 3, 5, 4];
+            let rows = order.map(|i| order.map(|j| number(&line["ddsdde"][i][j])));
+            let (Some(error), false) = (case.tangent_error(&rows), case.at_the_kink_of_compaction()) else { continue };
+            let rounding = case.rounding_of_material_tangent();
+            let roundings = if ["distortion", "flattened"].contains(&case.category.as_str()) { 4.4 } else { 2.0 };
+            let bound = 6.6e-15 + roundings * rounding;
+            assert!(error <= bound, "{via}, case {}, {}: {error:e}, allowed {bound:e}", case.id, case.category);
+            let magnified = usize::from(rounding > 1e-15);
+            worst[magnified] = worst[magnified].max(if magnified == 1 { error / rounding } else { error });
         }
+        let [plain, magnified] = worst;
+        println!("tangent through {via}: {plain:.1e}; where F magnifies, {magnified:.2} roundings of dS/dE");
+        assert!(plain > 0.0 && magnified > 0.0, "{via}");
     }
-    println!("tangent through {via}: {worst:.1e}");
-    assert!(worst > 0.0);
 }
 
 #[test]
