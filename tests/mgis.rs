@@ -382,8 +382,8 @@ fn answer_of<L: Law<f64>>(properties: &[f64], f0: &Matrix3<f64>, f1: &Matrix3<f6
     let point = Points {
         f_old: components(f0),
         f_new: components(f1),
-        state_old: state.as_ptr(),
-        state_new: new.as_mut().as_mut_ptr(),
+        state_old: L::parts(state.as_ptr(), 1),
+        state_new: L::parts_mut(new.as_mut().as_mut_ptr(), 1),
         stress: std::array::from_fn(|c| stress.as_mut_ptr().wrapping_add(c)),
         ..Points::without_arrays(1, 1)
     };

@@ -194,8 +194,8 @@ fn step<M: Tried>(f_old: &Matrix3<f64>, f: &Matrix3<f64>, state: &[f64], measure
     let points = Points {
         f_old: old,
         f_new: now,
-        state_old: state.as_ptr(),
-        state_new: new.as_mut_ptr(),
+        state_old: User::<M, f64>::parts(state.as_ptr(), 1),
+        state_new: User::<M, f64>::parts_mut(new.as_mut_ptr(), 1),
         stress: array::from_fn(|c| stress_.wrapping_add(c)),
         tangent: tangent.as_mut_ptr().cast(),
         density: DENSITY,

@@ -1,18 +1,14 @@
 //! What a host asks of a law: its description, its preparation from properties, and a step at many points. A host that is written for
 //! any [`Law`] names none.
 
-use core::ptr::{null, null_mut};
-
-use super::block::linear::LinearPointers;
-use super::block::{Pointers, Precision};
+pub use super::block::Points;
+use super::block::{PARTS, Precision, evaluate, parts};
 use super::description::{self, Description};
 use super::error::Error;
 use super::hyperelastic::Hyperelastic;
 use super::kinematics::FibreFrame;
-use super::linear_elastic::{Criterion, LinearElastic, Rotation};
-use super::number::level::Level;
-use super::state::{ENERGIES, FAILURE_INDEX, HYPERELASTIC_STATE, INVARIANTS, LINEAR_ELASTIC_STATE};
-use super::tangent::Measure;
+use super::linear_elastic::LinearElastic;
+use super::state::{HYPERELASTIC_PARTS, HYPERELASTIC_STATE, LINEAR_ELASTIC_STATE};
 
 /// A law, prepared from its properties.
 ///
@@ -23,6 +19,8 @@ pub unsafe trait Law<T: Precision>: Copy {
     const DESCRIPTION: Description;
     /// Whether a point may have a failure limit of its own, [`Points::limit`].
     const HAS_LIMIT: bool = false;
+    /// The number of variables in each part of the state that may be an array of its own; the last one has the latch.
+    const PARTS: &'static [usize] = &[Self::DESCRIPTION.state.len()];
     /// The state variables of a point.
     type State: Copy + AsRef<[T]> + AsMut<[T]>;
 
@@ -42,92 +40,34 @@ pub unsafe trait Law<T: Precision>: Copy {
     /// fibre: for hosts that compute their time step and contact stiffness from two elastic constants.
     fn bulk_and_shear(&self) -> [T; 2];
 
+    /// The parts of a state whose variables are the rows of one array; null if that is.
+    #[inline(always)]
+    fn parts(state: *const T, leading_dimension: usize) -> [*const T; PARTS] {
+        parts(state, leading_dimension, Self::PARTS)
+    }
+
+    /// The same for a state to be written.
+    #[inline(always)]
+    fn parts_mut(state: *mut T, leading_dimension: usize) -> [*mut T; PARTS] {
+        Self::parts(state, leading_dimension).map(<*const T>::cast_mut)
+    }
+
     /// Evaluates a step at every point. Returns the worst (most negative) of the status codes.
     ///
     /// # Errors
-    /// A null deformation gradient, a leading dimension below n, a density that is not positive if the wave speed is requested.
+    /// A null deformation gradient, null axes for a frame that is kept there, a leading dimension with which entries of an array overlap,
+    /// a density that is not positive if the wave speed is requested.
     ///
     /// # Safety
     /// The points are valid, see [`Points`].
     unsafe fn step(&self, points: &Points<T>) -> Result<i32, Error>;
 }
 
-/// Points of a host in component-major arrays, `n` values next to each other in each component. Arrays that are null
-/// are absent: an old state is 0 then, and an output is not computed. F at the end must be there, and F at the start for a law that reads
-/// it.
-///
-/// # Safety
-/// Points are **valid** if every pointer that is not null points to as many values as its field, `n` and the leading dimension say, valid
-/// for reading or writing; and if outputs overlap nothing but, exactly, the old state that they replace. [`Law::step`] is unsafe, since
-/// only its caller can know this; it checks the leading dimension, and that what the law needs is not null.
-#[derive(Clone, Copy, Debug)]
-pub struct Points<T> {
-    pub n: usize,
-    /// The distance from one state variable to the next, and from one component of the tangent to the next.
-    pub leading_dimension: usize,
-    /// F at the start of the step, by columns; read only by a law whose description says so.
-    pub f_old: [*const T; 9],
-    /// F at its end, by columns.
-    pub f_new: [*const T; 9],
-    /// The fibre direction of each point, of any length; null for that of the properties.
-    pub fibre: [*const T; 3],
-    /// A failure limit of each point: the true fibre strain, ln(1 + ε_lim), of the hyperelastic law, or the strength of the linear elastic
-    /// one; null or 0 for that of the properties.
-    pub limit: *const T,
-    /// The law's state variables, old and new.
-    pub state_old: *const T,
-    pub state_new: *mut T,
-    /// The reference density; read only for the wave speed.
-    pub density: T,
-    /// Cauchy stress 11 22 33 12 23 31.
-    pub stress: [*mut T; 6],
-    /// A bound of the wave speed.
-    pub wave_speed: *mut T,
-    /// A status code for each point.
-    pub status: *mut i32,
-    /// For each point 1, or 0 if it has failed or cannot be evaluated.
-    pub active: *mut T,
-    /// The tangent of `measure`: entry (row, column) is component 6 row + column, or 9 row + column where the measure is 9×9.
-    pub tangent: *mut T,
-    pub measure: Measure,
-    /// Choices of a law that has them.
-    pub rotation: Rotation,
-    pub criterion: Criterion,
-    /// The instructions to use, or the best that the processor has if those are lower; `None` for the best.
-    pub level: Option<Level>,
-}
-
-impl<T: Precision> Points<T> {
-    /// `n` points without arrays yet: for the fields that a host does not name.
-    #[inline(always)]
-    pub fn without_arrays(n: usize, leading_dimension: usize) -> Self {
-        Points {
-            n,
-            leading_dimension,
-            f_old: [null(); 9],
-            f_new: [null(); 9],
-            fibre: [null(); 3],
-            limit: null(),
-            state_old: null(),
-            state_new: null_mut(),
-            density: T::splat(0.0),
-            stress: [null_mut(); 6],
-            wave_speed: null_mut(),
-            status: null_mut(),
-            active: null_mut(),
-            tangent: null_mut(),
-            measure: Measure::Jaumann,
-            rotation: Rotation::Fibre,
-            criterion: Criterion::LargestPrincipal,
-            level: None,
-        }
-    }
-}
-
-// SAFETY: the state is that of the description, and the block's kernels access what `Pointers` says.
+// SAFETY: the state is that of the description, and the block's kernels access what `Points` says.
 unsafe impl<T: Precision> Law<T> for Hyperelastic<T> {
     const DESCRIPTION: Description = description::HYPERELASTIC;
     const HAS_LIMIT: bool = true;
+    const PARTS: &'static [usize] = &HYPERELASTIC_PARTS;
     type State = [T; HYPERELASTIC_STATE];
 
     fn fresh() -> Self::State {
@@ -151,42 +91,12 @@ unsafe impl<T: Precision> Law<T> for Hyperelastic<T> {
 
     #[inline(always)]
     unsafe fn step(&self, points: &Points<T>) -> Result<i32, Error> {
-        let row = |first: usize| first.wrapping_mul(points.leading_dimension);
-        // A state that is absent is so in all its parts.
-        let old = |first: usize| match points.state_old.is_null() {
-            true => null(),
-            false => points.state_old.wrapping_add(row(first)),
-        };
-        let new = |first: usize| match points.state_new.is_null() {
-            true => null_mut(),
-            false => points.state_new.wrapping_add(row(first)),
-        };
-        let pointers = Pointers {
-            deformation_gradient: points.f_new,
-            fibre: points.fibre,
-            limit: points.limit,
-            energies_old: old(ENERGIES),
-            invariants_old: old(INVARIANTS),
-            failure_old: old(FAILURE_INDEX),
-            density: points.density,
-            stress: points.stress,
-            energies: new(ENERGIES),
-            invariants: new(INVARIANTS),
-            failure: new(FAILURE_INDEX),
-            wave_speed: points.wave_speed,
-            status: points.status,
-            active: points.active,
-            tangent: points.tangent,
-            measure: points.measure,
-            level: points.level,
-            ..Pointers::without_arrays(points.n, points.leading_dimension)
-        };
-        // SAFETY: the arrays are those of valid points; the parts of the state are where the table of its rows has them.
-        unsafe { self.raw_block(&pointers) }
+        // SAFETY: the points are valid.
+        unsafe { evaluate(self, points) }
     }
 }
 
-// SAFETY: the state is that of the description, and the block's kernels access what `LinearPointers` says.
+// SAFETY: the state is that of the description, and the block's kernels access what `Points` says.
 unsafe impl<T: Precision> Law<T> for LinearElastic<T> {
     const DESCRIPTION: Description = description::LINEAR_ELASTIC;
     const HAS_LIMIT: bool = true;
@@ -212,26 +122,7 @@ unsafe impl<T: Precision> Law<T> for LinearElastic<T> {
 
     #[inline(always)]
     unsafe fn step(&self, points: &Points<T>) -> Result<i32, Error> {
-        let pointers = LinearPointers {
-            f_old: points.f_old,
-            f_new: points.f_new,
-            fibre: points.fibre,
-            limit: points.limit,
-            state_old: points.state_old,
-            state_new: points.state_new,
-            density: points.density,
-            stress: points.stress,
-            wave_speed: points.wave_speed,
-            status: points.status,
-            active: points.active,
-            tangent: points.tangent,
-            measure: points.measure,
-            rotation: points.rotation,
-            criterion: points.criterion,
-            level: points.level,
-            ..LinearPointers::without_arrays(points.n, points.leading_dimension)
-        };
-        // SAFETY: the arrays are those of valid points.
-        unsafe { self.raw_block(&pointers) }
+        // SAFETY: the points are valid, and so they are with fewer arrays.
+        unsafe { evaluate(self, &LinearElastic::in_frame(points)?) }
     }
 }

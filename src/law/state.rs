@@ -31,6 +31,15 @@ pub const FAILURE_INDEX: usize = 8;
 pub const FAILED: usize = 9;
 pub const ALIVE: usize = 10;
 
+/// The number of variables in the parts of that state, which may be arrays of their own, and the places of these parts: energies,
+/// invariants, and failure with index, latch and flag.
+pub const HYPERELASTIC_PARTS: [usize; 3] = [4, 4, 3];
+pub mod part {
+    pub const ENERGIES: usize = 0;
+    pub const INVARIANTS: usize = 1;
+    pub const FAILURE: usize = 2;
+}
+
 /// The rows of the latch and of the flag for element deletion, which every law has.
 pub const FAILED_ROW: StateVariable =
     row("failed", "failed", NUMBER, "the latch: 1 once the point has failed; 0 at the start");

@@ -5,7 +5,8 @@ use std::fmt::Debug;
 use nalgebra::Matrix3;
 use toron::Level;
 use toron::Real;
-use toron::law::block::{Pointers, Precision, components, components_mut};
+use toron::law::block::{Points, Precision, components, components_mut};
+use toron::law::interface::Law;
 use toron::law::state::{ENERGIES, FAILURE_INDEX, HYPERELASTIC_STATE, INVARIANTS};
 use toron::{Hyperelastic, Request};
 
@@ -269,25 +270,21 @@ pub fn run<T: Number>(law: &Hyperelastic<T>, inputs: &[Input<T>], call: &Call<T>
         Old::Apart => [ENERGIES, INVARIANTS, FAILURE_INDEX].map(|row| old.pointer(row, true)),
         Old::Null => [std::ptr::null_mut(); 3],
     };
-    let block = Pointers {
-        deformation_gradient: components(gradient.pointer(0, true), stride),
+    let block = Points {
+        f_new: components(gradient.pointer(0, true), stride),
         fibre: components(fibre.pointer(0, call.fibres), stride),
-        energies_old,
-        invariants_old,
-        failure_old,
+        state_old: [energies_old, invariants_old, failure_old].map(<*mut T>::cast_const),
         density: call.density,
         stress: components_mut(stress.pointer(0, asked.stress), stride),
-        energies,
-        invariants,
-        failure,
+        state_new: [energies, invariants, failure],
         modes: modes.pointer(0, asked.modes),
         wave_speed: wave.pointer(0, asked.wave_speed),
         status: if asked.status { codes[call.offset..].as_mut_ptr() } else { std::ptr::null_mut() },
         level: Some(call.level),
-        ..Pointers::without_arrays(n, stride)
+        ..Points::without_arrays(n, stride)
     };
     // SAFETY: every array has its components with this leading dimension, and only the state may stand twice.
-    let worst = unsafe { law.raw_block(&block) }.expect("a good call");
+    let worst = unsafe { law.step(&block) }.expect("a good call");
 
     let outputs = (0..n).map(|i| Output {
         bits: std::array::from_fn(|c| match c {

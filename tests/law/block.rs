@@ -19,7 +19,8 @@ use toron::Measure;
 use toron::Point;
 use toron::Real;
 use toron::host::c;
-use toron::law::block::Pointers;
+use toron::law::block::Points;
+use toron::law::interface::Law;
 use toron::law::parameters::PRESETS;
 use toron::law::state::{FAILED, FAILURE_INDEX, HYPERELASTIC_STATE};
 use toron::law::status;
@@ -955,11 +956,11 @@ fn a_null_gradient_is_refused_and_no_points_are_none() {
     assert_eq!(law.block(empty), Ok(status::OK));
     let stress = toron::law::block::components_mut(owned.stress.as_mut_ptr(), 3);
     for missing in 0..9 {
-        let mut deformation_gradient = toron::law::block::components(owned.gradient.as_ptr(), 3);
-        deformation_gradient[missing] = std::ptr::null();
-        let block = Pointers { deformation_gradient, stress, ..Pointers::without_arrays(3, 3) };
+        let mut f_new = toron::law::block::components(owned.gradient.as_ptr(), 3);
+        f_new[missing] = std::ptr::null();
+        let block = Points { f_new, stress, ..Points::without_arrays(3, 3) };
         // SAFETY: each pointer is null or has three values a component.
-        assert_eq!(unsafe { law.raw_block(&block) }, Err(Error::Null { name: "deformation_gradient" }));
+        assert_eq!(unsafe { law.step(&block) }, Err(Error::Null { name: "f_new" }));
         assert!(owned.stress.iter().all(|&x| x == 0.0));
     }
 }

@@ -5,7 +5,8 @@ use crate::common::block::levels;
 use crate::common::deformations::{Ranges, deformation, samples};
 use nalgebra::Matrix3;
 use toron::host::c::{Block, hyperelastic_block_with_properties_f64};
-use toron::law::block::{Pointers, Strides, components, components_mut};
+use toron::law::block::{Points, Strides, components, components_mut};
+use toron::law::interface::Law;
 use toron::law::state::{FAILED, HYPERELASTIC_STATE};
 use toron::law::status;
 use toron::{Arrays, Hyperelastic, Level, Measure};
@@ -89,16 +90,12 @@ fn by_points(level: Level, in_place: bool) -> Results {
     let (matrix, to) = (gradient.as_ptr().cast::<f64>(), state.as_mut_ptr().cast::<f64>());
     let from = if in_place { to.cast_const() } else { old.as_ptr().cast() };
     let entry = |row: usize, column: usize| matrix.wrapping_add(3 * row + column);
-    let block = Pointers {
-        deformation_gradient: std::array::from_fn(|c| entry(c % 3, c / 3)),
-        energies_old: from,
-        invariants_old: from.wrapping_add(4),
-        failure_old: from.wrapping_add(8),
+    let block = Points {
+        f_new: std::array::from_fn(|c| entry(c % 3, c / 3)),
+        state_old: Hyperelastic::parts(from, 1),
         density: 1.35e-9,
         stress: components_mut(stress.as_mut_ptr().cast(), 1),
-        energies: to,
-        invariants: to.wrapping_add(4),
-        failure: to.wrapping_add(8),
+        state_new: Hyperelastic::parts_mut(to, 1),
         modes: modes.as_mut_ptr().cast(),
         wave_speed: wave.as_mut_ptr(),
         tangent: tangent.as_mut_ptr().cast(),
@@ -106,11 +103,20 @@ fn by_points(level: Level, in_place: bool) -> Results {
         status: status.as_mut_ptr(),
         active: active.as_mut_ptr(),
         level: Some(level),
-        strides: Strides { deformation_gradient: 9, fibre: 3, limit: 1, state: 11, stress: 6, modes: 24, tangent: 36 },
-        ..Pointers::without_arrays(POINTS, 1)
+        strides: Strides {
+            deformation_gradient: 9,
+            fibre: 3,
+            limit: 1,
+            axes: 9,
+            state: 11,
+            stress: 6,
+            modes: 24,
+            tangent: 36,
+        },
+        ..Points::without_arrays(POINTS, 1)
     };
     // SAFETY: every array has a row for each point.
-    unsafe { law().raw_block(&block) }.expect("a good call");
+    unsafe { law().step(&block) }.expect("a good call");
     let point = |i: usize| {
         let row = [&stress[i][..], &state[i], &modes[i], &tangent[i], &[wave[i]], &[active[i]]].concat();
         row.iter().map(|x| x.to_bits()).collect()
@@ -134,18 +140,18 @@ fn groups_may_have_leading_dimensions_of_their_own() {
     for level in levels() {
         let columns: Vec<f64> = (0..9).flat_map(|c| f.iter().map(move |f| f[c]).chain([0.0; 11])).collect();
         let (mut stress, mut energies, mut tangent) = (vec![0.0; 6 * 100], vec![0.0; 4 * 80], vec![0.0; 36 * POINTS]);
-        let block = Pointers {
-            deformation_gradient: components(columns.as_ptr(), POINTS + 11),
+        let block = Points {
+            f_new: components(columns.as_ptr(), POINTS + 11),
             stress: components_mut(stress.as_mut_ptr(), 100),
-            energies: energies.as_mut_ptr(),
+            state_new: [energies.as_mut_ptr(), std::ptr::null_mut(), std::ptr::null_mut()],
             tangent: tangent.as_mut_ptr(),
             measure: Measure::Material,
             level: Some(level),
             tangent_leading_dimension: POINTS,
-            ..Pointers::without_arrays(POINTS, 80)
+            ..Points::without_arrays(POINTS, 80)
         };
         // SAFETY: every array has its components at its own distance.
-        unsafe { law().raw_block(&block) }.expect("a good call");
+        unsafe { law().step(&block) }.expect("a good call");
         let wanted = by_components(level).0;
         for i in (0..POINTS).filter(|i| ![3, 50].contains(i)) {
             let found = (0..6).map(|c| stress[100 * c + i]).chain((0..4).map(|c| energies[80 * c + i]));
@@ -156,14 +162,14 @@ fn groups_may_have_leading_dimensions_of_their_own() {
     }
     // A leading dimension below n is refused for the group that has it.
     let (f, mut tangent) = ([1.0; 9 * 4], [0.0; 36 * 4]);
-    let block = Pointers {
-        deformation_gradient: components(f.as_ptr(), 4),
+    let block = Points {
+        f_new: components(f.as_ptr(), 4),
         tangent: tangent.as_mut_ptr(),
         tangent_leading_dimension: 3,
-        ..Pointers::without_arrays(4, 4)
+        ..Points::without_arrays(4, 4)
     };
     // SAFETY: as above.
-    let error = unsafe { law().raw_block(&block) }.expect_err("too small");
+    let error = unsafe { law().step(&block) }.expect_err("too small");
     assert_eq!(error.code(), status::BAD_LEADING_DIMENSION);
 }
 

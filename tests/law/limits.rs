@@ -9,7 +9,8 @@ use toron::host::c::{
     Block, Layout, LinearBlock, Point, hyperelastic_block_with_properties_f64, hyperelastic_point_with_properties_f64,
     linear_elastic_block_with_properties_f64,
 };
-use toron::law::block::{Pointers, Strides, components, components_mut};
+use toron::law::block::{Points, Strides, components, components_mut};
+use toron::law::interface::Law;
 use toron::law::parameters::SIGMA_LIM;
 use toron::law::state::{FAILED, FAILURE_INDEX, HYPERELASTIC_STATE};
 use toron::law::status;
@@ -135,26 +136,25 @@ fn limits_stand_where_the_caller_says() {
     let mut state = vec![[0.0; STATE]; n];
     let mut stress = vec![[0.0; 6]; n];
     let to = state.as_mut_ptr().cast::<f64>();
-    let rows = Pointers {
-        deformation_gradient: components(gradient.as_ptr().cast(), 1),
+    let rows = Points {
+        f_new: components(gradient.as_ptr().cast(), 1),
         limit: limits.as_ptr().cast::<f64>().wrapping_add(1),
         stress: components_mut(stress.as_mut_ptr().cast(), 1),
-        energies: to,
-        invariants: to.wrapping_add(4),
-        failure: to.wrapping_add(8),
+        state_new: Hyperelastic::parts_mut(to, 1),
         strides: Strides {
             deformation_gradient: 9,
             fibre: 3,
             limit: 3,
+            axes: 9,
             state: STATE,
             stress: 6,
             modes: 24,
             tangent: 36,
         },
-        ..Pointers::without_arrays(n, 1)
+        ..Points::without_arrays(n, 1)
     };
     // SAFETY: every array has a row for each point.
-    unsafe { law.raw_block(&rows) }.expect("a good call");
+    unsafe { law.step(&rows) }.expect("a good call");
     let mut of_c = state.clone();
     of_c.fill([7.0; STATE]);
     let to = of_c.as_mut_ptr().cast::<f64>();
@@ -350,24 +350,20 @@ fn a_point_is_as_a_block_of_it() {
             point.code =
                 unsafe { hyperelastic_point_with_properties_f64(PROPERTIES.as_ptr(), 11, &arrays, null_mut(), 0) };
             let state = block.state.as_mut_ptr();
-            let arrays = Pointers {
+            let arrays = Points {
                 density: 1.35e-9,
-                deformation_gradient: components(f.as_ptr(), 1),
+                f_new: components(f.as_ptr(), 1),
                 limit: &raw const own,
-                energies_old: state,
-                invariants_old: state.wrapping_add(4),
-                failure_old: state.wrapping_add(8),
-                energies: state,
-                invariants: state.wrapping_add(4),
-                failure: state.wrapping_add(8),
+                state_old: Hyperelastic::parts(state, 1),
+                state_new: Hyperelastic::parts_mut(state, 1),
                 stress: components_mut(block.stress.as_mut_ptr(), 1),
                 tangent: block.tangent.as_mut_ptr(),
                 wave_speed: &raw mut block.wave_speed,
                 measure: Measure::Material,
-                ..Pointers::without_arrays(1, 1)
+                ..Points::without_arrays(1, 1)
             };
             // SAFETY: arrays of one point.
-            block.code = unsafe { law.raw_block(&arrays) }.expect("a good call");
+            block.code = unsafe { law.step(&arrays) }.expect("a good call");
             assert_eq!((point.code, point.state[FAILED]), (block.code, block.state[FAILED]), "{i} {own}");
             let numbers =
                 |of: &Results| -> Vec<f64> { [&of.stress[..], &of.state, &of.tangent, &[of.wave_speed]].concat() };

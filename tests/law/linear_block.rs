@@ -11,8 +11,8 @@ use proptest::prelude::*;
 use toron::Error;
 use toron::Level;
 use toron::Measure;
-use toron::law::block::linear::{LinearPointers, LinearStrides};
-use toron::law::block::{components, components_mut};
+use toron::law::block::{Points, Strides, components, components_mut};
+use toron::law::interface::Law;
 use toron::law::linear_elastic::{Criterion, LinearElastic, Rotation};
 use toron::law::state::{
     LINEAR_ALIVE, LINEAR_ELASTIC_STATE, LINEAR_FAILED, LINEAR_LARGEST, LINEAR_STRESS, LINEAR_WORK,
@@ -142,21 +142,21 @@ fn run<T: Number>(law: &LinearElastic<T>, inputs: &[Input], call: &Call) -> (Vec
     let null = std::ptr::null_mut();
     let state_old = old.as_mut_ptr();
     let state_new = if call.in_place { state_old } else { new.as_mut_ptr() };
-    let block = LinearPointers {
+    let block = Points {
         f_old: components(f_old.as_ptr(), stride),
         f_new: components(f_new.as_ptr(), stride),
         axes: if spin { axes.as_mut_ptr() } else { null },
-        state_old,
-        state_new: if wants_state { state_new } else { null },
+        state_old: LinearElastic::parts(state_old, stride),
+        state_new: LinearElastic::parts_mut(if wants_state { state_new } else { null }, stride),
         stress: components_mut(if wants_stress { stress.as_mut_ptr() } else { null }, stride),
         status: if wants_status { codes.as_mut_ptr() } else { std::ptr::null_mut() },
         rotation: call.rotation,
         criterion: call.criterion,
         level: Some(call.level),
-        ..LinearPointers::without_arrays(n, stride)
+        ..Points::without_arrays(n, stride)
     };
     // SAFETY: the arrays have the sizes that the block needs, and overlap only where they are the same.
-    let worst = unsafe { law.raw_block(&block) }.expect("a block that is all right");
+    let worst = unsafe { Law::step(law, &block) }.expect("a block that is all right");
     let state = if call.in_place { &old } else { &new };
     for (array, components) in [(&axes, 9), (state, STATE), (&stress, 6)] {
         for c in 0..components {
@@ -334,17 +334,17 @@ fn axes_after_many_steps() {
                 after[c * POINTS + i] = x as f32;
             }
         }
-        let block = LinearPointers {
+        let block = Points {
             f_old: components(rest.as_ptr(), POINTS),
             f_new: components(after.as_ptr(), POINTS),
             axes: axes.as_mut_ptr(),
-            state_new: state.as_mut_ptr(),
+            state_new: LinearElastic::parts_mut(state.as_mut_ptr(), POINTS),
             status: codes.as_mut_ptr(),
             rotation: Rotation::Spin,
-            ..LinearPointers::without_arrays(POINTS, POINTS)
+            ..Points::without_arrays(POINTS, POINTS)
         };
         // SAFETY: the arrays hold as many points.
-        assert_eq!(unsafe { law.raw_block(&block) }, Ok(status::OK), "step {step}: {codes:?}");
+        assert_eq!(unsafe { Law::step(&law, &block) }, Ok(status::OK), "step {step}: {codes:?}");
     }
     let drift = |i: usize| {
         let q = Matrix3::from_fn(|r, c| f64::from(axes[(3 * c + r) * POINTS + i]));
@@ -358,18 +358,18 @@ fn axes_after_many_steps() {
 fn blocks_that_are_refused() {
     let (law, f, mut speed) = (law::<f64>(), [1.0; 9], 0.0);
     let (null, f) = ([std::ptr::null(); 9], components(f.as_ptr(), 1));
-    let block = LinearPointers { f_old: f, f_new: f, ..LinearPointers::without_arrays(1, 1) };
+    let block = Points { f_old: f, f_new: f, ..Points::without_arrays(1, 1) };
     // SAFETY: what is not null holds one point.
-    let code = |block: LinearPointers<f64>| unsafe { law.raw_block(&block) }.map_err(|error: Error| error.code());
-    assert_eq!(code(LinearPointers { f_old: null, ..block }), Err(status::NULL_ARGUMENT));
-    assert_eq!(code(LinearPointers { f_new: null, ..block }), Err(status::NULL_ARGUMENT));
-    assert_eq!(code(LinearPointers { rotation: Rotation::Spin, ..block }), Err(status::NULL_ARGUMENT));
+    let code = |block: Points<f64>| unsafe { Law::step(&law, &block) }.map_err(|error: Error| error.code());
+    assert_eq!(code(Points { f_old: null, ..block }), Err(status::NULL_ARGUMENT));
+    assert_eq!(code(Points { f_new: null, ..block }), Err(status::NULL_ARGUMENT));
+    assert_eq!(code(Points { rotation: Rotation::Spin, ..block }), Err(status::NULL_ARGUMENT));
     let mut state = [0.0; STATE];
-    let crowded = LinearPointers { leading_dimension: 0, state_new: state.as_mut_ptr(), ..block };
+    let crowded = Points { leading_dimension: 0, state_new: LinearElastic::parts_mut(state.as_mut_ptr(), 0), ..block };
     assert_eq!(code(crowded), Err(status::BAD_LEADING_DIMENSION));
-    let unknown = LinearPointers { wave_speed: &mut speed, density: f64::NAN, ..block };
+    let unknown = Points { wave_speed: &mut speed, density: f64::NAN, ..block };
     assert_eq!(code(unknown), Err(status::BAD_ARGUMENT));
-    assert_eq!(code(LinearPointers { n: 0, leading_dimension: 0, ..block }), Ok(status::OK));
+    assert_eq!(code(Points { n: 0, leading_dimension: 0, ..block }), Ok(status::OK));
     assert_eq!(code(block), Ok(status::INVERTED));
 }
 
@@ -477,32 +477,33 @@ fn points_with_axes_of_their_own() {
         let (mut active, mut codes) = (vec![7.0; n], vec![7; n]);
         let second = if with_second { second.as_ptr() } else { std::ptr::null() };
         let of = |components: usize| stride(components).1;
-        let block = LinearPointers {
+        let block = Points {
             f_old: components(f_old.as_ptr(), stride(9).0),
             f_new: components(f_new.as_ptr(), stride(9).0),
             fibre: components(fibre.as_ptr(), stride(3).0),
             second_axis: components(second, stride(3).0),
-            state_old: old.as_ptr(),
-            state_new: new.as_mut_ptr(),
+            state_old: LinearElastic::parts(old.as_ptr(), stride(1).0),
+            state_new: LinearElastic::parts_mut(new.as_mut_ptr(), stride(1).0),
             stress: components_mut(stress.as_mut_ptr(), stride(6).0),
             status: codes.as_mut_ptr(),
             active: active.as_mut_ptr(),
-            strides: LinearStrides {
+            strides: Strides {
                 deformation_gradient: of(9),
                 fibre: of(3),
                 limit: 1,
                 axes: of(9),
                 state: of(STATE),
                 stress: of(6),
+                modes: 1,
                 tangent: of(81),
             },
             level: Some(Level::Baseline),
-            ..LinearPointers::without_arrays(n, stride(1).0)
+            ..Points::without_arrays(n, stride(1).0)
         };
         for with_tangent in [false, true] {
             let to = if with_tangent { tangent.as_mut_ptr() } else { std::ptr::null_mut() };
             // SAFETY: the arrays have the sizes that the block needs.
-            let worst = unsafe { law.raw_block(&LinearPointers { tangent: to, measure: Measure::Nominal, ..block }) };
+            let worst = unsafe { Law::step(&law, &Points { tangent: to, measure: Measure::Nominal, ..block }) };
             assert_eq!(worst, Ok(status::FIBRE_DIRECTION));
             for (i, input) in inputs.iter().enumerate() {
                 let Ok(own) = own(i, with_second) else {
@@ -540,19 +541,19 @@ fn wave_speeds(inputs: &[Input], rotation: Rotation, level: Level) -> Vec<f64> {
     let (f_old, f_new) = (filled(9, &|input, c| input.f_old[c]), filled(9, &|input, c| input.f_new[c]));
     let (mut axes, old) = (filled(9, &|input, c| input.axes[c]), filled(STATE, &|input, c| input.old[c]));
     let mut speeds = vec![0.0; n];
-    let block = LinearPointers {
+    let block = Points {
         f_old: components(f_old.as_ptr(), n),
         f_new: components(f_new.as_ptr(), n),
         axes: axes.as_mut_ptr(),
-        state_old: old.as_ptr(),
+        state_old: LinearElastic::parts(old.as_ptr(), n),
         density: 1.0,
         wave_speed: speeds.as_mut_ptr(),
         rotation,
         level: Some(level),
-        ..LinearPointers::without_arrays(n, n)
+        ..Points::without_arrays(n, n)
     };
     // SAFETY: the arrays have the sizes that the block needs.
-    unsafe { law::<f64>().raw_block(&block) }.expect("a block that is all right");
+    unsafe { Law::step(&law::<f64>(), &block) }.expect("a block that is all right");
     speeds
 }
 

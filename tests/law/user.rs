@@ -139,8 +139,8 @@ fn run<M: UserMaterial, T: Precision + Default>(law: &User<M, T>, given: &Given<
         if given.fibre.is_some() {
             points.fibre = array::from_fn(|c| row(fibre.as_ptr(), c));
         }
-        points.state_old = row(state.as_ptr(), 0);
-        points.state_new = row(state.as_ptr(), 0).cast_mut();
+        points.state_old = User::<M, T>::parts(row(state.as_ptr(), 0), n);
+        points.state_new = User::<M, T>::parts_mut(row(state.as_ptr(), 0).cast_mut(), n);
         let _ = state.as_mut_ptr();
         points.stress = array::from_fn(|c| stress.as_mut_ptr().wrapping_add(c * n + first));
         points.status = codes.as_mut_ptr().wrapping_add(first);

@@ -84,8 +84,8 @@ where
     let stress_at = stress.as_mut_ptr();
     let given = Points {
         f_new: std::array::from_fn(|c| f[c].as_ptr()),
-        state_old: state.as_ptr(),
-        state_new: state.as_mut_ptr(),
+        state_old: User::<ReinforcedSolid, T>::parts(state.as_ptr(), n),
+        state_new: User::<ReinforcedSolid, T>::parts_mut(state.as_mut_ptr(), n),
         density: T::splat(1.5e-9),
         stress: std::array::from_fn(|c| stress_at.wrapping_add(c * n)),
         tangent: tangent.as_mut_ptr(),

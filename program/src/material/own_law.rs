@@ -205,8 +205,8 @@ impl<L: Law<f64> + Send + Sync> Prepared for L {
         let own = Points {
             f_old: components(f_old),
             f_new: components(f),
-            state_old: state.as_ptr(),
-            state_new: state.as_mut_ptr(),
+            state_old: L::parts(state.as_ptr(), *stride),
+            state_new: L::parts_mut(state.as_mut_ptr(), *stride),
             // With the density 1 the square of the speed is the modulus.
             density: 1.0,
             stress: std::array::from_fn(|c| stress[c * *stride..].as_mut_ptr()),

@@ -10,10 +10,11 @@ use super::constants::{TORON_LEVEL_BASELINE, TORON_TANGENT_NOMINAL};
 use super::prepared::{HyperelasticLaw, numbers};
 use crate::host::entry_points::{Message, entry, of_points, properties};
 use crate::host::structures::{read, structures};
-use crate::law::block::{Law, MOST, Pointers, Precision, Strides, components, components_mut, distances, raw_block_of};
+use crate::law::block::{MOST, Points, Precision, Strides, at_fault, components, components_mut, distances};
 use crate::law::derivative::{NoTangent, SixBySix, Stress};
 use crate::law::error::Error;
 use crate::law::hyperelastic::Hyperelastic;
+use crate::law::interface::Law;
 use crate::law::number::level::{Level, has_fma};
 use crate::law::number::real::Scalar;
 use crate::law::number::registers::Registers;
@@ -146,6 +147,9 @@ impl<T: Scalar> Block<T> {
     #[inline(always)]
     fn check(&self) -> Result<(), Error> {
         check_points(self.n)?;
+        if self.n > 0 && self.deformation_gradient[0].is_null() {
+            return Err(Error::Null { name: "deformation_gradient" });
+        }
         check_density::<T>(self.density, !self.wave_speed.is_null() && self.n > 0)?;
         level(self.level)?;
         if !self.tangent.is_null() {
@@ -173,25 +177,16 @@ impl<T: Scalar> Block<T> {
 
     /// The block as the law takes it, if it [is plain](Self::is_plain).
     #[inline(always)]
-    fn plain_pointers(&self) -> Pointers<T> {
+    fn plain_points(&self) -> Points<T> {
         let leading_dimension = leading_dimension(self.leading_dimension, self.n);
-        Pointers {
-            n: self.n,
-            leading_dimension,
-            modes_leading_dimension: leading_dimension,
-            tangent_leading_dimension: leading_dimension,
-            strides: Strides::UNIT,
-            deformation_gradient: components(self.deformation_gradient[0], leading_dimension),
+        Points {
+            f_new: components(self.deformation_gradient[0], leading_dimension),
             fibre: components(self.fibre[0], leading_dimension),
             limit: self.limit,
-            energies_old: self.energies_old,
-            invariants_old: self.invariants_old,
-            failure_old: self.failure_old,
+            state_old: [self.energies_old, self.invariants_old, self.failure_old],
+            state_new: [self.energies, self.invariants, self.failure],
             density: T::splat(self.density),
             stress: components_mut(self.stress[0], leading_dimension),
-            energies: self.energies,
-            invariants: self.invariants,
-            failure: self.failure,
             modes: self.modes,
             wave_speed: self.wave_speed,
             tangent: self.tangent,
@@ -199,16 +194,17 @@ impl<T: Scalar> Block<T> {
             status: self.status,
             active: self.active,
             level: level(self.level).unwrap_or(None),
+            ..Points::without_arrays(self.n, leading_dimension)
         }
     }
 
     /// The block as the law takes it, whose layouts [have been checked](Self::check_layouts).
-    fn pointers(&self) -> Pointers<T> {
+    fn points(&self) -> Points<T> {
         let leading_dimension = leading_dimension(self.leading_dimension, self.n);
         let [f, fibre] = [self.deformation_gradient_layout, self.fibre_layout].map(|x| x.or(leading_dimension));
         let [state, stress] = [self.state_layout, self.stress_layout].map(|x| x.or(leading_dimension));
         let [modes, tangent] = [self.modes_layout, self.tangent_layout].map(|x| x.or(leading_dimension));
-        Pointers {
+        Points {
             leading_dimension: state.leading_dimension,
             modes_leading_dimension: modes.leading_dimension,
             tangent_leading_dimension: tangent.leading_dimension,
@@ -220,11 +216,30 @@ impl<T: Scalar> Block<T> {
                 stress: stress.stride,
                 modes: modes.stride,
                 tangent: tangent.stride,
+                ..Strides::UNIT
             },
-            deformation_gradient: f.components(&self.deformation_gradient),
+            f_new: f.components(&self.deformation_gradient),
             fibre: fibre.components(&self.fibre),
             stress: stress.components_mut(&self.stress),
-            ..self.plain_pointers()
+            ..self.plain_points()
+        }
+    }
+}
+
+/// A law as a caller passes it.
+#[derive(Clone, Copy)]
+enum Given<'a, T> {
+    Properties(&'a [T]),
+    Prepared(&'a PreparedHyperelastic<T>),
+}
+
+impl<T: Precision> Given<'_, T> {
+    /// # Errors
+    /// The first property that is wrong.
+    fn law(self) -> Result<Hyperelastic<T>, Error> {
+        match self {
+            Given::Properties(properties) => Hyperelastic::new(properties),
+            Given::Prepared(prepared) => Ok(prepared.law()),
         }
     }
 }
@@ -232,7 +247,7 @@ impl<T: Scalar> Block<T> {
 /// # Safety
 /// What [a caller promises](super#what-a-caller-promises).
 #[inline(always)]
-unsafe fn evaluate<T: Precision + Registers>(law: Law<'_, T>, block: *const Block<T>) -> Result<i32, Error> {
+unsafe fn evaluate<T: Precision + Registers>(law: Given<'_, T>, block: *const Block<T>) -> Result<i32, Error> {
     let mut buffer = MaybeUninit::uninit();
     // SAFETY: `read` refuses null, and the layouts are plain, or checked before an array is read; how long the arrays are the C caller
     // promises, and of `status` that it has n codes.
@@ -241,12 +256,12 @@ unsafe fn evaluate<T: Precision + Registers>(law: Law<'_, T>, block: *const Bloc
         block.check()?;
         let worst = match (block.is_plain(), law) {
             (false, _) => evaluate_in_layouts(law, block)?,
-            (true, Law::Prepared(law)) if block.is_usual_point() => evaluate_point(law, block)?,
-            (true, Law::Properties(properties)) if block.is_usual_point() => {
+            (true, Given::Prepared(law)) if block.is_usual_point() => evaluate_point(law, block)?,
+            (true, Given::Properties(properties)) if block.is_usual_point() => {
                 // Prepared for one point, the law may differ in the last digits.
                 evaluate_point(&PreparedHyperelastic::from(&Hyperelastic::new(properties)?), block)?
             }
-            (true, _) => raw_block_of(law, &block.plain_pointers())?,
+            (true, _) => law.law()?.step(&block.plain_points())?,
         };
         if worst == status::OK {
             return Ok(worst);
@@ -267,13 +282,10 @@ unsafe fn evaluate<T: Precision + Registers>(law: Law<'_, T>, block: *const Bloc
 /// As for [`evaluate`], for a law and a block that have been checked.
 #[cold]
 #[inline(never)]
-unsafe fn named<T: Precision>(law: Law<'_, T>, block: &Block<T>, worst: i32) -> Result<i32, Error> {
-    let law = match law {
-        Law::Properties(properties) => Hyperelastic::new(properties)?,
-        Law::Prepared(prepared) => prepared.law(),
-    };
+unsafe fn named<T: Precision>(law: Given<'_, T>, block: &Block<T>, worst: i32) -> Result<i32, Error> {
+    let law = law.law()?;
     // SAFETY: the block has been evaluated, so that its layouts are right.
-    let index = unsafe { law.at_fault(&block.pointers(), worst) };
+    let index = unsafe { at_fault(&law, &block.points(), worst) };
     Err(index.map_or(Error::Plain(worst), |index| Error::Point { code: worst, index }))
 }
 
@@ -411,10 +423,10 @@ impl<T: Scalar> Sink<T, 21> for PointOfBlock<'_, T> {
 /// # Safety
 /// As for [`evaluate`].
 #[inline(never)]
-unsafe fn evaluate_in_layouts<T: Precision>(law: Law<'_, T>, block: &Block<T>) -> Result<i32, Error> {
+unsafe fn evaluate_in_layouts<T: Precision>(law: Given<'_, T>, block: &Block<T>) -> Result<i32, Error> {
     block.check_layouts()?;
     // SAFETY: the layouts have just been checked; how long the arrays are the C caller promises.
-    unsafe { raw_block_of(law, &block.pointers()) }
+    unsafe { law.law()?.step(&block.points()) }
 }
 
 macro_rules! entries {
@@ -431,7 +443,9 @@ macro_rules! entries {
             capacity: size_t,
         ) -> i32 {
             // SAFETY: the arguments are the C caller's; `numbers` and `evaluate` refuse null.
-            unsafe { entry(Message { text: message, capacity }, move || evaluate(Law::Prepared(numbers(law)?), block)) }
+            unsafe {
+                entry(Message { text: message, capacity }, move || evaluate(Given::Prepared(numbers(law)?), block))
+            }
         }
 
         /// The entry of the C interface with `toron_` before its name; package `toron-c` documents its arguments.
@@ -449,7 +463,7 @@ macro_rules! entries {
             // SAFETY: the arguments are the C caller's; `properties` and `evaluate` refuse null.
             unsafe {
                 entry(Message { text: message, capacity }, move || {
-                    evaluate(Law::Properties(properties(values, count, &parameters::HYPERELASTIC)?), block)
+                    evaluate(Given::Properties(properties(values, count, &parameters::HYPERELASTIC)?), block)
                 })
             }
         }

@@ -11,10 +11,9 @@ use super::arguments::{
 use super::prepared::{LinearElasticLaw, numbers};
 use crate::host::entry_points::{Message, entry, of_points, properties, store};
 use crate::host::structures::{read, structures};
-use crate::law::block::Precision;
-use crate::law::block::linear::{LinearPointers, LinearStrides};
-use crate::law::block::{components, components_mut, distances};
+use crate::law::block::{Points, Precision, Strides, at_fault, components, components_mut, distances};
 use crate::law::error::{Error, Value};
+use crate::law::interface::Law;
 use crate::law::linear_elastic::LinearElastic;
 use crate::law::number::real::Scalar;
 use crate::law::parameters;
@@ -166,19 +165,19 @@ const _: () = {
 /// What [a caller promises](super#what-a-caller-promises).
 unsafe fn point<T: Precision>(law: &LinearElastic<T>, point: *const LinearPoint<T>) -> Result<i32, Error> {
     let mut buffer = MaybeUninit::uninit();
-    // SAFETY: `read` refuses null, and `raw_block` an F that is; how long the arrays of the one point are the C caller promises.
+    // SAFETY: `read` refuses null, and `step` an F that is; how long the arrays of the one point are the C caller promises.
     unsafe {
         let point = read(point, &mut buffer)?;
         check_density::<T>(point.density, !point.wave_speed.is_null())?;
-        law.raw_block(&LinearPointers {
+        law.step(&Points {
             f_old: components(point.f_old, 1),
             f_new: components(point.f_new, 1),
             fibre: components(point.fibre, 1),
             second_axis: components(point.second_axis, 1),
-            limit: if point.state_new.is_null() { null() } else { point.limit },
+            limit: point.limit,
             axes: point.axes,
-            state_old: point.state_old,
-            state_new: point.state_new,
+            state_old: LinearElastic::parts(point.state_old, 1),
+            state_new: LinearElastic::parts_mut(point.state_new, 1),
             density: T::splat(point.density),
             stress: components_mut(point.stress, 1),
             wave_speed: point.wave_speed,
@@ -187,13 +186,13 @@ unsafe fn point<T: Precision>(law: &LinearElastic<T>, point: *const LinearPoint<
             rotation: rotation(point.rotation)?,
             criterion: criterion(point.criterion)?,
             level: level(point.level)?,
-            ..LinearPointers::without_arrays(1, 1)
+            ..Points::without_arrays(1, 1)
         })
     }
 }
 
-impl<T: Scalar> LinearBlock<T> {
-    fn pointers(&self) -> Result<LinearPointers<T>, Error> {
+impl<T: Precision> LinearBlock<T> {
+    fn points(&self) -> Result<Points<T>, Error> {
         let leading_dimension = leading_dimension(self.leading_dimension, self.n);
         let (f, fibre) =
             (self.deformation_gradient_layout.or(leading_dimension), self.fibre_layout.or(leading_dimension));
@@ -208,12 +207,11 @@ impl<T: Scalar> LinearBlock<T> {
         let component = "second_axis, one of its components,";
         fibre.check(&self.second_axis, null(), n, component, distances!("second_axis"))?;
         stress.check(&self.stress, null_mut(), n, "stress, one of its components,", distances!("stress"))?;
-        Ok(LinearPointers {
-            n,
+        Ok(Points {
             leading_dimension: state.leading_dimension,
             axes_leading_dimension: axes.leading_dimension,
             tangent_leading_dimension: tangent.leading_dimension,
-            strides: LinearStrides {
+            strides: Strides {
                 deformation_gradient: f.stride,
                 fibre: fibre.stride,
                 limit: self.limit_layout.stride.max(1),
@@ -221,15 +219,16 @@ impl<T: Scalar> LinearBlock<T> {
                 state: state.stride,
                 stress: stress.stride,
                 tangent: tangent.stride,
+                ..Strides::UNIT
             },
             f_old: f.components(&self.f_old),
             f_new: f.components(&self.f_new),
             fibre: fibre.components(&self.fibre),
             second_axis: fibre.components(&self.second_axis),
-            limit: if self.state_new.is_null() { null() } else { self.limit },
+            limit: self.limit,
             axes: self.axes,
-            state_old: self.state_old,
-            state_new: self.state_new,
+            state_old: LinearElastic::parts(self.state_old, state.leading_dimension),
+            state_new: LinearElastic::parts_mut(self.state_new, state.leading_dimension),
             density: T::splat(self.density),
             stress: stress.components_mut(&self.stress),
             wave_speed: self.wave_speed,
@@ -240,6 +239,7 @@ impl<T: Scalar> LinearBlock<T> {
             rotation: rotation(self.rotation)?,
             criterion: criterion(self.criterion)?,
             level: level(self.level)?,
+            ..Points::without_arrays(n, leading_dimension)
         })
     }
 }
@@ -248,15 +248,15 @@ impl<T: Scalar> LinearBlock<T> {
 /// What [a caller promises](super#what-a-caller-promises).
 unsafe fn block<T: Precision>(law: &LinearElastic<T>, block: *const LinearBlock<T>) -> Result<i32, Error> {
     let mut buffer = MaybeUninit::uninit();
-    // SAFETY: `read` refuses null, and `pointers` and `raw_block` check the layouts; how long the arrays are the C caller promises.
+    // SAFETY: `read` refuses null, and `points` and `step` check the layouts; how long the arrays are the C caller promises.
     unsafe {
         let block = read(block, &mut buffer)?;
-        let pointers = block.pointers()?;
-        let worst = law.raw_block(&pointers)?;
+        let points = block.points()?;
+        let worst = law.step(&points)?;
         if worst == status::OK || !block.status.is_null() {
             return of_points(worst, block.status, block.n);
         }
-        Err(law.at_fault(&pointers, worst).map_or(Error::Plain(worst), |index| Error::Point { code: worst, index }))
+        Err(at_fault(law, &points, worst).map_or(Error::Plain(worst), |index| Error::Point { code: worst, index }))
     }
 }
 

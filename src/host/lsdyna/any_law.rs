@@ -34,8 +34,8 @@ unsafe fn evaluate<T: Precision, L: History<T>>(cm: *const T, nhv: i32, elements
         let points = Points {
             f_old: components(row(L::DESCRIPTION.state.len()).cast_const(), stride),
             f_new: components(f.cast_const(), stride),
-            state_old: row(0),
-            state_new: row(0),
+            state_old: L::parts(row(0), stride),
+            state_new: L::parts_mut(row(0), stride),
             stress: from_entry(elements.stress, start),
             status: codes.as_mut_ptr(),
             ..Points::without_arrays(n, stride)
@@ -110,8 +110,8 @@ unsafe fn tangents<T: Precision, L: History<T>>(
         let point = Points {
             f_old: f,
             f_new: f,
-            state_old: state,
-            state_new: state,
+            state_old: L::parts(state, 1),
+            state_new: L::parts_mut(state, 1),
             stress: components_mut(stress.as_mut_ptr(), 1),
             tangent: entries.as_mut_ptr().cast(),
             measure: Measure::Truesdell,

@@ -7,18 +7,19 @@ use super::message::History;
 use super::{Umat, Utan, UtanVector, check_number, element_range, is_plausible, law, no_gradient};
 use crate::host::c::PointAnswer;
 use crate::host::entry_points::{check_pointers, properties};
-use crate::law::block::{Pointers, Precision, components};
+use crate::law::block::{Points, Precision, components};
 use crate::law::derivative::SixBySix;
 use crate::law::derivative::Stress;
 use crate::law::error::Error;
 use crate::law::hyperelastic::Hyperelastic;
+use crate::law::interface::Law;
 use crate::law::number::level::Level;
 use crate::law::number::real::Scalar;
 use crate::law::number::registers::Registers;
 use crate::law::parameters;
 use crate::law::point::{Call, Point, Sink, evaluate_call};
 use crate::law::response::Request;
-use crate::law::state::{ALIVE, FAILED, FAILURE_INDEX, HYPERELASTIC_STATE};
+use crate::law::state::{ALIVE, ENERGIES, FAILED, HYPERELASTIC_STATE};
 use crate::law::status;
 use crate::law::tangent::Measure;
 
@@ -125,16 +126,16 @@ pub(super) unsafe fn vector_tangent<T: Precision>(call: &UtanVector<T>) -> Resul
     check_pointers(&[(cm, "cm"), (hsvs, "hsvs"), (dsave, "dsave")])?;
     let [start, count, stride] = element_range([lft, llt, nlq])?;
     let row = |variable: usize| hsvs.wrapping_add(variable.wrapping_mul(stride).wrapping_add(start));
-    let pointers = Pointers {
-        deformation_gradient: components(row(HYPERELASTIC_STATE), stride),
-        failure_old: row(FAILURE_INDEX),
+    let points = Points {
+        f_new: components(row(HYPERELASTIC_STATE), stride),
+        state_old: Hyperelastic::parts(row(ENERGIES), stride),
         tangent: dsave.wrapping_add(start),
         measure: Measure::Truesdell,
-        ..Pointers::without_arrays(count, stride)
+        ..Points::without_arrays(count, stride)
     };
     // SAFETY: `check_pointers` has refused null; rows of `nlq` elements, of which those from `start` on are evaluated.
     unsafe {
         let law: Hyperelastic<T> = law(cm, nhv, count, |j| *row(j))?;
-        law.raw_block(&pointers)
+        law.step(&points)
     }
 }

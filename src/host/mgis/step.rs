@@ -200,8 +200,8 @@ impl<L: Law<f64>> Step<'_, L> {
         let mut point = Points {
             f_old: components(f0.as_flattened().as_ptr(), 1),
             f_new: components(f1.as_flattened().as_ptr(), 1),
-            state_old: old.as_ref().as_ptr(),
-            state_new: state.as_mut().as_mut_ptr(),
+            state_old: L::parts(old.as_ref().as_ptr(), 1),
+            state_new: L::parts_mut(state.as_mut().as_mut_ptr(), 1),
             stress: components_mut(stress.as_mut_ptr(), 1),
             measure: self.measure(),
             ..Points::without_arrays(1, 1)

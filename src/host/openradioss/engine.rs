@@ -427,8 +427,8 @@ impl<T: Precision> Group<T> {
                 f_new: self.columns(first),
                 fibre: self.fibre(card, first),
                 limit: if card.has_limits { row(card.layout().limit()) } else { ptr::null_mut() },
-                state_old: row(0),
-                state_new: row(0),
+                state_old: L::parts(row(0), n),
+                state_new: L::parts_mut(row(0), n),
                 // SAFETY: RHO0 has a value.
                 density: unsafe { *self.density },
                 stress: from_entry(self.stress, first),

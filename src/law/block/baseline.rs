@@ -3,11 +3,14 @@
 use core::ops::Range;
 
 use super::copies::padded;
+use super::dispatch::Precision;
 use super::instructions::Instructions;
 use super::kernel::sweep;
-use super::linear::{LinearPointers, sweep_linear};
-use super::pointers::Pointers;
+use super::linear::sweep_linear;
+use super::points::Points;
+use super::run::needs;
 use crate::law::hyperelastic::Hyperelastic;
+use crate::law::interface::Law;
 use crate::law::linear_elastic::LinearElastic;
 use crate::law::number::registers::Registers;
 
@@ -16,17 +19,20 @@ pub(super) struct Baseline;
 impl Instructions for Baseline {
     type Lanes<T: Registers> = T::Baseline;
 
-    unsafe fn run<T: Registers, const WANT: u8>(law: &Hyperelastic<T>, block: &Pointers<T>) -> i32 {
+    unsafe fn run<T: Registers, const WANT: u8>(law: &Hyperelastic<T>, block: &Points<T>) -> i32 {
         // SAFETY: `run` requires of its caller what `sweep` requires.
         unsafe { sweep::<T, T::Baseline, WANT>(law, block) }
     }
 
-    unsafe fn run_padded<T: Registers>(block: &Pointers<T>, run: impl FnOnce(&Pointers<T>) -> i32) -> i32 {
+    unsafe fn run_padded<T: Precision, L: Law<T>, const ROWS: usize>(
+        points: &Points<T>,
+        run: impl FnOnce(&Points<T>) -> i32,
+    ) -> i32 {
         // SAFETY: `run_padded` requires what `padded` requires.
-        unsafe { padded::<T, T::Baseline>(block, run) }
+        unsafe { padded::<T, T::Baseline, ROWS>(points, const { &needs::<T, L>() }, run) }
     }
 
-    unsafe fn run_linear<T: Registers>(law: &LinearElastic<T>, block: &LinearPointers<T>, points: Range<usize>) -> i32 {
+    unsafe fn run_linear<T: Registers>(law: &LinearElastic<T>, block: &Points<T>, points: Range<usize>) -> i32 {
         // SAFETY: `run_linear` requires what `sweep_linear` requires.
         unsafe { sweep_linear::<T, T::Baseline>(law, block, points) }
     }

@@ -7,19 +7,19 @@ use super::avx2::Avx2;
 #[cfg(target_arch = "x86_64")]
 use super::avx512::Avx512;
 use super::baseline::Baseline;
-use super::copies::padded_linear;
 use super::instructions::Instructions;
 use super::kernel::{ALIGNED, ANY};
 #[cfg(target_arch = "x86_64")]
-use super::kernel::{FIBRES, LIMITS, SHEAR, STATE, STRESS, WAVE};
-use super::linear::LinearPointers;
-use super::pointers::Pointers;
+use super::kernel::{FIBRES, LIMITS, SHEAR, STATE, STRESS, WAVE, request};
+use super::points::Points;
+use super::run::{HYPERELASTIC_ROWS, LINEAR_ROWS};
 use crate::law::hyperelastic::Hyperelastic;
 use crate::law::linear_elastic::LinearElastic;
 use crate::law::number::level::Level;
 use crate::law::number::real::Lanes;
 use crate::law::number::registers::Registers;
 use crate::law::response::Request;
+use crate::law::state::part::FAILURE;
 use crate::law::status;
 
 /// A precision that the block kernels are built for: f32 or f64.
@@ -27,39 +27,39 @@ pub trait Precision: Registers + 'static {
     /// Runs the kernels of the hyperelastic law at a level.
     ///
     /// # Safety
-    /// As for [`Hyperelastic::raw_block`]; the processor has the level's instructions.
+    /// As for [`Law::step`](crate::law::interface::Law::step), with checked points next to each other; the processor has the level's instructions.
     #[doc(hidden)]
-    unsafe fn dispatch(level: Level, law: &Hyperelastic<Self>, block: &Pointers<Self>, request: Request) -> i32;
+    unsafe fn dispatch(level: Level, law: &Hyperelastic<Self>, block: &Points<Self>) -> i32;
 
     /// Runs the kernels of the linear elastic law at a level.
     ///
     /// # Safety
-    /// As for [`LinearElastic::raw_block`]; the processor has the level's instructions.
+    /// As for [`dispatch`](Self::dispatch); the processor has the level's instructions.
     #[doc(hidden)]
-    unsafe fn dispatch_linear(level: Level, law: &LinearElastic<Self>, block: &LinearPointers<Self>) -> i32;
+    unsafe fn dispatch_linear(level: Level, law: &LinearElastic<Self>, block: &Points<Self>) -> i32;
 }
 
 // An impl for each type and not a generic one, so that the kernels are compiled in this crate and not in the crates that use
 // it.
 impl Precision for f64 {
-    unsafe fn dispatch(level: Level, law: &Hyperelastic<f64>, block: &Pointers<f64>, request: Request) -> i32 {
+    unsafe fn dispatch(level: Level, law: &Hyperelastic<f64>, block: &Points<f64>) -> i32 {
         // SAFETY: the same block and level.
-        unsafe { dispatch(level, law, block, request) }
+        unsafe { dispatch(level, law, block) }
     }
 
-    unsafe fn dispatch_linear(level: Level, law: &LinearElastic<f64>, block: &LinearPointers<f64>) -> i32 {
+    unsafe fn dispatch_linear(level: Level, law: &LinearElastic<f64>, block: &Points<f64>) -> i32 {
         // SAFETY: the same block and level.
         unsafe { dispatch_linear(level, law, block) }
     }
 }
 
 impl Precision for f32 {
-    unsafe fn dispatch(level: Level, law: &Hyperelastic<f32>, block: &Pointers<f32>, request: Request) -> i32 {
+    unsafe fn dispatch(level: Level, law: &Hyperelastic<f32>, block: &Points<f32>) -> i32 {
         // SAFETY: the same block and level.
-        unsafe { dispatch(level, law, block, request) }
+        unsafe { dispatch(level, law, block) }
     }
 
-    unsafe fn dispatch_linear(level: Level, law: &LinearElastic<f32>, block: &LinearPointers<f32>) -> i32 {
+    unsafe fn dispatch_linear(level: Level, law: &LinearElastic<f32>, block: &Points<f32>) -> i32 {
         // SAFETY: the same block and level.
         unsafe { dispatch_linear(level, law, block) }
     }
@@ -77,21 +77,24 @@ fn whole<T: Registers, I: Instructions>(first: usize, n: usize) -> Range<usize> 
 
 /// # Safety
 /// As for [`Precision::dispatch`].
-#[cfg_attr(not(target_arch = "x86_64"), allow(unused_variables))] // only kernels of wider instructions depend on the request
-unsafe fn dispatch<T: Registers>(level: Level, law: &Hyperelastic<T>, block: &Pointers<T>, request: Request) -> i32 {
+unsafe fn dispatch<T: Precision>(level: Level, law: &Hyperelastic<T>, block: &Points<T>) -> i32 {
     // SAFETY: the block is valid, and the processor has the level's instructions; what does not fill a register of them is padded.
     // AVX-512 is chosen for more points than a register holds.
     unsafe {
         match level {
             #[cfg(target_arch = "x86_64")]
             // Two registers of AVX2 take less time than one of AVX-512.
-            Level::Avx512 if block.n > lanes::<T, Avx512>() => run::<T, Avx512>(law, block, request),
+            Level::Avx512 if block.n > lanes::<T, Avx512>() => run::<T, Avx512>(law, block),
             #[cfg(target_arch = "x86_64")]
-            Level::Avx512 | Level::Avx2 if block.n >= lanes::<T, Avx2>() => run::<T, Avx2>(law, block, request),
+            Level::Avx512 | Level::Avx2 if block.n >= lanes::<T, Avx2>() => run::<T, Avx2>(law, block),
             #[cfg(target_arch = "x86_64")]
-            Level::Avx512 | Level::Avx2 => Avx2::run_padded(block, |points| run::<T, Avx2>(law, points, request)),
+            Level::Avx512 | Level::Avx2 => {
+                Avx2::run_padded::<T, Hyperelastic<T>, HYPERELASTIC_ROWS>(block, |points| run::<T, Avx2>(law, points))
+            }
             _ if block.n >= lanes::<T, Baseline>() => run_any::<T, Baseline>(law, block),
-            _ => Baseline::run_padded(block, |points| run_any::<T, Baseline>(law, points)),
+            _ => Baseline::run_padded::<T, Hyperelastic<T>, HYPERELASTIC_ROWS>(block, |points| {
+                run_any::<T, Baseline>(law, points)
+            }),
         }
     }
 }
@@ -101,15 +104,16 @@ unsafe fn dispatch<T: Registers>(level: Level, law: &Hyperelastic<T>, block: &Po
 /// # Safety
 /// As for [`Precision::dispatch`], for a block that fills a register.
 #[cfg(target_arch = "x86_64")]
-unsafe fn run<T: Registers, I: Instructions>(law: &Hyperelastic<T>, block: &Pointers<T>, request: Request) -> i32 {
-    let Request { stress, energies, invariants, failure, modes, wave_modulus } = request;
+unsafe fn run<T: Registers, I: Instructions>(law: &Hyperelastic<T>, block: &Points<T>) -> i32 {
+    let Request { stress, energies, invariants, failure, modes, wave_modulus } = request::<T, ANY>(block);
     let usual = stress && !modes && block.tangent.is_null();
     let state = usual && energies && invariants && failure && !wave_modulus;
     let explicit = usual && energies && invariants && failure && wave_modulus && !law.shears;
-    let nothing_else = !energies && !invariants && !failure && block.failure_old.is_null() && block.active.is_null();
+    let nothing_else =
+        !energies && !invariants && !failure && block.state_old[FAILURE].is_null() && block.active.is_null();
     let stress_alone = usual && nothing_else && !wave_modulus && !law.shears;
     let fibres = !block.fibre[0].is_null();
-    let limits = !block.limits().is_null();
+    let limits = !block.limits(FAILURE).is_null();
     const STATE_FIBRES: u8 = STATE + FIBRES;
     const STATE_ALIGNED: u8 = STATE + ALIGNED;
     const SHEAR_STATE_FIBRES: u8 = SHEAR + STATE + FIBRES;
@@ -160,7 +164,7 @@ unsafe fn run<T: Registers, I: Instructions>(law: &Hyperelastic<T>, block: &Poin
 ///
 /// # Safety
 /// As for [`run`].
-unsafe fn run_any<T: Registers, I: Instructions>(law: &Hyperelastic<T>, block: &Pointers<T>) -> i32 {
+unsafe fn run_any<T: Registers, I: Instructions>(law: &Hyperelastic<T>, block: &Points<T>) -> i32 {
     const ANY_ALIGNED: u8 = ANY + ALIGNED;
     // Compared with the tangent, the products with the frame that an aligned fibre saves take little time.
     let aligned = law.aligned && block.fibre[0].is_null() && block.tangent.is_null();
@@ -170,7 +174,7 @@ unsafe fn run_any<T: Registers, I: Instructions>(law: &Hyperelastic<T>, block: &
 
 /// # Safety
 /// As for [`Precision::dispatch_linear`].
-unsafe fn dispatch_linear<T: Registers>(level: Level, law: &LinearElastic<T>, block: &LinearPointers<T>) -> i32 {
+unsafe fn dispatch_linear<T: Precision>(level: Level, law: &LinearElastic<T>, block: &Points<T>) -> i32 {
     let n = block.n;
     // SAFETY: the block is valid, and the processor has the level's instructions; `part` and `wide` are whole registers, and `rest` is
     // fewer points than one holds.
@@ -178,9 +182,12 @@ unsafe fn dispatch_linear<T: Registers>(level: Level, law: &LinearElastic<T>, bl
         match level {
             Level::Baseline => {
                 let part = whole::<T, Baseline>(0, n);
-                let rest = part.end..n;
+                let rest = block.from(part.end);
                 let worst = run_linear::<T, Baseline>(law, block, part);
-                worst.min(padded_linear::<T, T::Baseline>(block, rest, |points| {
+                if rest.n == 0 {
+                    return worst;
+                }
+                worst.min(Baseline::run_padded::<T, LinearElastic<T>, LINEAR_ROWS>(&rest, |points| {
                     run_linear::<T, Baseline>(law, points, 0..points.n)
                 }))
             }
@@ -188,9 +195,12 @@ unsafe fn dispatch_linear<T: Registers>(level: Level, law: &LinearElastic<T>, bl
             Level::Avx2 | Level::Avx512 => {
                 let wide = if level == Level::Avx512 { whole::<T, Avx512>(0, n) } else { 0..0 };
                 let part = whole::<T, Avx2>(wide.end, n);
-                let rest = part.end..n;
+                let rest = block.from(part.end);
                 let worst = run_linear::<T, Avx512>(law, block, wide).min(run_linear::<T, Avx2>(law, block, part));
-                worst.min(padded_linear::<T, T::Avx2>(block, rest, |points| {
+                if rest.n == 0 {
+                    return worst;
+                }
+                worst.min(Avx2::run_padded::<T, LinearElastic<T>, LINEAR_ROWS>(&rest, |points| {
                     run_linear::<T, Avx2>(law, points, 0..points.n)
                 }))
             }
@@ -206,7 +216,7 @@ unsafe fn dispatch_linear<T: Registers>(level: Level, law: &LinearElastic<T>, bl
 /// As for [`Precision::dispatch_linear`], for points of the block that fill whole registers.
 unsafe fn run_linear<T: Registers, I: Instructions>(
     law: &LinearElastic<T>,
-    block: &LinearPointers<T>,
+    block: &Points<T>,
     points: Range<usize>,
 ) -> i32 {
     if points.is_empty() {

@@ -3,9 +3,10 @@
 
 use core::ops::Range;
 
-use super::linear::LinearPointers;
-use super::pointers::Pointers;
+use super::dispatch::Precision;
+use super::points::Points;
 use crate::law::hyperelastic::Hyperelastic;
+use crate::law::interface::Law;
 use crate::law::linear_elastic::LinearElastic;
 use crate::law::number::real::Lanes;
 use crate::law::number::registers::Registers;
@@ -19,17 +20,20 @@ pub(super) trait Instructions {
     ///
     /// # Safety
     /// As for [`sweep`](super::kernel::sweep), on a processor that has the instructions.
-    unsafe fn run<T: Registers, const WANT: u8>(law: &Hyperelastic<T>, block: &Pointers<T>) -> i32;
+    unsafe fn run<T: Registers, const WANT: u8>(law: &Hyperelastic<T>, block: &Points<T>) -> i32;
 
-    /// Runs a kernel of the hyperelastic law on copies of a block that does not fill a register.
+    /// Runs a kernel of a law on copies of points that do not fill a register.
     ///
     /// # Safety
     /// As for [`padded`](super::copies::padded), on a processor that has the instructions.
-    unsafe fn run_padded<T: Registers>(block: &Pointers<T>, run: impl FnOnce(&Pointers<T>) -> i32) -> i32;
+    unsafe fn run_padded<T: Precision, L: Law<T>, const ROWS: usize>(
+        points: &Points<T>,
+        run: impl FnOnce(&Points<T>) -> i32,
+    ) -> i32;
 
     /// The kernel of the linear elastic law.
     ///
     /// # Safety
     /// As for [`sweep_linear`](super::linear::sweep_linear), on a processor that has the instructions.
-    unsafe fn run_linear<T: Registers>(law: &LinearElastic<T>, block: &LinearPointers<T>, points: Range<usize>) -> i32;
+    unsafe fn run_linear<T: Registers>(law: &LinearElastic<T>, block: &Points<T>, points: Range<usize>) -> i32;
 }

@@ -2,13 +2,14 @@
 
 use core::mem::MaybeUninit;
 
-use super::pointers::Pointers;
+use super::points::Points;
 use crate::law::failure::Failure;
 use crate::law::hyperelastic::{Deformed, Hyperelastic};
 use crate::law::kinematics::{Axes, FibreFrame, FirstAxis, Kinematics, Logarithms, Section, Strain, Stretch};
 use crate::law::number::elementary::{Power, Reduced};
 use crate::law::number::real::{Lanes, Real, Scalar, WIDEST};
 use crate::law::response::{Request, nan_unless_finite};
+use crate::law::state::part::{ENERGIES, FAILURE, INVARIANTS};
 use crate::law::status;
 use crate::law::tangent::{Measure, may_overflow};
 use crate::law::wave_speed;
@@ -42,12 +43,12 @@ pub(super) const LIMITS: u8 = 64;
 /// store the same.
 ///
 /// # Safety
-/// The block is valid, see [`Pointers`], with at least COUNT points next to each other and its state in place; `WANT` requests nothing
+/// The block is valid, see [`Points`], with at least COUNT points next to each other and its state in place; `WANT` requests nothing
 /// that the block has no array for; the processor has the lanes' instructions. The other functions of this file are called for such a
 /// block, and for the lanes from a point i on with i + COUNT ≤ n, as [`place`] gives them: the components of every array that is not
 /// null, and of every one that WANT requests, have COUNT values from i on.
 #[inline(always)]
-pub(super) unsafe fn sweep<T: Scalar, R: Lanes<T>, const WANT: u8>(law: &Hyperelastic<T>, block: &Pointers<T>) -> i32 {
+pub(super) unsafe fn sweep<T: Scalar, R: Lanes<T>, const WANT: u8>(law: &Hyperelastic<T>, block: &Points<T>) -> i32 {
     let lanes = law.lanes::<R>();
     let mut worst = R::splat(0.0);
     let (registers, mut first) = (block.n.div_ceil(R::COUNT), 0);
@@ -132,7 +133,7 @@ union Step<R: Real> {
 #[inline(always)]
 unsafe fn evaluate<T: Scalar, R: Lanes<T>, const WANT: u8>(
     law: &Hyperelastic<R>,
-    block: &Pointers<T>,
+    block: &Points<T>,
     i: usize,
     count: usize,
     worst: &mut R,
@@ -160,7 +161,7 @@ unsafe fn evaluate<T: Scalar, R: Lanes<T>, const WANT: u8>(
 /// The first point of register `k` of the group that begins at point `i`: of the last one, a point of the register before it if fewer
 /// than COUNT points are left.
 #[inline(always)]
-fn place<T, R: Lanes<T>>(block: &Pointers<T>, i: usize, k: usize) -> usize {
+fn place<T, R: Lanes<T>>(block: &Points<T>, i: usize, k: usize) -> usize {
     (i + k * R::COUNT).min(block.n - R::COUNT)
 }
 
@@ -172,7 +173,7 @@ fn place<T, R: Lanes<T>>(block: &Pointers<T>, i: usize, k: usize) -> usize {
 #[inline(always)]
 unsafe fn staged<T: Scalar, R: Lanes<T>, A: Axes<R>, const WANT: u8>(
     law: &Hyperelastic<R>,
-    block: &Pointers<T>,
+    block: &Points<T>,
     i: usize,
     count: usize,
     axes: impl Fn(usize) -> (A, Option<R::Mask>),
@@ -235,15 +236,15 @@ unsafe fn staged<T: Scalar, R: Lanes<T>, A: Axes<R>, const WANT: u8>(
         }
         for k in 0..count {
             steps.put(k, Step { power: law.compaction(strains.get(k)) });
-            prefetch::<T, R, 4>(WANT & (STATE | ANY) != 0, block.energies, block.leading_dimension, at(k));
+            prefetch::<T, R, 4>(WANT & (STATE | ANY) != 0, block.state_new[ENERGIES], block.leading_dimension, at(k));
         }
         for k in 0..count {
             steps.put(k, Step { reduced: steps.get(k).power.reduce(&law.exponent) });
-            prefetch::<T, R, 4>(WANT & (STATE | ANY) != 0, block.invariants, block.leading_dimension, at(k));
+            prefetch::<T, R, 4>(WANT & (STATE | ANY) != 0, block.state_new[INVARIANTS], block.leading_dimension, at(k));
         }
         for k in 0..count {
             steps.put(k, Step { powered: steps.get(k).reduced.finish() });
-            prefetch::<T, R, 3>(WANT & (STATE | ANY) != 0, block.failure, block.leading_dimension, at(k));
+            prefetch::<T, R, 3>(WANT & (STATE | ANY) != 0, block.state_new[FAILURE], block.leading_dimension, at(k));
         }
         for k in 0..count {
             let nan_if_invalid = match axes(k).1 {
@@ -301,8 +302,8 @@ unsafe fn staged<T: Scalar, R: Lanes<T>, A: Axes<R>, const WANT: u8>(
 /// # Safety
 /// As for [`sweep`], for the lanes from i on.
 #[inline(always)]
-unsafe fn gradient<T, R: Lanes<T>>(block: &Pointers<T>, i: usize) -> [[R; 3]; 3] {
-    let f = &block.deformation_gradient;
+unsafe fn gradient<T, R: Lanes<T>>(block: &Points<T>, i: usize) -> [[R; 3]; 3] {
+    let f = &block.f_new;
     // SAFETY: F is never null, and has n ≥ i + COUNT values for each component.
     unsafe {
         [
@@ -320,7 +321,7 @@ unsafe fn gradient<T, R: Lanes<T>>(block: &Pointers<T>, i: usize) -> [[R; 3]; 3]
 #[inline(always)]
 unsafe fn frame<T, R: Lanes<T>, const WANT: u8>(
     law: &Hyperelastic<R>,
-    block: &Pointers<T>,
+    block: &Points<T>,
     i: usize,
 ) -> (FibreFrame<R>, R::Mask) {
     let m = &block.fibre;
@@ -341,13 +342,13 @@ fn shears<R: Real, const WANT: u8>(law: &Hyperelastic<R>) -> bool {
 
 /// The results that are requested of a kernel.
 #[inline(always)]
-fn request<T, const WANT: u8>(block: &Pointers<T>) -> Request {
+pub(super) fn request<T, const WANT: u8>(block: &Points<T>) -> Request {
     let asked = WANT & ANY != 0;
     Request {
         stress: !asked || !block.stress[0].is_null(),
-        energies: if asked { !block.energies.is_null() } else { WANT & STATE != 0 },
-        invariants: if asked { !block.invariants.is_null() } else { WANT & STATE != 0 },
-        failure: if asked { !block.failure.is_null() } else { WANT & STATE != 0 },
+        energies: if asked { !block.state_new[ENERGIES].is_null() } else { WANT & STATE != 0 },
+        invariants: if asked { !block.state_new[INVARIANTS].is_null() } else { WANT & STATE != 0 },
+        failure: if asked { !block.state_new[FAILURE].is_null() } else { WANT & STATE != 0 },
         modes: asked && !block.modes.is_null(),
         wave_modulus: if asked { !block.wave_speed.is_null() } else { WANT & WAVE != 0 },
     }
@@ -371,7 +372,7 @@ struct Outcome<R: Real> {
 #[inline(always)]
 unsafe fn respond<T: Scalar, R: Lanes<T>, const WANT: u8>(
     law: &Hyperelastic<R>,
-    block: &Pointers<T>,
+    block: &Points<T>,
     i: usize,
     kinematics: Kinematics<'_, R>,
     power: R,
@@ -422,13 +423,13 @@ unsafe fn respond<T: Scalar, R: Lanes<T>, const WANT: u8>(
 /// # Safety
 /// As for [`sweep`], for the lanes from i on.
 #[inline(always)]
-unsafe fn latch<T, R: Lanes<T>, const WANT: u8>(block: &Pointers<T>, i: usize) -> R {
-    let absent = if WANT & ANY != 0 { block.failure_old.is_null() } else { WANT & STATE == 0 };
+unsafe fn latch<T, R: Lanes<T>, const WANT: u8>(block: &Points<T>, i: usize) -> R {
+    let absent = if WANT & ANY != 0 { block.state_old[FAILURE].is_null() } else { WANT & STATE == 0 };
     if absent {
         return R::splat(0.0);
     }
     // SAFETY: `failure_old` is not null; its second component has n ≥ i + COUNT values.
-    unsafe { R::load(block.failure_old.add(block.leading_dimension + i)) }
+    unsafe { R::load(block.state_old[FAILURE].add(block.leading_dimension + i)) }
 }
 
 /// The limits of points that have their own, where the failure is computed.
@@ -436,8 +437,8 @@ unsafe fn latch<T, R: Lanes<T>, const WANT: u8>(block: &Pointers<T>, i: usize) -
 /// # Safety
 /// As for [`sweep`], for the lanes from i on.
 #[inline(always)]
-unsafe fn limit<T, R: Lanes<T>, const WANT: u8>(block: &Pointers<T>, i: usize) -> Option<R> {
-    let limited = if WANT & ANY != 0 { !block.limits().is_null() } else { WANT & LIMITS != 0 };
+unsafe fn limit<T, R: Lanes<T>, const WANT: u8>(block: &Points<T>, i: usize) -> Option<R> {
+    let limited = if WANT & ANY != 0 { !block.limits(FAILURE).is_null() } else { WANT & LIMITS != 0 };
     if !limited {
         return None;
     }
@@ -447,7 +448,7 @@ unsafe fn limit<T, R: Lanes<T>, const WANT: u8>(block: &Pointers<T>, i: usize) -
 
 /// Whether the tangent is requested, which only the general kernel without an aligned fibre computes.
 #[inline(always)]
-fn wants_tangent<T, const WANT: u8>(block: &Pointers<T>) -> bool {
+fn wants_tangent<T, const WANT: u8>(block: &Points<T>) -> bool {
     WANT & ANY != 0 && WANT & ALIGNED == 0 && !block.tangent.is_null()
 }
 
@@ -458,7 +459,7 @@ fn wants_tangent<T, const WANT: u8>(block: &Pointers<T>) -> bool {
 #[inline(always)]
 unsafe fn store_tangent<T: Scalar, R: Lanes<T>>(
     point: Deformed<'_, R>,
-    block: &Pointers<T>,
+    block: &Points<T>,
     i: usize,
     frame: &FibreFrame<R>,
 ) -> R {
@@ -484,7 +485,7 @@ unsafe fn store_tangent<T: Scalar, R: Lanes<T>>(
 /// # Safety
 /// As for [`store_tangent`], after it.
 #[inline(always)]
-unsafe fn clear_tangent<T: Scalar, R: Lanes<T>>(block: &Pointers<T>, i: usize, outcome: &Outcome<R>) {
+unsafe fn clear_tangent<T: Scalar, R: Lanes<T>>(block: &Points<T>, i: usize, outcome: &Outcome<R>) {
     let zero = R::splat(0.0);
     if !R::any(!outcome.updated) {
         return;
@@ -505,7 +506,7 @@ unsafe fn clear_tangent<T: Scalar, R: Lanes<T>>(block: &Pointers<T>, i: usize, o
 /// As for [`sweep`], for the lanes from i on, after [`respond`].
 #[inline(always)]
 unsafe fn add_to_check<T: Scalar, R: Lanes<T>, const WANT: u8>(
-    block: &Pointers<T>,
+    block: &Points<T>,
     i: usize,
     latch_or_nan: R,
     check: R,
@@ -513,12 +514,12 @@ unsafe fn add_to_check<T: Scalar, R: Lanes<T>, const WANT: u8>(
     let request = request::<T, WANT>(block);
     // SAFETY: it is called for arrays that are requested and components that they have, with n ≥ i + COUNT values.
     let old = |array: *mut T, c: usize| unsafe { R::load(array.add(c * block.leading_dimension + i)) };
-    let mut sum = if request.failure { latch_or_nan + old(block.failure, 0) } else { latch_or_nan };
+    let mut sum = if request.failure { latch_or_nan + old(block.state_new[FAILURE], 0) } else { latch_or_nan };
     for c in 0..4 {
         sum = match (request.energies, request.invariants) {
-            (true, true) => old(block.energies, c).mul_add(old(block.invariants, c), sum),
-            (true, false) => sum + old(block.energies, c),
-            (false, true) => sum + old(block.invariants, c),
+            (true, true) => old(block.state_new[ENERGIES], c).mul_add(old(block.state_new[INVARIANTS], c), sum),
+            (true, false) => sum + old(block.state_new[ENERGIES], c),
+            (false, true) => sum + old(block.state_new[INVARIANTS], c),
             (false, false) => sum,
         };
     }
@@ -532,7 +533,7 @@ unsafe fn add_to_check<T: Scalar, R: Lanes<T>, const WANT: u8>(
 #[inline(always)]
 unsafe fn store_state<T: Scalar, R: Lanes<T>, const WANT: u8>(
     law: &Hyperelastic<R>,
-    block: &Pointers<T>,
+    block: &Points<T>,
     i: usize,
     d: &Stretch<R>,
     strain: &Strain<R>,
@@ -549,18 +550,18 @@ unsafe fn store_state<T: Scalar, R: Lanes<T>, const WANT: u8>(
         let r = law.history(index, strain, d.shear_invariant(), &k, outcome.updated, outcome.latch, request, shear);
         if request.energies {
             for (c, energy) in r.energies.into_iter().enumerate() {
-                energy.store_where(outcome.updated, block.energies.add(c * stride + i));
+                energy.store_where(outcome.updated, block.state_new[ENERGIES].add(c * stride + i));
             }
         }
         if request.invariants {
             for (c, invariant) in r.invariants.into_iter().enumerate() {
-                invariant.store_where(outcome.updated, block.invariants.add(c * stride + i));
+                invariant.store_where(outcome.updated, block.state_new[INVARIANTS].add(c * stride + i));
             }
         }
         if request.failure {
-            r.failure_index.store_where(outcome.updated, block.failure.add(i));
-            r.failed.store(block.failure.add(stride + i));
-            (R::splat(1.0) - r.failed).store(block.failure.add(2 * stride + i));
+            r.failure_index.store_where(outcome.updated, block.state_new[FAILURE].add(i));
+            r.failed.store(block.state_new[FAILURE].add(stride + i));
+            (R::splat(1.0) - r.failed).store(block.state_new[FAILURE].add(2 * stride + i));
         }
         R::select(outcome.updated, R::splat(1.0) - r.failed, R::splat(0.0))
     }
@@ -578,11 +579,11 @@ fn prefetch<T, R: Lanes<T>, const COMPONENTS: usize>(wanted: bool, array: *mut T
 
 /// Where the old energies, invariants and failure index of the lanes from i on are, each with whether it is requested.
 #[inline(always)]
-fn old_entries<T, const WANT: u8>(block: &Pointers<T>, i: usize) -> [(bool, *mut T); 9] {
+fn old_entries<T, const WANT: u8>(block: &Points<T>, i: usize) -> [(bool, *mut T); 9] {
     let (request, stride) = (request::<T, WANT>(block), block.leading_dimension);
-    let energy = |c: usize| (request.energies, block.energies.wrapping_add(c * stride + i));
-    let invariant = |c: usize| (request.invariants, block.invariants.wrapping_add(c * stride + i));
-    let index = (request.failure, block.failure.wrapping_add(i));
+    let energy = |c: usize| (request.energies, block.state_new[ENERGIES].wrapping_add(c * stride + i));
+    let invariant = |c: usize| (request.invariants, block.state_new[INVARIANTS].wrapping_add(c * stride + i));
+    let index = (request.failure, block.state_new[FAILURE].wrapping_add(i));
     [energy(0), energy(1), energy(2), energy(3), invariant(0), invariant(1), invariant(2), invariant(3), index]
 }
 
@@ -593,7 +594,7 @@ fn old_entries<T, const WANT: u8>(block: &Pointers<T>, i: usize) -> [(bool, *mut
 #[inline(always)]
 unsafe fn status_code<T: Scalar, R: Lanes<T>, const WANT: u8>(
     law: &Hyperelastic<R>,
-    block: &Pointers<T>,
+    block: &Points<T>,
     i: usize,
     d: &Stretch<R>,
     usable: R::Mask,
@@ -620,7 +621,7 @@ unsafe fn status_code<T: Scalar, R: Lanes<T>, const WANT: u8>(
 /// # Safety
 /// As for [`sweep`], for the lanes from i on, after [`status_code`] and before [`store_state`].
 #[inline(always)]
-unsafe fn reset_invalid<T: Scalar, R: Lanes<T>, const WANT: u8>(block: &Pointers<T>, i: usize, outcome: &Outcome<R>) {
+unsafe fn reset_invalid<T: Scalar, R: Lanes<T>, const WANT: u8>(block: &Points<T>, i: usize, outcome: &Outcome<R>) {
     let zero = R::splat(0.0);
     // SAFETY: what is requested has an array, whose components have n ≥ i + COUNT values.
     unsafe {

@@ -1,178 +1,26 @@
-//! The linear elastic law at many points at once, over component-major arrays as for the yarn law.
-//!
-//! | array | components |
-//! |---|---|
-//! | `f_old`, `f_new` | F11 F21 F31 F12 F22 F32 F13 F23 F33 (columns of F) at both ends of the step |
-//! | `fibre`, `second_axis` | a fibre direction and a second axis for each point, any length, or those of the properties; not read for [`Rotation::Spin`] |
-//! | `limit` | the strength of each point, or 0 for that of the properties |
-//! | `axes` | the three material axes in space, one after the other, in and out; for [`Rotation::Spin`] only |
-//! | `state_old`, `state_new` | the rows of [`state::LINEAR_ELASTIC`](crate::law::state::LINEAR_ELASTIC) |
-//! | `stress` | σ11 σ22 σ33 σ12 σ23 σ31 (Cauchy) |
-//! | `wave_speed` | a bound of the wave speed at the end of the step, at the reference density `density` |
-//! | `tangent` | of the `measure`: 6×6 or 9×9, entry (row, column) at 6 row + column or 9 row + column; not symmetric |
-//! | `active` | 1, or 0 if the point has failed or cannot be evaluated |
+//! The kernel of the linear elastic law at many points at once.
 
 use core::ops::Range;
-use core::ptr::{null, null_mut};
 
 use super::kernel::least_code;
-use super::pointers::{check_layout, distances};
-use crate::law::error::Error;
-use crate::law::linear_elastic::{Answer, Criterion, LinearElastic, Rotation, Step, Wanted};
+use super::points::Points;
+use crate::law::linear_elastic::{Answer, LinearElastic, Rotation, Step, Wanted};
 use crate::law::linear_tangent::by_rows;
-use crate::law::number::level::Level;
 use crate::law::number::real::{Lanes, Scalar};
 use crate::law::number::vector::Matrix;
 use crate::law::state::{LINEAR_ALIVE, LINEAR_ELASTIC_STATE, LINEAR_FAILED};
 use crate::law::status;
-use crate::law::tangent::Measure;
 use crate::law::wave_speed;
-
-/// A block as a host passes it. A null array is absent: a null old state stands for a fresh one (all 0), and an output that is
-/// null is not computed.
-///
-/// # Safety
-/// A block is **valid** if every pointer that is not null points to as many values as `n`, the leading dimensions, the strides and
-/// the table of [`linear`](self) say, valid for reading or writing; if with these, different entries are at different places; if
-/// arrays of components are null in all of them or in none; and if outputs overlap nothing but, exactly, the old state that they
-/// replace. The functions that evaluate a block are unsafe, since only its caller can know this.
-#[derive(Clone, Copy, Debug)]
-pub struct LinearPointers<T> {
-    /// The number of points.
-    pub n: usize,
-    /// The distance from one component to the next in the state, the axes and the tangent.
-    pub leading_dimension: usize,
-    pub axes_leading_dimension: usize,
-    pub tangent_leading_dimension: usize,
-    /// The distance from one point to the next.
-    pub strides: LinearStrides,
-    pub f_old: [*const T; 9],
-    pub f_new: [*const T; 9],
-    pub fibre: [*const T; 3],
-    pub second_axis: [*const T; 3],
-    pub limit: *const T,
-    pub axes: *mut T,
-    pub state_old: *const T,
-    pub state_new: *mut T,
-    pub density: T,
-    pub stress: [*mut T; 6],
-    pub wave_speed: *mut T,
-    pub tangent: *mut T,
-    pub measure: Measure,
-    /// A status code for each point.
-    pub status: *mut i32,
-    /// For each point 1, or 0 if it has failed or cannot be evaluated.
-    pub active: *mut T,
-    pub rotation: Rotation,
-    pub criterion: Criterion,
-    /// The instructions to use, or the best that the processor has if those are lower; `None` for the best. A block with a tangent
-    /// is evaluated point by point in double precision.
-    pub level: Option<Level>,
-}
-
-/// The distance from one point to the next in each group of arrays; wave speed, status and active are contiguous.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct LinearStrides {
-    /// Of F at both ends.
-    pub deformation_gradient: usize,
-    /// Of fibre and second axis.
-    pub fibre: usize,
-    pub limit: usize,
-    pub axes: usize,
-    /// Of the state, old and new.
-    pub state: usize,
-    pub stress: usize,
-    pub tangent: usize,
-}
-
-impl LinearStrides {
-    /// Points next to each other: component-major arrays.
-    pub(crate) const UNIT: LinearStrides =
-        LinearStrides { deformation_gradient: 1, fibre: 1, limit: 1, axes: 1, state: 1, stress: 1, tangent: 1 };
-}
-
-impl<T: Scalar> LinearPointers<T> {
-    /// A block of `n` points next to each other, with one leading dimension for all groups and no arrays yet: for the fields that a
-    /// host does not name.
-    pub fn without_arrays(n: usize, leading_dimension: usize) -> Self {
-        LinearPointers {
-            n,
-            leading_dimension,
-            axes_leading_dimension: leading_dimension,
-            tangent_leading_dimension: leading_dimension,
-            strides: LinearStrides::UNIT,
-            f_old: [null(); 9],
-            f_new: [null(); 9],
-            fibre: [null(); 3],
-            second_axis: [null(); 3],
-            limit: null(),
-            axes: null_mut(),
-            state_old: null(),
-            state_new: null_mut(),
-            density: T::splat(0.0),
-            stress: [null_mut(); 6],
-            wave_speed: null_mut(),
-            tangent: null_mut(),
-            measure: Measure::Jaumann,
-            status: null_mut(),
-            active: null_mut(),
-            rotation: Rotation::Fibre,
-            criterion: Criterion::LargestPrincipal,
-            level: None,
-        }
-    }
-
-    /// Checks the block.
-    ///
-    /// # Errors
-    /// As for [`raw_block`](LinearElastic::raw_block).
-    pub(super) fn check(&self) -> Result<(), Error> {
-        let missing = |array: &[*const T]| self.n > 0 && array.iter().any(|pointer| pointer.is_null());
-        if missing(&self.f_old) {
-            return Err(Error::Null { name: "f_old" });
-        }
-        if missing(&self.f_new) {
-            return Err(Error::Null { name: "f_new" });
-        }
-        let spin = self.rotation == Rotation::Spin;
-        if spin && missing(&[self.axes.cast_const()]) {
-            return Err(Error::Null { name: "axes" });
-        }
-        let LinearStrides { limit, axes, state, tangent, .. } = self.strides;
-        if !self.limit.is_null() {
-            check_layout(self.n, 1, self.n, limit, distances!("limit"))?;
-        }
-        if !self.state_old.is_null() || !self.state_new.is_null() {
-            check_layout(self.n, LINEAR_ELASTIC_STATE, self.leading_dimension, state, distances!("the state"))?;
-        }
-        if spin {
-            check_layout(self.n, 9, self.axes_leading_dimension, axes, distances!("axes"))?;
-        }
-        if !self.tangent.is_null() {
-            let components = self.measure.components();
-            check_layout(self.n, components, self.tangent_leading_dimension, tangent, distances!("tangent"))?;
-        }
-        if self.n > 0 && !self.wave_speed.is_null() {
-            wave_speed::check_density(self.density)?;
-        }
-        Ok(())
-    }
-
-    /// Entry `component` of point `i` in an array of the state.
-    fn state_entry(&self, component: usize, i: usize) -> usize {
-        component * self.leading_dimension + i * self.strides.state
-    }
-}
 
 /// The kernel, for points that fill whole registers. Returns the worst status code.
 ///
 /// # Safety
-/// The block is valid, see [`LinearPointers`], and its points are next to each other; `points` are points of it, their number a
+/// The block is valid, see [`Points`], and its points are next to each other; `points` are points of it, their number a
 /// multiple of COUNT; the processor has the lanes' instructions.
 #[inline(always)]
 pub(super) unsafe fn sweep_linear<T: Scalar, R: Lanes<T>>(
     law: &LinearElastic<T>,
-    block: &LinearPointers<T>,
+    block: &Points<T>,
     points: Range<usize>,
 ) -> i32 {
     let lanes = law.lanes::<R>();
@@ -191,12 +39,12 @@ pub(super) unsafe fn sweep_linear<T: Scalar, R: Lanes<T>>(
 /// # Safety
 /// As for [`sweep_linear`], with i + COUNT ≤ n.
 #[inline(always)]
-unsafe fn evaluate<T: Scalar, R: Lanes<T>>(law: &LinearElastic<R>, block: &LinearPointers<T>, i: usize) -> R {
+unsafe fn evaluate<T: Scalar, R: Lanes<T>>(law: &LinearElastic<R>, block: &Points<T>, i: usize) -> R {
     let (zero, one) = (R::splat(0.0), R::splat(1.0));
     let state = block.leading_dimension;
     let wanted = Wanted {
         stress: !block.stress[0].is_null(),
-        state: !block.state_new.is_null(),
+        state: !block.state_new[0].is_null(),
         wave_modulus: !block.wave_speed.is_null(),
     };
     // SAFETY: i + COUNT ≤ n, and every pointer that is read or written here has been found not to be null, F apart, which
@@ -212,12 +60,12 @@ unsafe fn evaluate<T: Scalar, R: Lanes<T>>(law: &LinearElastic<R>, block: &Linea
             law.axes_along(fibre, second)
         };
         let mut old = [zero; LINEAR_ELASTIC_STATE];
-        if !block.state_old.is_null() {
+        if !block.state_old[0].is_null() {
             for (c, value) in old.iter_mut().enumerate() {
-                *value = R::load(block.state_old.add(c * state + i));
+                *value = R::load(block.state_old[0].add(c * state + i));
             }
         }
-        let limit = if block.limit.is_null() { None } else { Some(R::load(block.limit.add(i))) };
+        let limit = if block.limits(0).is_null() { None } else { Some(R::load(block.limit.add(i))) };
         let step = Step { f0: &f0, f1: &f1, axes: &axes, limit, rotation: block.rotation, criterion: block.criterion };
         let answer = law.respond(step, &reference, usable, &old, wanted);
         if wanted.stress {
@@ -227,7 +75,7 @@ unsafe fn evaluate<T: Scalar, R: Lanes<T>>(law: &LinearElastic<R>, block: &Linea
                 c += 1;
             }
         }
-        store(&answer.state, block.state_new, state, i);
+        store(&answer.state, block.state_new[0], state, i);
         store(answer.q1.as_flattened(), block.axes, block.axes_leading_dimension, i);
         if wanted.wave_modulus {
             let density = R::splat(block.density.into());
@@ -292,8 +140,8 @@ unsafe fn store<T, R: Lanes<T>>(values: &[R], array: *mut T, stride: usize, i: u
 /// Everything is computed in double precision. Results that do not fit T are an overflow.
 ///
 /// # Safety
-/// The block is valid, see [`LinearPointers`], and has a tangent.
-pub(super) unsafe fn with_tangents<T: Scalar>(law: &LinearElastic<T>, block: &LinearPointers<T>) -> i32 {
+/// The block is valid, see [`Points`], and has a tangent.
+pub(super) unsafe fn with_tangents<T: Scalar>(law: &LinearElastic<T>, block: &Points<T>) -> i32 {
     let law = law.lanes::<f64>();
     let mut worst = status::OK;
     for i in 0..block.n {
@@ -305,24 +153,22 @@ pub(super) unsafe fn with_tangents<T: Scalar>(law: &LinearElastic<T>, block: &Li
 
 /// # Safety
 /// As for [`with_tangents`], with i < n.
-unsafe fn point_with_tangent<T: Scalar>(law: &LinearElastic, block: &LinearPointers<T>, i: usize) -> i32 {
-    let strides = &block.strides;
+unsafe fn point_with_tangent<T: Scalar>(law: &LinearElastic, block: &Points<T>, i: usize) -> i32 {
     // SAFETY: it is called with arrays of the block that are not null, and with the place of a component that they have at point i.
     let load = |array: *const T, at: usize| -> f64 { unsafe { *array.add(at) }.into() };
-    let at = i * strides.deformation_gradient;
     let all = |[a, b, c, d, e, f, g, h, k]: [*const T; 9]| -> Matrix<f64> {
-        [[a, b, c], [d, e, f], [g, h, k]].map(|column| column.map(|component| load(component, at)))
+        [[a, b, c], [d, e, f], [g, h, k]].map(|column| column.map(|component| load(component, i)))
     };
-    let three = |[x, y, z]: [*const T; 3]| [x, y, z].map(|component| load(component, i * strides.fibre));
+    let three = |[x, y, z]: [*const T; 3]| [x, y, z].map(|component| load(component, i));
     let (f0, f1) = (all(block.f_old), all(block.f_new));
     let mut state = [0.0; LINEAR_ELASTIC_STATE];
-    if !block.state_old.is_null() {
+    if !block.state_old[0].is_null() {
         for (c, value) in state.iter_mut().enumerate() {
-            *value = load(block.state_old, block.state_entry(c, i));
+            *value = load(block.state_old[0], c * block.leading_dimension + i);
         }
     }
     let spin = block.rotation == Rotation::Spin;
-    let axis = |c: usize| c * block.axes_leading_dimension + i * strides.axes;
+    let axis = |c: usize| c * block.axes_leading_dimension + i;
     let mut axes = f0;
     if spin {
         for (c, value) in axes.as_flattened_mut().iter_mut().enumerate() {
@@ -336,9 +182,9 @@ unsafe fn point_with_tangent<T: Scalar>(law: &LinearElastic, block: &LinearPoint
         let second = if block.second_axis[0].is_null() { None } else { Some(three(block.second_axis)) };
         law.axes_along(fibre, second)
     };
-    let state_wanted = !block.state_new.is_null();
+    let state_wanted = !block.state_new[0].is_null();
     let wanted = Wanted { stress: true, state: state_wanted, wave_modulus: !block.wave_speed.is_null() };
-    let limit = if block.limit.is_null() { None } else { Some(load(block.limit, i * strides.limit)) };
+    let limit = if block.limits(0).is_null() { None } else { Some(load(block.limit, i)) };
     let step = Step { f0: &f0, f1: &f1, axes: &axes, limit, rotation: block.rotation, criterion: block.criterion };
     let (mut answer, tangent) = law.respond_with_tangent(step, &reference, usable, &state, wanted);
     let (mut entries, size) = by_rows(&tangent, block.measure, &f1.into(), &answer.stress);
@@ -356,12 +202,12 @@ unsafe fn point_with_tangent<T: Scalar>(law: &LinearElastic, block: &LinearPoint
     let store = |x: f64, array: *mut T, at: usize| unsafe { *array.add(at) = T::splat(x) };
     if !block.stress[0].is_null() {
         for (x, component) in answer.stress.into_iter().zip(block.stress) {
-            store(x, component, i * strides.stress);
+            store(x, component, i);
         }
     }
-    if !block.state_new.is_null() {
+    if !block.state_new[0].is_null() {
         for (c, x) in answer.state.into_iter().enumerate() {
-            store(x, block.state_new, block.state_entry(c, i));
+            store(x, block.state_new[0], c * block.leading_dimension + i);
         }
     }
     if spin {
@@ -370,7 +216,7 @@ unsafe fn point_with_tangent<T: Scalar>(law: &LinearElastic, block: &LinearPoint
         }
     }
     for (c, &x) in entries.iter().take(size * size).enumerate() {
-        store(x, block.tangent, c * block.tangent_leading_dimension + i * strides.tangent);
+        store(x, block.tangent, c * block.tangent_leading_dimension + i);
     }
     if wanted.wave_modulus {
         store(speed(&answer), block.wave_speed, i);

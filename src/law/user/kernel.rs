@@ -3,10 +3,9 @@
 use core::ops::Range;
 
 use super::{Array, Response, Step, User, UserMaterial};
-use crate::law::block::{Precision, check_layout, distances, least_code};
+use crate::law::block::{Points, Precision, Strides, check_layout, distances, least_code};
 use crate::law::error::Error;
 use crate::law::failure::Failure;
-use crate::law::interface::Points;
 use crate::law::kinematics::FibreFrame;
 use crate::law::number::level::Level;
 use crate::law::number::real::{Lanes, Real};
@@ -169,8 +168,12 @@ impl<M: UserMaterial, T: Precision> User<M, T> {
         if M::DESCRIPTION.reads_old_gradient && points.f_old.iter().any(|component| component.is_null()) {
             return Err(Error::Null { name: "f_old" });
         }
+        if points.strides != Strides::UNIT {
+            let text = "strides other than 1; allowed: points of a law of one's own next to each other";
+            return Err(Error::Setting { code: status::BAD_LEADING_DIMENSION, text });
+        }
         let rows = M::DESCRIPTION.state.len();
-        if !points.state_old.is_null() || !points.state_new.is_null() {
+        if !points.state_old[0].is_null() || !points.state_new[0].is_null() {
             check_layout(n, rows, points.leading_dimension, 1, distances!("the state"))?;
         }
         if !points.tangent.is_null() {
@@ -270,7 +273,7 @@ unsafe fn sweep<M: UserMaterial, T: Precision, R: Lanes<T>>(
     let zero = R::splat(0.0);
     let at_rest = if points.wave_speed.is_null() { zero } else { wave_modulus::<M, R>(&constants, &rest) };
     let (mut worst, mut i) = (zero, range.start);
-    let states = !points.state_old.is_null() && !points.state_new.is_null();
+    let states = !points.state_old[0].is_null() && !points.state_new[0].is_null();
     let usual = states && !points.stress[0].is_null() && points.fibre[0].is_null() && points.wave_speed.is_null();
     // SAFETY: the points from i on fill a register.
     unsafe {
@@ -323,8 +326,8 @@ unsafe fn register<M: UserMaterial, T: Precision, R: Lanes<T>, const USUAL: bool
             input.fibre = frame.m;
             input.usable = usable;
         }
-        if USUAL || !points.state_old.is_null() {
-            let mut row = points.state_old.wrapping_add(i);
+        if USUAL || !points.state_old[0].is_null() {
+            let mut row = points.state_old[0].wrapping_add(i);
             for x in input.own.as_mut() {
                 *x = R::load(row);
                 row = next_row(row.cast_mut());
@@ -353,8 +356,8 @@ unsafe fn register<M: UserMaterial, T: Precision, R: Lanes<T>, const USUAL: bool
                 c += 1;
             }
         }
-        if USUAL || !points.state_new.is_null() {
-            let mut row = points.state_new.wrapping_add(i);
+        if USUAL || !points.state_new[0].is_null() {
+            let mut row = points.state_new[0].wrapping_add(i);
             for &x in outcome.own.as_ref() {
                 x.store(row);
                 row = next_row(row);

@@ -100,11 +100,11 @@ impl<M: UserMaterial> User<M, f64> {
             let (frame, usable) = FibreFrame::new(points.fibre.map(load));
             (input.fibre, input.usable) = (frame.m, usable);
         }
-        if !points.state_old.is_null() {
+        if !points.state_old[0].is_null() {
             for (c, x) in input.own.as_mut().iter_mut().enumerate() {
-                *x = load(points.state_old.wrapping_add(row(c)));
+                *x = load(points.state_old[0].wrapping_add(row(c)));
             }
-            input.failed = load(points.state_old.wrapping_add(row(law.failed)));
+            input.failed = load(points.state_old[0].wrapping_add(row(law.failed)));
         }
         let Answer { mut outcome, tangent } =
             self.answer(&input, points.measure, at_rest, !points.wave_speed.is_null(), level);
@@ -126,12 +126,12 @@ impl<M: UserMaterial> User<M, f64> {
         if !points.stress[0].is_null() {
             outcome.stress.into_iter().zip(points.stress).for_each(|(x, component)| store(x, component));
         }
-        if !points.state_new.is_null() {
+        if !points.state_new[0].is_null() {
             for (c, &x) in outcome.own.as_ref().iter().enumerate() {
-                store(x, points.state_new.wrapping_add(row(c)));
+                store(x, points.state_new[0].wrapping_add(row(c)));
             }
-            store(outcome.failed, points.state_new.wrapping_add(row(law.failed)));
-            store(outcome.alive, points.state_new.wrapping_add(row(law.alive)));
+            store(outcome.failed, points.state_new[0].wrapping_add(row(law.failed)));
+            store(outcome.alive, points.state_new[0].wrapping_add(row(law.alive)));
         }
         for (c, &x) in entries.iter().enumerate() {
             store(if has_tangent { x } else { 0.0 }, points.tangent.wrapping_add(row(c)));

@@ -1,0 +1,163 @@
+//! The way of points to the kernels of a law: checked, copied where they are not next to each other, their old state in the place of
+//! the new one where the kernels want it there.
+
+use core::ptr::{null, null_mut};
+
+use super::copies::{in_copies, rows};
+use super::dispatch::Precision;
+use super::kernel::STAGED;
+use super::linear::with_tangents;
+use super::points::{Needs, Points, Strides};
+use crate::law::error::Error;
+use crate::law::hyperelastic::Hyperelastic;
+use crate::law::interface::Law;
+use crate::law::linear_elastic::{LinearElastic, Rotation};
+use crate::law::number::real::WIDEST;
+use crate::law::state::{HYPERELASTIC_STATE, LINEAR_ELASTIC_STATE};
+use crate::law::status;
+
+/// What a law wants of its points.
+pub(crate) const fn needs<T: Precision, L: Law<T>>() -> Needs {
+    Needs::new(&L::DESCRIPTION, L::PARTS)
+}
+
+/// How many numbers a copy of a point takes, without and with modes and a tangent.
+const HYPERELASTIC_FEW: usize = rows(HYPERELASTIC_STATE, 0)[0];
+pub(super) const HYPERELASTIC_ROWS: usize = rows(HYPERELASTIC_STATE, 0)[1];
+/// F at the start, second axis, axes.
+const LINEAR_FEW: usize = rows(LINEAR_ELASTIC_STATE, 9 + 3 + 9)[0];
+pub(super) const LINEAR_ROWS: usize = rows(LINEAR_ELASTIC_STATE, 9 + 3 + 9)[1];
+
+/// The kernels of a law.
+pub(crate) trait Kernels<T: Precision>: Law<T> {
+    /// Whether they read the old state from the arrays of the new one.
+    const IN_PLACE: bool;
+
+    /// Runs them. Returns the worst of the status codes.
+    ///
+    /// # Safety
+    /// The points are valid, see [`Points`], checked, and next to each other, one at least.
+    unsafe fn run(&self, points: &Points<T>) -> i32;
+
+    /// The same for points that are not next to each other, by copies.
+    ///
+    /// # Safety
+    /// As for [`run`](Self::run), but for the places of the points.
+    unsafe fn run_apart(&self, points: &Points<T>) -> i32;
+}
+
+impl<T: Precision> Kernels<T> for Hyperelastic<T> {
+    const IN_PLACE: bool = true;
+
+    #[inline(always)]
+    unsafe fn run(&self, points: &Points<T>) -> i32 {
+        // SAFETY: the points are valid and checked; `level` is one that the processor has.
+        unsafe { T::dispatch(points.level(), self, points) }
+    }
+
+    unsafe fn run_apart(&self, points: &Points<T>) -> i32 {
+        // SAFETY: the points are valid, and so are copies, which are next to each other.
+        unsafe {
+            in_copies::<T, HYPERELASTIC_FEW, HYPERELASTIC_ROWS>(points, &needs::<T, Self>(), |copies| self.run(copies))
+        }
+    }
+}
+
+impl<T: Precision> Kernels<T> for LinearElastic<T> {
+    const IN_PLACE: bool = false;
+
+    unsafe fn run(&self, points: &Points<T>) -> i32 {
+        // SAFETY: the points are valid and checked; `level` is one that the processor has.
+        unsafe {
+            if points.tangent.is_null() {
+                T::dispatch_linear(points.level(), self, points)
+            } else {
+                with_tangents(self, points)
+            }
+        }
+    }
+
+    unsafe fn run_apart(&self, points: &Points<T>) -> i32 {
+        // SAFETY: the points are valid, and so are copies, which are next to each other.
+        unsafe { in_copies::<T, LINEAR_FEW, LINEAR_ROWS>(points, &needs::<T, Self>(), |copies| self.run(copies)) }
+    }
+}
+
+/// The number of points whose old state is copied at a time: a multiple of the points of a stage in either precision.
+const COPIED: usize = 2 * STAGED * WIDEST;
+
+/// Evaluates a law at every point. Returns the worst (most negative) of the status codes.
+///
+/// # Errors
+/// As for [`Law::step`].
+///
+/// # Safety
+/// The points are valid, see [`Points`].
+#[inline(always)]
+pub(crate) unsafe fn evaluate<T: Precision, L: Kernels<T>>(law: &L, points: &Points<T>) -> Result<i32, Error> {
+    let needs = const { needs::<T, L>() };
+    points.check(&needs)?;
+    if points.n == 0 {
+        return Ok(status::OK);
+    }
+    // SAFETY: the points are valid, checked, and at least one.
+    unsafe {
+        if points.strides != Strides::UNIT {
+            return Ok(law.run_apart(points));
+        }
+        if !L::IN_PLACE || points.in_place() {
+            return Ok(law.run(points));
+        }
+        // An old state in other arrays is copied part by part, so that the copy is still in the first-level cache when it is read.
+        let mut worst = status::OK;
+        for first in (0..points.n).step_by(COPIED) {
+            let mut part = points.from(first);
+            part.n = part.n.min(COPIED);
+            part.copy_old_state(needs.parts);
+            worst = worst.min(law.run(&part));
+        }
+        Ok(worst)
+    }
+}
+
+/// The number of points that are evaluated again at a time to find one at fault.
+const SEARCHED: usize = 32;
+
+/// The first of the points, which have been evaluated, that has this status code; `None` if that can no longer be told: nothing is
+/// stored, and what depends on the old state, on axes that have been turned, or on the size of a result is not seen.
+///
+/// # Safety
+/// As for [`evaluate`], for the same points, after it.
+pub(crate) unsafe fn at_fault<T: Precision, L: Kernels<T>>(law: &L, points: &Points<T>, code: i32) -> Option<usize> {
+    let needs = needs::<T, L>();
+    if points.rotation == Rotation::Spin || [status::STATE_NOT_FINITE, status::OVERFLOW].contains(&code) {
+        return None;
+    }
+    if code == status::LIMIT {
+        // SAFETY: the points are valid, and some point has an unusable limit, so that there are limits.
+        return (0..points.n).find(|&i| unsafe { points.has_wrong_limit(i, &needs) });
+    }
+    for first in (0..points.n).step_by(SEARCHED) {
+        let mut codes = [status::OK; SEARCHED];
+        let part = Points { status: codes.as_mut_ptr(), ..points.inputs(first, SEARCHED, &needs) };
+        // SAFETY: some of valid points, with some of their inputs and a code for each of them.
+        if unsafe { evaluate(law, &part) } == Ok(code) {
+            return codes.iter().position(|&found| found == code).map(|i| first + i);
+        }
+    }
+    None
+}
+
+impl<T: Precision> LinearElastic<T> {
+    /// The points without the arrays that the frame does not need, which are not read.
+    ///
+    /// # Errors
+    /// Null axes for [`Rotation::Spin`].
+    pub(crate) fn in_frame(points: &Points<T>) -> Result<Points<T>, Error> {
+        match points.rotation {
+            Rotation::Spin if points.n > 0 && points.axes.is_null() => Err(Error::Null { name: "axes" }),
+            Rotation::Spin => Ok(Points { fibre: [null(); 3], second_axis: [null(); 3], ..*points }),
+            Rotation::Fibre | Rotation::Polar => Ok(Points { axes: null_mut(), ..*points }),
+        }
+    }
+}
