@@ -147,9 +147,6 @@ impl<T: Scalar> Block<T> {
     #[inline(always)]
     fn check(&self) -> Result<(), Error> {
         check_points(self.n)?;
-        if self.n > 0 && self.deformation_gradient[0].is_null() {
-            return Err(Error::Null { name: "deformation_gradient" });
-        }
         check_density::<T>(self.density, !self.wave_speed.is_null() && self.n > 0)?;
         level(self.level)?;
         if !self.tangent.is_null() {
@@ -236,11 +233,27 @@ enum Given<'a, T> {
 impl<T: Precision> Given<'_, T> {
     /// # Errors
     /// The first property that is wrong.
+    #[inline(always)]
     fn law(self) -> Result<Hyperelastic<T>, Error> {
         match self {
             Given::Properties(properties) => Hyperelastic::new(properties),
             Given::Prepared(prepared) => Ok(prepared.law()),
         }
+    }
+
+    /// # Errors
+    /// The first property that is wrong, before what [`Law::step`] refuses, which calls F by another name.
+    ///
+    /// # Safety
+    /// As for [`Law::step`].
+    #[inline(always)]
+    unsafe fn step(self, points: &Points<T>) -> Result<i32, Error> {
+        let law = self.law()?;
+        if points.n > 0 && points.f_new[0].is_null() {
+            return Err(Error::Null { name: "deformation_gradient" });
+        }
+        // SAFETY: the points are valid.
+        unsafe { law.step(points) }
     }
 }
 
@@ -261,7 +274,7 @@ unsafe fn evaluate<T: Precision + Registers>(law: Given<'_, T>, block: *const Bl
                 // Prepared for one point, the law may differ in the last digits.
                 evaluate_point(&PreparedHyperelastic::from(&Hyperelastic::new(properties)?), block)?
             }
-            (true, _) => law.law()?.step(&block.plain_points())?,
+            (true, _) => law.step(&block.plain_points())?,
         };
         if worst == status::OK {
             return Ok(worst);
@@ -426,7 +439,7 @@ impl<T: Scalar> Sink<T, 21> for PointOfBlock<'_, T> {
 unsafe fn evaluate_in_layouts<T: Precision>(law: Given<'_, T>, block: &Block<T>) -> Result<i32, Error> {
     block.check_layouts()?;
     // SAFETY: the layouts have just been checked; how long the arrays are the C caller promises.
-    unsafe { law.law()?.step(&block.points()) }
+    unsafe { law.step(&block.points()) }
 }
 
 macro_rules! entries {

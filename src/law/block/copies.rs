@@ -250,8 +250,8 @@ pub(super) unsafe fn copied<T: Scalar, const COUNT: usize, const ROWS: usize>(
     }
 }
 
-/// Runs a kernel on copies of all points, at least one and fewer than a register `R` holds; the other lanes get points at rest. `ROWS`
-/// is the greater of the [`rows`] of the law. Returns the kernel's result.
+/// Runs a kernel on copies of all points, at least one and fewer than a register `R` holds; the other lanes repeat the last one.
+/// `ROWS` is the greater of the [`rows`] of the law. Returns the kernel's result.
 ///
 /// # Safety
 /// The points are valid, see [`Points`], and next to each other; the processor has the instructions of `R`.
@@ -276,7 +276,7 @@ pub(super) unsafe fn padded<T: Scalar, R: Lanes<T>, const ROWS: usize>(
         columns_in::<T, R, 3>(&points.fibre, &copies.fibre, count);
         columns_in::<T, R, 3>(&points.second_axis, &copies.second_axis, count);
         if !copies.limit.is_null() {
-            R::load_first(points.limit, count, R::splat(0.0)).store(copies.limit.cast_mut());
+            filled::<T, R>(points.limit, count).store(copies.limit.cast_mut());
         }
         if !points.axes.is_null() {
             columns_in::<T, R, 9>(
@@ -292,7 +292,7 @@ pub(super) unsafe fn padded<T: Scalar, R: Lanes<T>, const ROWS: usize>(
                 for c in 0..needs.read(part) {
                     let value = match old.is_null() {
                         true => R::splat(0.0),
-                        false => R::load_first(old.add(c * state), count, R::splat(0.0)),
+                        false => filled::<T, R>(old.add(c * state), count),
                     };
                     value.store(to.add(c * R::COUNT));
                 }
@@ -332,20 +332,28 @@ pub(super) unsafe fn padded<T: Scalar, R: Lanes<T>, const ROWS: usize>(
     }
 }
 
-/// Copies `count` values of the columns of a matrix or a vector to registers, those of the identity or of the first axis to the other
-/// lanes; nothing if there is no such array.
+/// The first `count` values of an array, the last one of them in the other lanes too.
 ///
 /// # Safety
-/// The columns are null, or have `count` values each, fewer than COUNT, and a register of their own to go to.
+/// There are as many, one at least and fewer than COUNT.
+#[inline(always)]
+unsafe fn filled<T: Scalar, R: Lanes<T>>(array: *const T, count: usize) -> R {
+    // SAFETY: `count` values, one at least.
+    unsafe { R::load_first(array, count, R::splat((*array.add(count - 1)).into())) }
+}
+
+/// Copies `count` values of the columns of a matrix or a vector to registers; nothing if there is no such array.
+///
+/// # Safety
+/// The columns are null, or have `count` values each, one at least and fewer than COUNT, and a register of their own to go to.
 #[inline(always)]
 unsafe fn columns_in<T: Scalar, R: Lanes<T>, const N: usize>(from: &[*const T; N], to: &[*const T; N], count: usize) {
     if from[0].is_null() {
         return;
     }
     for c in 0..N {
-        let fill = R::splat(if c % 4 == 0 { 1.0 } else { 0.0 });
         // SAFETY: as the caller promises.
-        unsafe { R::load_first(from[c], count, fill).store(to[c].cast_mut()) };
+        unsafe { filled::<T, R>(from[c], count).store(to[c].cast_mut()) };
     }
 }
 

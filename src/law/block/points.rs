@@ -150,6 +150,9 @@ impl<T> Points<T> {
 
     /// The points from `first` ≤ n on.
     pub(super) fn from(self, first: usize) -> Self {
+        if first == 0 {
+            return self;
+        }
         let input = |p: *const T, stride: usize| if p.is_null() { p } else { p.wrapping_add(first * stride) };
         let output = |p: *mut T, stride: usize| if p.is_null() { p } else { p.wrapping_add(first * stride) };
         let Strides { deformation_gradient, fibre, limit, axes, state, stress, modes, tangent } = self.strides;
