@@ -16,7 +16,7 @@ use super::number::level::has_fma;
 use super::number::real::{Real, Single};
 use super::number::registers::Registers;
 use super::preparation::PropertyFrame;
-use super::response::{Request, nan_unless_finite};
+use super::response::{History, Request, Response, nan_unless_finite};
 use super::state::{ALIVE, FAILED, HYPERELASTIC_STATE};
 use super::status;
 use super::tangent::{Bases, Measure, may_overflow};
@@ -321,17 +321,6 @@ impl<
     const N: usize,
 > Call<'_, T, L, F, O, D, S, N>
 {
-    /// Prepares the law and evaluates it in the number type `R`.
-    ///
-    /// # Errors
-    /// The first property that is wrong; the sink is not called.
-    #[cfg(target_arch = "x86_64")]
-    #[inline(always)]
-    pub(super) fn evaluate<R: Single<T>>(self) -> Result<(), Error> {
-        let Call { source, f, fibre, limit, state, tangent, sink } = self;
-        evaluate::<T, R, L, F, O, D, S, N>(source, f, fibre, limit, state, tangent, sink)
-    }
-
     /// Prepares the law and evaluates it with the instructions that every processor of the architecture has.
     ///
     /// # Errors
@@ -381,7 +370,8 @@ pub(crate) fn evaluate_call<
         >(
             call: Call<'_, T, L, F, O, D, S, N>,
         ) -> Result<(), Error> {
-            call.evaluate::<T::Point>()
+            let Call { source, f, fibre, limit, state, tangent, sink } = call;
+            evaluate::<T, T::Point, L, F, O, D, S, N>(source, f, fibre, limit, state, tangent, sink)
         }
         if level > Level::Baseline && has_fma() {
             // SAFETY: the processor has AVX2 and FMA, as `has_fma` has found.
@@ -496,16 +486,7 @@ fn point_in<
         sink.take(Point::unchanged(state, failed, law.k_el.value(), code as i32), None, [T::splat(0.0); N]);
         return Ok(());
     }
-    let failed = h.failed.value();
-    let ([w_el, w_tc, w_td, w_ld], [i_el, i_tc, i_td, i_ld]) = (values(&h.energies), values(&h.invariants));
-    let (index, alive) = (h.failure_index.value(), T::splat(1.0) - failed);
-    let point = Point {
-        stress: values(&r.stress),
-        state: [w_el, w_tc, w_td, w_ld, i_el, i_tc, i_td, i_ld, index, failed, alive],
-        modes: [values(&r.modes[0]), values(&r.modes[1]), values(&r.modes[2]), values(&r.modes[3])],
-        wave_modulus: r.wave_modulus.value(),
-        status: status::OK,
-    };
+    let point = Point::updated(&r, &h);
     sink.take(point, Some(stretch.inverse_jacobian.value()), values(&entries));
     Ok(())
 }
@@ -520,6 +501,21 @@ impl<T: Real<Mask = bool>> Point<T> {
             state: [zero; HYPERELASTIC_STATE],
             modes: [[zero; 6]; 4],
             wave_modulus: zero,
+            status: status::OK,
+        }
+    }
+
+    /// A point with a new state.
+    #[inline(always)]
+    fn updated<R: Single<T>>(r: &Response<R>, h: &History<R>) -> Self {
+        let failed = h.failed.value();
+        let ([w_el, w_tc, w_td, w_ld], [i_el, i_tc, i_td, i_ld]) = (values(&h.energies), values(&h.invariants));
+        let (index, alive) = (h.failure_index.value(), T::splat(1.0) - failed);
+        Point {
+            stress: values(&r.stress),
+            state: [w_el, w_tc, w_td, w_ld, i_el, i_tc, i_td, i_ld, index, failed, alive],
+            modes: [values(&r.modes[0]), values(&r.modes[1]), values(&r.modes[2]), values(&r.modes[3])],
+            wave_modulus: r.wave_modulus.value(),
             status: status::OK,
         }
     }
