@@ -139,7 +139,7 @@ impl<'a, T: Precision> Block<'a, T> {
 
 /// What a host passes with every block.
 #[derive(Clone, Copy)]
-pub(crate) enum Law<'a, T> {
+pub enum Law<'a, T> {
     Properties(&'a [T]),
     Prepared(&'a PreparedHyperelastic<T>),
 }

@@ -34,8 +34,8 @@ pub mod linear;
 mod pointers;
 
 pub use dispatch::Precision;
-pub use interface::{Arrays, Block};
-pub(crate) use interface::{Law, raw_block_of};
+pub(crate) use interface::raw_block_of;
+pub use interface::{Arrays, Block, Law};
 pub(crate) use kernel::least_code;
 pub(crate) use pointers::{MOST, check_layout, distances};
 pub use pointers::{Pointers, Strides, components, components_mut};
