@@ -4,8 +4,15 @@
 use std::path::{Path, PathBuf};
 
 /// The workspace's folders that the program is compiled from.
-const SOURCES: [&str; 6] =
-    ["src", "solvers/src", "packages/shared/src", "packages/umat-check/src", "program/src", "program/assets"];
+const SOURCES: [&str; 7] = [
+    "src",
+    "c/functions/src",
+    "solvers/src",
+    "packages/shared/src",
+    "packages/umat-check/src",
+    "program/src",
+    "program/assets",
+];
 /// What else the compiler is told.
 const OPTIONS: [&str; 2] = ["CARGO_ENCODED_RUSTFLAGS", "CARGO_CFG_TARGET_FEATURE"];
 

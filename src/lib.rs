@@ -2,9 +2,9 @@
 //! ENSAM, 2019), and the linear elastic law that it is compared with.
 //!
 //! [`law`] is the laws themselves: from a deformation gradient to a stress; [`law::thesis`] states the yarn's in a page. [`host`] is what solvers call: the C interface, Abaqus,
-//! LS-DYNA, CalculiX, OpenRadioss, MGIS. Neither needs a standard library, allocates or panics. What is made of them are packages
-//! of their own: `toron-c` exports the C interface as libtoron, `toron-calculix` and `toron-openradioss` are libraries that these
-//! solvers load, `toron-mgis` that of MGIS and MTest, `toron-program` the program `toron`: load paths on one element, a yarn under
+//! LS-DYNA, CalculiX, OpenRadioss, MGIS. Neither needs a standard library, allocates or panics. What is made of them are
+//! packages of their own: `toron-c-functions` is the C interface, which `toron-c` exports as libtoron, `toron-calculix`
+//! and `toron-openradioss` are libraries that these solvers load, `toron-mgis` that of MGIS and MTest, `toron-program` the program `toron`: load paths on one element, a yarn under
 //! impact, tables, plots and decks.
 //!
 //! One point of a Kevlar KM2 yarn, in N, mm and MPa, pulled by 2 % and pressed to 80 % across:

@@ -1,6 +1,6 @@
 //! Dependencies between this repository's packages point down: each package stands in the table below those that need
-//! it, and has the arrows that are listed there and no others. A library of a solver that needed `toron-c` would export
-//! its symbols.
+//! it, and has the arrows that are listed there and no others. A library of a solver that needed `toron-c-functions`
+//! would export its symbols.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -12,7 +12,7 @@ use serde_json::Value;
 type Arrows = (&'static str, &'static [&'static str], &'static [&'static str]);
 
 /// From the ground up.
-const ARROWS: [Arrows; 17] = [
+const ARROWS: [Arrows; 18] = [
     ("toron", &[], &[]),
     ("toron-shared", &[], &[]),
     ("umat-check", &["toron-shared"], &[]),
@@ -23,8 +23,9 @@ const ARROWS: [Arrows; 17] = [
     ("toron-mgis", &["toron", "toron-solvers"], &[]),
     ("toron-openradioss", &["toron", "toron-solvers"], &[]),
     ("toron-openradioss-sp", &["toron", "toron-solvers"], &[]),
-    ("toron-c", &["toron"], &["toron-solvers"]),
-    ("toron-program", &["toron", "toron-shared", "toron-solvers", "umat-check"], &[]),
+    ("toron-c-functions", &["toron"], &[]),
+    ("toron-c", &["toron-c-functions"], &["toron", "toron-solvers"]),
+    ("toron-program", &["toron", "toron-c-functions", "toron-shared", "toron-solvers", "umat-check"], &[]),
     ("toron-benches", &[], &["toron", "toron-program"]),
     // `examples/own_law`.
     ("reinforced-solid", &["toron"], &[]),

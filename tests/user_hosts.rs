@@ -8,8 +8,8 @@ use std::ptr::{null, null_mut};
 use nalgebra::{Matrix3, Matrix6, Rotation3, Vector3};
 use toron::Measure;
 use toron::host::abaqus::{self, ExplicitLaw, StandardLaw, Vumat};
-use toron::host::c::{ListedPoints, Named, PreparedOf, listed_block, listed_prepare};
 use toron::host::calculix::{Behaviour, CalculixLaw};
+use toron::host::listed::{self, ListedPoints, Named, PreparedOf};
 use toron::host::lsdyna::{self, UmatVector, UserRoutines, UtanVector};
 use toron::host::openradioss::{Group, Laws, Material, evaluate, read};
 use toron::law::interface::{Law, Points};
@@ -501,7 +501,7 @@ fn c_block<M: Tried>() {
     let mut law: PreparedOf<Listed<M>, f64> = unsafe { std::mem::zeroed() };
     let (values, count) = (M::VALUES.as_ptr(), M::VALUES.len());
     // SAFETY: the arrays have the sizes that are passed with them.
-    let code = unsafe { listed_prepare::<Listed<M>, f64>(&mut law, size_of_val(&law), values, count, null_mut(), 0) };
+    let code = unsafe { listed::prepare::<Listed<M>, f64>(&mut law, size_of_val(&law), values, count, null_mut(), 0) };
     assert_eq!(code, status::OK);
     let (mut state, ones) = (vec![0.0; rows * N], vec![1.0; 3 * N]);
     for (pair, truth) in path.windows(2).zip(truth::<M>(&path, Measure::Material)) {
@@ -520,7 +520,7 @@ fn c_block<M: Tried>() {
         points.stress[0] = stress.as_mut_ptr();
         (points.status, points.active) = (codes.as_mut_ptr(), active.as_mut_ptr());
         // SAFETY: the arrays have the sizes that the header asks for.
-        let code = unsafe { listed_block::<Listed<M>, f64>(&law, &points, null_mut(), 0) };
+        let code = unsafe { listed::block::<Listed<M>, f64>(&law, &points, null_mut(), 0) };
         assert_eq!(code, truth.code);
         for point in [0, N - 1] {
             let of = |array: &[f64]| -> Vec<f64> { array.iter().skip(point).step_by(N).copied().collect() };
@@ -532,13 +532,13 @@ fn c_block<M: Tried>() {
         if M::DESCRIPTION.fibre.is_none() {
             points.fibre[0] = ones.as_ptr();
             // SAFETY: as above.
-            let code = unsafe { listed_block::<Listed<M>, f64>(&law, &points, null_mut(), 0) };
+            let code = unsafe { listed::block::<Listed<M>, f64>(&law, &points, null_mut(), 0) };
             assert_eq!(code, status::BAD_ARGUMENT);
         }
         if M::DESCRIPTION.reads_old_gradient {
             (points.fibre[0], points.f_old[0]) = (null(), null());
             // SAFETY: as above.
-            let code = unsafe { listed_block::<Listed<M>, f64>(&law, &points, null_mut(), 0) };
+            let code = unsafe { listed::block::<Listed<M>, f64>(&law, &points, null_mut(), 0) };
             assert_eq!(code, status::NULL_ARGUMENT);
         }
     }

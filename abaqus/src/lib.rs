@@ -8,12 +8,13 @@
 // Abaqus's routines are looked up as Unix has it, and its symbols have other names on Windows.
 #![cfg(unix)]
 
+use toron::law::parameters::LINEAR_ELASTIC_PROPERTIES;
+use toron::law::state::LINEAR_ELASTIC_STATE;
 use toron::{Hyperelastic, LinearElastic};
 
 /// The numbers of properties and of state variables of a material with the linear elastic law; every other one has the hyperelastic
 /// law. Ten properties and eleven state variables are a card of the hyperelastic law that lacks a property.
-const LINEAR_ELASTIC: [i32; 2] =
-    [toron::host::c::TORON_LINEAR_ELASTIC_PROPERTIES as i32, toron::host::c::TORON_LINEAR_ELASTIC_STATE as i32];
+const LINEAR_ELASTIC: [i32; 2] = [LINEAR_ELASTIC_PROPERTIES as i32, LINEAR_ELASTIC_STATE as i32];
 
 #[cfg(not(feature = "single"))]
 toron_solvers::abaqus_umat! {

@@ -9,7 +9,7 @@ use crate::material::laws::Laws;
 use crate::material::own_law::OwnLaw;
 use crate::{WITH_TABLES, bench, deck, load_path, params};
 use toron::host::Material;
-use toron::host::c::AsNumbers;
+use toron::host::prepared::AsNumbers;
 use toron_shared::command_line;
 use toron_shared::console::{print, print_error};
 

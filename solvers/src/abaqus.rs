@@ -5,7 +5,7 @@ use std::ffi::{CStr, c_char};
 use std::io::Write;
 
 /// The size of a buffer for any message of the library, with the terminating null.
-pub const CAPACITY: usize = toron::host::c::TORON_MESSAGE_CAPACITY;
+pub const CAPACITY: usize = toron::host::constants::TORON_MESSAGE_CAPACITY;
 
 /// The exit code where Abaqus's own routine is not found.
 const ERROR: i32 = 1;

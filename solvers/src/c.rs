@@ -1,7 +1,9 @@
 //! C: for a law of the name `NAME` its tables, `NAME_prepare_f64` and `NAME_block_f64` or `_f32`; and the header with their prototypes.
 
 use toron::host::Material;
-use toron::host::c::{self, AsNumbers, prepared_size};
+use toron::host::constants::TORON_MESSAGE_CAPACITY;
+use toron::host::listed::prepared_size;
+use toron::host::prepared::AsNumbers;
 use toron::law::interface::Law;
 use toron::law::status;
 
@@ -15,7 +17,7 @@ macro_rules! c {
             #[derive(Clone, Copy)]
             pub struct __toron_listed;
 
-            impl $crate::toron::host::c::Named<$t> for __toron_listed {
+            impl $crate::toron::host::listed::Named<$t> for __toron_listed {
                 type Law = <$law as $crate::toron::host::Material<$t>>::Law;
                 const PREPARED: &'static str = concat!($name, "_", stringify!($t));
                 const PREPARE: &'static str = concat!($name, "_prepare_", stringify!($t));
@@ -27,7 +29,7 @@ macro_rules! c {
             // SAFETY of each: what the header asks of the caller.
             #[unsafe(export_name = concat!($name, "_prepare_", stringify!($t)))]
             pub unsafe extern "C" fn prepare_law(
-                law: *mut $crate::toron::host::c::PreparedOf<__toron_listed, $t>,
+                law: *mut $crate::toron::host::listed::PreparedOf<__toron_listed, $t>,
                 size: usize,
                 properties: *const $t,
                 count: usize,
@@ -35,7 +37,7 @@ macro_rules! c {
                 capacity: usize,
             ) -> i32 {
                 unsafe {
-                    $crate::toron::host::c::listed_prepare::<__toron_listed, $t>(
+                    $crate::toron::host::listed::prepare::<__toron_listed, $t>(
                         law, size, properties, count, message, capacity,
                     )
                 }
@@ -43,12 +45,12 @@ macro_rules! c {
 
             #[unsafe(export_name = concat!($name, "_block_", stringify!($t)))]
             pub unsafe extern "C" fn evaluate_block(
-                law: *const $crate::toron::host::c::PreparedOf<__toron_listed, $t>,
-                points: *const $crate::toron::host::c::ListedPoints<__toron_listed, $t>,
+                law: *const $crate::toron::host::listed::PreparedOf<__toron_listed, $t>,
+                points: *const $crate::toron::host::listed::ListedPoints<__toron_listed, $t>,
                 message: *mut ::core::ffi::c_char,
                 capacity: usize,
             ) -> i32 {
-                unsafe { $crate::toron::host::c::listed_block::<__toron_listed, $t>(law, points, message, capacity) }
+                unsafe { $crate::toron::host::listed::block::<__toron_listed, $t>(law, points, message, capacity) }
             }
 
             #[unsafe(export_name = concat!($name, "_property_count"))]
@@ -59,11 +61,11 @@ macro_rules! c {
             #[unsafe(export_name = concat!($name, "_property"))]
             pub unsafe extern "C" fn property(
                 index: i32,
-                row: *mut $crate::toron::host::c::TableRow,
+                row: *mut $crate::toron::host::tables::TableRow,
                 message: *mut ::core::ffi::c_char,
                 capacity: usize,
             ) -> i32 {
-                unsafe { $crate::toron::host::c::listed_property(&DESCRIPTION, index, row, message, capacity) }
+                unsafe { $crate::toron::host::listed::property(&DESCRIPTION, index, row, message, capacity) }
             }
 
             #[unsafe(export_name = concat!($name, "_state_count"))]
@@ -74,11 +76,11 @@ macro_rules! c {
             #[unsafe(export_name = concat!($name, "_state_variable"))]
             pub unsafe extern "C" fn state_variable(
                 index: i32,
-                row: *mut $crate::toron::host::c::TableRow,
+                row: *mut $crate::toron::host::tables::TableRow,
                 message: *mut ::core::ffi::c_char,
                 capacity: usize,
             ) -> i32 {
-                unsafe { $crate::toron::host::c::listed_state_variable(&DESCRIPTION, index, row, message, capacity) }
+                unsafe { $crate::toron::host::listed::state_variable(&DESCRIPTION, index, row, message, capacity) }
             }
 
             #[unsafe(export_name = concat!($name, "_status_message"))]
@@ -87,7 +89,7 @@ macro_rules! c {
                 message: *mut ::core::ffi::c_char,
                 capacity: usize,
             ) -> i32 {
-                unsafe { $crate::toron::host::c::status_message(code, message, capacity) }
+                unsafe { $crate::toron::host::entry_points::status_message(code, message, capacity) }
             }
         };
     )+};
@@ -129,7 +131,7 @@ where
     };
     let f_old = if law.reads_old_gradient { "Must not be null." } else { "Not read by this law." };
     let [n_properties, n_state, capacity] =
-        [law.properties.len(), law.state.len(), c::TORON_MESSAGE_CAPACITY].map(|count| count.to_string());
+        [law.properties.len(), law.state.len(), TORON_MESSAGE_CAPACITY].map(|count| count.to_string());
     let mut header = BEGINNING.replace("{name}", name).replace("{title}", law.title).replace("{capacity}", &capacity);
     header = header.replace("{n_properties}", &n_properties).replace("{n_state}", &n_state);
     header = header.replace("{properties}", &properties).replace("{state}", &state).replace("{codes}", &codes);

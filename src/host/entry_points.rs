@@ -18,7 +18,7 @@ use crate::law::status;
 ///
 /// # Safety
 /// `properties` is null or points to `count` values.
-pub(super) unsafe fn properties<'a, T>(
+pub unsafe fn properties<'a, T>(
     properties: *const T,
     count: size_t,
     table: &'static [Property],
@@ -128,7 +128,7 @@ pub(super) fn from_entry<T, const N: usize>(mut arrays: [*mut T; N], first: usiz
 /// Where a caller wants the message of an error: a buffer, or nowhere if it is null. It is written only if there is an error. Who makes
 /// one promises that `text` is null or points to `capacity` writable bytes.
 #[derive(Clone, Copy)]
-pub(super) struct Message {
+pub struct Message {
     pub text: *mut c_char,
     pub capacity: size_t,
 }
@@ -213,13 +213,24 @@ impl Message {
     }
 }
 
+/// Writes the meaning of a status code as a sentence. Returns 0, or the code for a name that is unknown if there is no
+/// such code, which the text then says.
+///
+/// # Safety
+/// The buffer is what [`Message`] says.
+pub unsafe fn status_message(status: i32, text: *mut c_char, capacity: size_t) -> i32 {
+    // SAFETY: the buffer is the caller's.
+    unsafe { Message { text, capacity }.write(|sink| Error::Plain(status).describe(sink)) };
+    if status::meaning(status).is_some() { status::OK } else { status::UNKNOWN_NAME }
+}
+
 /// Runs the body of an entry point in the default floating-point environment. Returns its status, or that of its error, with a
 /// message.
 ///
 /// # Safety
 /// As for [`Message::write`].
 #[inline(always)]
-pub(super) unsafe fn entry(message: Message, body: impl FnOnce() -> Result<i32, Error>) -> i32 {
+pub unsafe fn entry(message: Message, body: impl FnOnce() -> Result<i32, Error>) -> i32 {
     match in_default_environment(body) {
         Ok(status::OK) => status::OK,
         // SAFETY: the message is the caller's.
@@ -233,7 +244,7 @@ pub(super) unsafe fn entry(message: Message, body: impl FnOnce() -> Result<i32, 
 ///
 /// # Safety
 /// As for [`Message::write`].
-pub(super) unsafe fn look_up(message: Message, body: impl FnOnce() -> Result<i32, Error>) -> i32 {
+pub unsafe fn look_up(message: Message, body: impl FnOnce() -> Result<i32, Error>) -> i32 {
     // SAFETY: the message is the caller's; the error has no number that needs the default environment.
     body().unwrap_or_else(|error| unsafe { message.refuse(&error) })
 }
@@ -277,7 +288,7 @@ pub(super) unsafe fn store<T: Copy>(values: &[T], to: *mut T) {
 ///
 /// # Safety
 /// `text` is null or a null-terminated string.
-pub(super) unsafe fn name<'a>(text: *const c_char, argument: &'static str) -> Result<&'a str, Error> {
+pub unsafe fn name<'a>(text: *const c_char, argument: &'static str) -> Result<&'a str, Error> {
     const LONGEST: usize = 64;
     if text.is_null() {
         return Err(Error::Null { name: argument });

@@ -1,15 +1,35 @@
 //! The interfaces to host programs, one file for each; it begins with the host's order of arguments and components.
+//! Beside them what the C interface is made of: the structures that a caller passes, and what evaluates them. Its
+//! functions are those of package `toron-c-functions`.
+//!
+//! # What a caller promises
+//!
+//! What is null is passed over or refused; of a pointer that is not, each function has to believe, while it runs:
+//!
+//! - a structure that begins with its size has as many bytes as it says, a prepared law is a whole structure of its
+//!   type, prepared or not, and in what a function prepares, `size` bytes may be written;
+//! - an array has as many values as its argument or field says, in the layout that the structure says, valid for
+//!   reading or writing;
+//! - outputs overlap nothing but, exactly, the old state that they replace;
+//! - a name is a null-terminated text, and at `message` `capacity` bytes may be written.
 
 pub mod abaqus;
-pub mod c;
+pub mod arguments;
+pub mod blocks;
 pub mod calculix;
-mod entry_points;
+pub mod constants;
+pub mod entry_points;
 pub mod environment;
 mod limit_variable;
+pub mod linear_elastic;
+pub mod listed;
 pub mod lsdyna;
 pub mod mgis;
 pub mod openradioss;
+pub mod points;
+pub mod prepared;
 mod structures;
+pub mod tables;
 pub mod units;
 
 use crate::law::block::Precision;

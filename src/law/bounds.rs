@@ -37,7 +37,7 @@ pub(crate) fn within<T: Real + Into<f64>, const N: usize>([least, greatest]: &[[
 }
 
 /// The error of another number of properties than the table's.
-pub(crate) fn wrong_number(found: i64, table: &[Property]) -> Error {
+pub fn wrong_number(found: i64, table: &[Property]) -> Error {
     Error::Count { code: PROPERTY_COUNT, what: "number of properties", found, wanted: table.len() as i64 }
 }
 

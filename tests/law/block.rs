@@ -3,7 +3,6 @@
 //! The baseline gives the scalar law's bits. AVX2 and AVX-512 fuse multiplications with additions and stay within a few
 //! roundings of the input; at one level, no result depends on where its point stands.
 
-use std::mem::MaybeUninit;
 use std::ops::Range;
 use std::ptr::null_mut;
 
@@ -18,10 +17,11 @@ use toron::Level;
 use toron::Measure;
 use toron::Point;
 use toron::Real;
-use toron::host::c;
+use toron::host::{constants, points};
 use toron::law::block::Points;
 use toron::law::interface::Law;
 use toron::law::parameters::PRESETS;
+use toron::law::prepared::{Given, PreparedHyperelastic};
 use toron::law::state::{FAILED, FAILURE_INDEX, HYPERELASTIC_STATE};
 use toron::law::status;
 use toron::{Hyperelastic, Request};
@@ -263,19 +263,18 @@ fn once(properties: &[f64; 11], input: &Input<f64>) -> (Point<f64>, [f64; 21]) {
         [Point { stress: [0.0; 6], state: input.old, modes: [[0.0; 6]; 4], wave_modulus: 0.0, status: 0 }; 2];
     for (point, with_tangent) in answers.iter_mut().zip([true, false]) {
         let (stress, state) = (point.stress.as_mut_ptr(), point.state.as_mut_ptr());
-        let arguments = c::Point {
-            measure: c::TORON_TANGENT_JAUMANN,
+        let arguments = points::Point {
+            measure: constants::TORON_TANGENT_JAUMANN,
             deformation_gradient: input.f.as_ptr(),
             state_old: input.old.as_ptr(),
             state_new: state,
             stress,
             tangent: if with_tangent { tangent.as_mut_ptr().cast() } else { null_mut() },
-            ..c::Point::empty()
+            ..points::Point::empty()
         };
         // SAFETY: eleven properties and state variables, nine entries of F, six stresses, 36 moduli.
         unsafe {
-            point.status =
-                c::hyperelastic_point_with_properties_f64(properties.as_ptr(), 11, &arguments, null_mut(), 0);
+            point.status = status_of(points::evaluate(Given::Properties(properties), &arguments));
             check_prepared(properties, &arguments, point);
         }
     }
@@ -286,23 +285,22 @@ fn once(properties: &[f64; 11], input: &Input<f64>) -> (Point<f64>, [f64; 21]) {
     (point, triangle.try_into().expect("the upper triangle"))
 }
 
+/// A status, or the code of what is wrong with the call.
+fn status_of(answer: Result<i32, Error>) -> i32 {
+    answer.unwrap_or_else(|error| error.code())
+}
+
 /// With the law prepared once, the results are those of the call with properties, to four roundings of F.
 ///
 /// # Safety
 /// The arrays are those of one point.
-unsafe fn check_prepared(properties: &[f64; 11], arguments: &c::Point<f64>, point: &Point<f64>) {
-    let mut law = MaybeUninit::uninit();
+unsafe fn check_prepared(properties: &[f64; 11], arguments: &points::Point<f64>, point: &Point<f64>) {
     let (mut stress, mut state) = ([0.0; 6], [0.0; 11]);
-    let again = c::Point { state_new: state.as_mut_ptr(), stress: stress.as_mut_ptr(), ..*arguments };
-    // SAFETY: as the caller promises, and a law that is prepared before it is used.
-    let status = unsafe {
-        let size = size_of_val(&law);
-        match c::hyperelastic_prepare_f64(law.as_mut_ptr(), size, properties.as_ptr(), 11, null_mut(), 0) {
-            0 => c::hyperelastic_point_f64(law.as_ptr(), &again, null_mut(), 0),
-            code => code,
-        }
-    };
-    assert_eq!(status, point.status);
+    let again = points::Point { state_new: state.as_mut_ptr(), stress: stress.as_mut_ptr(), ..*arguments };
+    let law = Hyperelastic::new(properties).map(|law| PreparedHyperelastic::from(&law));
+    // SAFETY: as the caller promises.
+    let answer = law.and_then(|law| unsafe { points::evaluate(Given::Prepared(&law), &again) });
+    assert_eq!(status_of(answer), point.status);
     let prepared = Point { stress, state, ..*point };
     assert_eq!(bits(&prepared).0[..14], bits(point).0[..14], "stress, energies and invariants");
     let difference = (state[FAILURE_INDEX] - point.state[FAILURE_INDEX]).abs();

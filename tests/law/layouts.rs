@@ -4,9 +4,10 @@
 use crate::common::block::levels;
 use crate::common::deformations::{Ranges, deformation, samples};
 use nalgebra::Matrix3;
-use toron::host::c::{Block, hyperelastic_block_with_properties_f64};
+use toron::host::blocks::{self, Block};
 use toron::law::block::{Points, Strides, components, components_mut};
 use toron::law::interface::Law;
+use toron::law::prepared::Given;
 use toron::law::state::{FAILED, HYPERELASTIC_STATE};
 use toron::law::status;
 use toron::{Arrays, Hyperelastic, Level, Measure};
@@ -200,8 +201,7 @@ fn few_points_are_active_alike() {
     let mut block = Block { n: 3, failure: failure.as_mut_ptr().cast(), active: active.as_mut_ptr(), ..Block::empty() };
     block.deformation_gradient[0] = f.as_ptr().cast();
     // SAFETY: arrays of three points.
-    let code =
-        unsafe { hyperelastic_block_with_properties_f64(properties.as_ptr(), 11, &block, std::ptr::null_mut(), 0) };
-    assert_eq!((code, active), (status::INVERTED, [1.0, 0.0, 0.0]));
+    let error = unsafe { blocks::evaluate(Given::Properties(&properties), &block) }.expect_err("an inverted point");
+    assert_eq!((error.code(), active), (status::INVERTED, [1.0, 0.0, 0.0]));
     assert_eq!(failure[1], [0.0, 0.0, 1.0], "the second point fails, the inverted one does not");
 }

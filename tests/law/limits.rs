@@ -5,16 +5,17 @@ use std::ptr::{null, null_mut};
 use crate::common::block::levels;
 use crate::common::deformations::{Ranges, deformation, samples};
 use nalgebra::Matrix3;
-use toron::host::c::{
-    Block, Layout, LinearBlock, Point, hyperelastic_block_with_properties_f64, hyperelastic_point_with_properties_f64,
-    linear_elastic_block_with_properties_f64,
-};
+use toron::host::arguments::Layout;
+use toron::host::blocks::{self, Block};
+use toron::host::linear_elastic::{self, LinearBlock};
+use toron::host::points::{self, Point};
 use toron::law::block::{Points, Strides, components, components_mut};
 use toron::law::interface::Law;
 use toron::law::parameters::SIGMA_LIM;
+use toron::law::prepared::Given;
 use toron::law::state::{FAILED, FAILURE_INDEX, HYPERELASTIC_STATE};
 use toron::law::status;
-use toron::{Arrays, Hyperelastic, Level, Measure, Request};
+use toron::{Arrays, Hyperelastic, Level, LinearElastic, Measure, Request};
 
 const PROPERTIES: [f64; 11] = [82341.0, 1055.0, 2.2, 649.74, 0.0, 0.0458, 1.8, 0.1, 1.0, 0.0, 0.0];
 /// 0 is that of the properties.
@@ -172,8 +173,8 @@ fn limits_stand_where_the_caller_says() {
         ..Block::empty()
     };
     // SAFETY: every array has a row for each point.
-    let code = unsafe { hyperelastic_block_with_properties_f64(PROPERTIES.as_ptr(), 11, &block, null_mut(), 0) };
-    assert_eq!((code, of_c), (status::OK, state.clone()));
+    let code = unsafe { blocks::evaluate(Given::Properties(&PROPERTIES), &block) };
+    assert_eq!((code, of_c), (Ok(status::OK), state.clone()));
     for i in 0..n {
         let wanted = law.with_limit(limit(i)).expect("a limit").point(&f[i], &[0.0; STATE], Request::STRESS_AND_STATE);
         let close = |found: &[f64; STATE], what: &str| {
@@ -195,8 +196,8 @@ fn limits_stand_where_the_caller_says() {
             ..Block::empty()
         };
         // SAFETY: arrays of one point.
-        let code = unsafe { hyperelastic_block_with_properties_f64(PROPERTIES.as_ptr(), 11, &block, null_mut(), 0) };
-        assert_eq!(code, status::OK);
+        let code = unsafe { blocks::evaluate(Given::Properties(&PROPERTIES), &block) };
+        assert_eq!(code, Ok(status::OK));
         close(&one, "block");
         let mut alone = [0.0; STATE];
         let point = Point {
@@ -207,8 +208,8 @@ fn limits_stand_where_the_caller_says() {
             ..Point::empty()
         };
         // SAFETY: arrays of one point.
-        let code = unsafe { hyperelastic_point_with_properties_f64(PROPERTIES.as_ptr(), 11, &point, null_mut(), 0) };
-        assert_eq!(code, status::OK);
+        let code = unsafe { points::evaluate(Given::Properties(&PROPERTIES), &point) };
+        assert_eq!(code, Ok(status::OK));
         close(&alone, "point");
     }
 }
@@ -235,13 +236,9 @@ fn a_limit_that_means_nothing_is_found() {
         limit: limits.as_ptr(),
         ..Block::empty()
     };
-    let mut message = [0; 300];
     // SAFETY: component-major arrays of n points.
-    let code = unsafe {
-        hyperelastic_block_with_properties_f64(PROPERTIES.as_ptr(), 11, &block, message.as_mut_ptr(), message.len())
-    };
-    let text: String = message.iter().take_while(|&&c| c != 0).map(|&c| char::from(c as u8)).collect();
-    assert!(code == status::LIMIT && text.contains("point 41"), "{code} {text}");
+    let error = unsafe { blocks::evaluate(Given::Properties(&PROPERTIES), &block) }.expect_err("a wrong limit");
+    assert!(error.code() == status::LIMIT && error.to_string().contains("point 41"), "{error}");
 }
 
 /// A limit that means nothing has a code of its own; the point keeps its state, and the others do not notice.
@@ -270,19 +267,17 @@ fn a_limit_that_means_nothing_is_an_error_of_its_point() {
             }
         }
         let gradient = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
-        let (mut state, mut message) = ([0.0; STATE], [0; 300]);
+        let mut state = [0.0; STATE];
         let point = Point {
             deformation_gradient: gradient.as_ptr(),
             state_new: state.as_mut_ptr(),
             limit: &raw const wrong,
             ..Point::empty()
         };
-        // SAFETY: arrays of one point, and a message of its length.
-        let code = unsafe {
-            hyperelastic_point_with_properties_f64(PROPERTIES.as_ptr(), 11, &point, message.as_mut_ptr(), message.len())
-        };
-        let text: String = message.iter().take_while(|&&c| c != 0).map(|&c| char::from(c as u8)).collect();
-        assert_eq!(code, status::LIMIT);
+        // SAFETY: arrays of one point.
+        let code = unsafe { points::evaluate(Given::Properties(&PROPERTIES), &point) };
+        assert_eq!(code, Ok(status::LIMIT));
+        let text = toron::Error::Plain(status::LIMIT).to_string();
         assert!(text.contains("the failure limit of this point is negative, NaN or infinite"), "{text}");
     }
     // Where nothing fails it is not read.
@@ -347,8 +342,7 @@ fn a_point_is_as_a_block_of_it() {
                 ..Point::empty()
             };
             // SAFETY: arrays of one point.
-            point.code =
-                unsafe { hyperelastic_point_with_properties_f64(PROPERTIES.as_ptr(), 11, &arrays, null_mut(), 0) };
+            point.code = unsafe { points::evaluate(Given::Properties(&PROPERTIES), &arrays) }.expect("a good call");
             let state = block.state.as_mut_ptr();
             let arrays = Points {
                 density: 1.35e-9,
@@ -393,6 +387,7 @@ fn linear_block(
 ) -> Vec<Vec<u64>> {
     let n = f.len();
     let properties: [f64; 10] = std::array::from_fn(|c| if c == SIGMA_LIM { sigma_lim } else { LINEAR[c] });
+    let law = LinearElastic::new(&properties).expect("valid properties");
     let columns =
         |f: &dyn Fn(usize) -> Matrix3<f64>| -> Vec<f64> { (0..9).flat_map(|c| (0..n).map(move |i| f(i)[c])).collect() };
     let (old, new) = (columns(&|_| Matrix3::identity()), columns(&|i| f[i]));
@@ -411,7 +406,9 @@ fn linear_block(
         ..LinearBlock::empty()
     };
     // SAFETY: component-major arrays of n points.
-    unsafe { linear_elastic_block_with_properties_f64(properties.as_ptr(), 10, &block, null_mut(), 0) };
+    let answer = unsafe { linear_elastic::block(&law, &block) };
+    let worst = answer.unwrap_or_else(|error| error.code());
+    assert_eq!(Some(&worst), codes.iter().min());
     let numbers = |i: usize| state[i..].iter().step_by(n).map(|x| x.to_bits()).chain([codes[i] as u64]).collect();
     (0..n).map(numbers).collect()
 }

@@ -329,7 +329,8 @@ fn texts_fit_the_rows_of_the_c_interface() {
     }
 }
 
-/// The numbers of a prepared law in their order: if they or their meaning change, so must the tag in `host::c::prepared`.
+/// The numbers of a prepared law in their order: if they or their meaning change, so must the tag in
+/// `c/functions/src/prepared.rs`.
 #[test]
 fn prepared_laws_hold_these_numbers() {
     let law = Hyperelastic::new(&[82341.0, 1055.0, 2.25, 649.74, 10.0, 0.0458, 1.8, 0.1, 2.0, 0.0, 0.0]).expect("good");

@@ -399,13 +399,13 @@ fn the_committed_module_is_current() {
 fn every_exported_function_is_in_the_module() {
     let module = generated();
     let sources = [
-        include_str!("../../src/about.rs"),
-        include_str!("../../src/tables.rs"),
-        include_str!("../../src/hyperelastic.rs"),
-        include_str!("../../src/linear_elastic.rs"),
-        include_str!("../../src/abaqus.rs"),
-        include_str!("../../src/lsdyna.rs"),
-        include_str!("../../src/openradioss.rs"),
+        include_str!("../../functions/src/about.rs"),
+        include_str!("../../functions/src/tables.rs"),
+        include_str!("../../functions/src/hyperelastic.rs"),
+        include_str!("../../functions/src/linear_elastic.rs"),
+        include_str!("../../functions/src/abaqus.rs"),
+        include_str!("../../functions/src/lsdyna.rs"),
+        include_str!("../../functions/src/openradioss.rs"),
     ];
     let exported = sources.iter().flat_map(|source| source.split("extern \"C\" fn ").skip(1));
     let mut count = 0;

@@ -8,23 +8,24 @@ use crate::library::ROOT;
 use toron::law::status;
 
 /// Constants and structures, then what is exported.
-const SOURCES: [&str; 16] = [
+const SOURCES: [&str; 17] = [
     "src/law/status.rs",
-    "src/host/c/constants.rs",
-    "src/host/c/tables.rs",
-    "src/host/c/arguments.rs",
-    "src/host/c/prepared.rs",
-    "src/host/c/points.rs",
-    "src/host/c/blocks.rs",
-    "src/host/c/linear_elastic.rs",
+    "c/functions/src/constants.rs",
+    "src/host/constants.rs",
+    "src/host/tables.rs",
+    "src/host/arguments.rs",
+    "c/functions/src/prepared.rs",
+    "src/host/points.rs",
+    "src/host/blocks.rs",
+    "src/host/linear_elastic.rs",
     "src/host/abaqus/vumat.rs",
-    "c/src/about.rs",
-    "c/src/tables.rs",
-    "c/src/hyperelastic.rs",
-    "c/src/linear_elastic.rs",
-    "c/src/abaqus.rs",
-    "c/src/lsdyna.rs",
-    "c/src/openradioss.rs",
+    "c/functions/src/about.rs",
+    "c/functions/src/tables.rs",
+    "c/functions/src/hyperelastic.rs",
+    "c/functions/src/linear_elastic.rs",
+    "c/functions/src/abaqus.rs",
+    "c/functions/src/lsdyna.rs",
+    "c/functions/src/openradioss.rs",
 ];
 
 fn generated() -> String {

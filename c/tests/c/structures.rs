@@ -8,7 +8,7 @@ use std::path::Path;
 use std::process::Command;
 
 use toron::host::abaqus::Vumat;
-use toron::host::c::{
+use toron_c::{
     Block, HyperelasticLaw, Layout, LinearBlock, LinearElasticLaw, LinearIncrement, LinearPoint, Point, TableRow,
 };
 

@@ -1,10 +1,12 @@
-//! The package toron as it is published, under the functions that libtoron and the libraries of CalculiX and MGIS export,
+//! The packages toron and toron-c-functions as they are published, and what the libraries of CalculiX and MGIS export,
 //! without the standard library: a dependency that brought it in would clash with the panic handler below.
 //!
 //! That handler calls a function which does not exist. The linker drops code that nothing reaches before it looks, so that this
 //! library links if, and only if, no function here can panic.
 
 #![no_std]
+
+extern crate toron_c;
 
 // The libraries of CalculiX and MGIS are uses of macros of `toron-solvers`, whose other modules need the standard library.
 extern crate self as toron_solvers;
@@ -14,24 +16,10 @@ pub mod calculix;
 #[path = "../../../solvers/src/mgis.rs"]
 pub mod mgis;
 
-#[path = "../../../c/src/abaqus.rs"]
-pub mod abaqus;
-#[path = "../../../c/src/about.rs"]
-pub mod about;
 #[path = "../../../calculix/src/lib.rs"]
 pub mod calculix_library;
-#[path = "../../../c/src/hyperelastic.rs"]
-pub mod hyperelastic;
-#[path = "../../../c/src/linear_elastic.rs"]
-pub mod linear_elastic;
-#[path = "../../../c/src/lsdyna.rs"]
-pub mod lsdyna;
 #[path = "../../../mgis/src/lib.rs"]
 pub mod mgis_library;
-#[path = "../../../c/src/openradioss.rs"]
-pub mod openradioss;
-#[path = "../../../c/src/tables.rs"]
-pub mod tables;
 
 unsafe extern "C" {
     fn toron_an_entry_can_panic() -> !;

@@ -9,10 +9,10 @@ use crate::entries::hosts::{
     VumatArrays, Wanted,
 };
 use crate::entries::precision::BlockPrecision;
-use toron::host::c::HyperelasticLaw;
 use toron::law::block::Precision;
 use toron::law::parameters::HYPERELASTIC_PROPERTIES;
 use toron::law::state::HYPERELASTIC_STATE;
+use toron_c::HyperelasticLaw;
 
 /// A C entry as its host calls it. Those for one point are called for one point after the other; but for `Point` they prepare the law
 /// at every call.

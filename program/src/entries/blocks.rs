@@ -7,8 +7,8 @@ use std::ptr::{null, null_mut};
 
 use super::hosts::Given;
 use super::precision::{BlockPrecision, PrepareEntry};
-use toron::host::c::{self, Block, HyperelasticLaw, LinearBlock, LinearElasticLaw};
 use toron::law::state::{ENERGIES, FAILURE_INDEX, HYPERELASTIC_STATE, INVARIANTS, LINEAR_ELASTIC_STATE};
+use toron_c::{Block, HyperelasticLaw, LinearBlock, LinearElasticLaw};
 
 /// The hyperelastic law, prepared through `toron_hyperelastic_prepare_f64` or `_f32`.
 ///
@@ -27,7 +27,7 @@ pub fn prepared_linear<T: BlockPrecision>(properties: &[T]) -> Result<LinearElas
 }
 
 fn prepare<L: Copy, T>(entry: PrepareEntry<L, T>, properties: &[T]) -> Result<L, String> {
-    let (mut law, mut text) = (MaybeUninit::<L>::zeroed(), [0_u8; c::TORON_MESSAGE_CAPACITY]);
+    let (mut law, mut text) = (MaybeUninit::<L>::zeroed(), [0_u8; toron_c::TORON_MESSAGE_CAPACITY]);
     let (values, count, room) = (properties.as_ptr(), properties.len(), text.as_mut_ptr().cast::<c_char>());
     // SAFETY: the arrays have the sizes passed; a prepared law consists of numbers, which may be 0.
     unsafe {
@@ -96,7 +96,7 @@ impl<'a, T: BlockPrecision> SolverBlock<'a, T> {
         let mut arrays = Block {
             n,
             leading_dimension: stride,
-            measure: c::TORON_TANGENT_MATERIAL,
+            measure: toron_c::TORON_TANGENT_MATERIAL,
             energies_old: old(self.energies, ENERGIES),
             invariants_old: old(self.energies, INVARIANTS),
             failure_old: old(self.failure, FAILURE_INDEX),
@@ -179,8 +179,8 @@ pub fn linear_elastic_block<T: BlockPrecision>(
         n,
         leading_dimension: stride,
         rotation: match frame {
-            LinearFrame::Fibre => c::TORON_ROTATION_FIBRE,
-            LinearFrame::Polar => c::TORON_ROTATION_POLAR,
+            LinearFrame::Fibre => toron_c::TORON_ROTATION_FIBRE,
+            LinearFrame::Polar => toron_c::TORON_ROTATION_POLAR,
         },
         criterion,
         state_old: state,

@@ -9,7 +9,6 @@ use super::hosts::{
 };
 use super::precision::{BlockPrecision, VumatEntry};
 use toron::Hyperelastic;
-use toron::host::c::{self, Block, Point};
 use toron::host::lsdyna::{UmatVector, UserRoutines, Utan, UtanVector};
 use toron::host::openradioss::card;
 use toron::host::{abaqus, lsdyna, mgis};
@@ -17,6 +16,7 @@ use toron::law::parameters::{FIBRE, HYPERELASTIC_PROPERTIES};
 use toron::law::state::{ENERGIES, FAILED, FAILURE_INDEX, HYPERELASTIC_STATE, INVARIANTS};
 use toron::law::status;
 use toron::law::stress::truesdell_of_jaumann;
+use toron_c::{Block, Point};
 
 /// The outputs of an entry: stress in the library's order, state, modes where it has them.
 #[derive(Clone, Copy, Debug, Default)]
@@ -32,9 +32,9 @@ pub struct Answer {
 /// What a status means; for properties, which one is wrong.
 pub fn message(code: i32, properties: &[f64; HYPERELASTIC_PROPERTIES]) -> String {
     let Err(message) = prepared(properties) else {
-        let mut text = [0_u8; c::TORON_MESSAGE_CAPACITY];
+        let mut text = [0_u8; toron_c::TORON_MESSAGE_CAPACITY];
         // SAFETY: the text has the size passed.
-        unsafe { c::status_message(code, text.as_mut_ptr().cast(), text.len()) };
+        unsafe { toron_c::toron_status_message(code, text.as_mut_ptr().cast(), text.len()) };
         return message_in(&text);
     };
     message
@@ -74,7 +74,7 @@ fn evaluate_point<T: BlockPrecision>(law: Given<'_, T>, f: &[T; 9], tangent: boo
     };
     if tangent {
         let mut rows = [[T::default(); 6]; 6];
-        let point = Point { measure: c::TORON_TANGENT_JAUMANN, tangent: rows.as_mut_ptr().cast(), ..point };
+        let point = Point { measure: toron_c::TORON_TANGENT_JAUMANN, tangent: rows.as_mut_ptr().cast(), ..point };
         // SAFETY: as above.
         let status = unsafe { call_point(law, &point) };
         // This call asks for no stress, which alone may not fit the number format.
@@ -128,7 +128,7 @@ pub fn block<T: BlockPrecision>(
     let mut block = Block {
         n,
         leading_dimension: stride,
-        measure: c::TORON_TANGENT_JAUMANN,
+        measure: toron_c::TORON_TANGENT_JAUMANN,
         energies: part(&mut state, ENERGIES),
         invariants: part(&mut state, INVARIANTS),
         failure: part(&mut state, FAILURE_INDEX),

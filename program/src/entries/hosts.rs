@@ -8,7 +8,6 @@ use nalgebra::Matrix3;
 use super::aligned::Aligned;
 use super::precision::BlockPrecision;
 use toron::host::abaqus::StandardLaw;
-use toron::host::c::{self, HyperelasticLaw, Point};
 use toron::host::calculix::Behaviour;
 use toron::host::mgis::{self, BehaviourDataView, StateView};
 use toron::host::openradioss::{self, card};
@@ -16,6 +15,7 @@ use toron::host::{abaqus, calculix, lsdyna};
 use toron::law::parameters::HYPERELASTIC_PROPERTIES;
 use toron::law::state::HYPERELASTIC_STATE;
 use toron::{Hyperelastic, Real};
+use toron_c::{HyperelasticLaw, Point};
 
 /// The law as an entry for points takes it: its properties, which are checked in every call, or prepared from them.
 #[derive(Clone, Copy)]
@@ -54,7 +54,7 @@ impl<T: BlockPrecision> OnePoint<T> {
     /// a solver's loop: what does not change, once.
     #[inline]
     pub fn call_each(points: &mut [Self], law: Given<'_, T>, wanted: Wanted, tangent: &mut [[T; 6]; 6]) {
-        let mut call = Point { measure: c::TORON_TANGENT_MATERIAL, ..Point::empty() };
+        let mut call = Point { measure: toron_c::TORON_TANGENT_MATERIAL, ..Point::empty() };
         if wanted == Wanted::Tangent {
             call.tangent = tangent.as_mut_ptr().cast();
         }

@@ -4,9 +4,9 @@ use std::ffi::c_char;
 
 use toron::Hyperelastic;
 use toron::host::abaqus::ExplicitLaw;
-use toron::host::c::{self, Block, HyperelasticLaw, LinearBlock, LinearElasticLaw, Point};
 use toron::host::lsdyna::UserRoutines;
 use toron::host::{abaqus, lsdyna, openradioss};
+use toron_c::{Block, HyperelasticLaw, LinearBlock, LinearElasticLaw, Point};
 
 /// Rounding to the precision of an entry.
 pub trait FromF64 {
@@ -52,13 +52,16 @@ pub type VumatEntry<T> = unsafe fn(*const abaqus::Vumat<T>, *mut c_char, usize) 
 pub type Routine<S> = unsafe fn(&S, *mut c_char, usize) -> i32;
 
 impl BlockPrecision for f64 {
-    const PREPARE: PrepareEntry<HyperelasticLaw<f64>, f64> = c::hyperelastic_prepare_f64;
-    const PREPARE_LINEAR: PrepareEntry<LinearElasticLaw<f64>, f64> = c::linear_elastic_prepare_f64;
-    const BLOCK: PreparedEntry<HyperelasticLaw<f64>, Block<f64>> = c::hyperelastic_block_f64;
-    const BLOCK_WITH_PROPERTIES: PropertiesEntry<f64, Block<f64>> = c::hyperelastic_block_with_properties_f64;
-    const LINEAR_BLOCK: PreparedEntry<LinearElasticLaw<f64>, LinearBlock<f64>> = c::linear_elastic_block_f64;
-    const POINT: PreparedEntry<HyperelasticLaw<f64>, Point<f64>> = c::hyperelastic_point_f64;
-    const POINT_WITH_PROPERTIES: PropertiesEntry<f64, Point<f64>> = c::hyperelastic_point_with_properties_f64;
+    const PREPARE: PrepareEntry<HyperelasticLaw<f64>, f64> = toron_c::toron_hyperelastic_prepare_f64;
+    const PREPARE_LINEAR: PrepareEntry<LinearElasticLaw<f64>, f64> = toron_c::toron_linear_elastic_prepare_f64;
+    const BLOCK: PreparedEntry<HyperelasticLaw<f64>, Block<f64>> = toron_c::toron_hyperelastic_block_f64;
+    const BLOCK_WITH_PROPERTIES: PropertiesEntry<f64, Block<f64>> =
+        toron_c::toron_hyperelastic_block_with_properties_f64;
+    const LINEAR_BLOCK: PreparedEntry<LinearElasticLaw<f64>, LinearBlock<f64>> =
+        toron_c::toron_linear_elastic_block_f64;
+    const POINT: PreparedEntry<HyperelasticLaw<f64>, Point<f64>> = toron_c::toron_hyperelastic_point_f64;
+    const POINT_WITH_PROPERTIES: PropertiesEntry<f64, Point<f64>> =
+        toron_c::toron_hyperelastic_point_with_properties_f64;
     const VUMAT: VumatEntry<f64> = <Hyperelastic<f64>>::vumat;
     const LSDYNA: Routine<lsdyna::Umat<f64>> = <Hyperelastic<f64>>::umat;
     const LSDYNA_VECTOR: Routine<lsdyna::UmatVector<f64>> = <Hyperelastic<f64>>::umat_vector;
@@ -66,13 +69,16 @@ impl BlockPrecision for f64 {
 }
 
 impl BlockPrecision for f32 {
-    const PREPARE: PrepareEntry<HyperelasticLaw<f32>, f32> = c::hyperelastic_prepare_f32;
-    const PREPARE_LINEAR: PrepareEntry<LinearElasticLaw<f32>, f32> = c::linear_elastic_prepare_f32;
-    const BLOCK: PreparedEntry<HyperelasticLaw<f32>, Block<f32>> = c::hyperelastic_block_f32;
-    const BLOCK_WITH_PROPERTIES: PropertiesEntry<f32, Block<f32>> = c::hyperelastic_block_with_properties_f32;
-    const LINEAR_BLOCK: PreparedEntry<LinearElasticLaw<f32>, LinearBlock<f32>> = c::linear_elastic_block_f32;
-    const POINT: PreparedEntry<HyperelasticLaw<f32>, Point<f32>> = c::hyperelastic_point_f32;
-    const POINT_WITH_PROPERTIES: PropertiesEntry<f32, Point<f32>> = c::hyperelastic_point_with_properties_f32;
+    const PREPARE: PrepareEntry<HyperelasticLaw<f32>, f32> = toron_c::toron_hyperelastic_prepare_f32;
+    const PREPARE_LINEAR: PrepareEntry<LinearElasticLaw<f32>, f32> = toron_c::toron_linear_elastic_prepare_f32;
+    const BLOCK: PreparedEntry<HyperelasticLaw<f32>, Block<f32>> = toron_c::toron_hyperelastic_block_f32;
+    const BLOCK_WITH_PROPERTIES: PropertiesEntry<f32, Block<f32>> =
+        toron_c::toron_hyperelastic_block_with_properties_f32;
+    const LINEAR_BLOCK: PreparedEntry<LinearElasticLaw<f32>, LinearBlock<f32>> =
+        toron_c::toron_linear_elastic_block_f32;
+    const POINT: PreparedEntry<HyperelasticLaw<f32>, Point<f32>> = toron_c::toron_hyperelastic_point_f32;
+    const POINT_WITH_PROPERTIES: PropertiesEntry<f32, Point<f32>> =
+        toron_c::toron_hyperelastic_point_with_properties_f32;
     const VUMAT: VumatEntry<f32> = <Hyperelastic<f32>>::vumat;
     const LSDYNA: Routine<lsdyna::Umat<f32>> = <Hyperelastic<f32>>::umat;
     const LSDYNA_VECTOR: Routine<lsdyna::UmatVector<f32>> = <Hyperelastic<f32>>::umat_vector;

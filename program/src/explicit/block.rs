@@ -14,9 +14,9 @@ use super::viscosity::Viscosity;
 use super::wave_bounds::{Section, bounds_at};
 use crate::entries::blocks::{LinearFrame, LinearSolverBlock, SolverBlock, linear_elastic_block};
 use crate::entries::hosts::Given;
-use toron::host::c::{HyperelasticLaw, LinearElasticLaw, TORON_CRITERION_FIBRE};
 use toron::law::state::{FAILURE_INDEX, INVARIANTS, LINEAR_LARGEST, LINEAR_STRESS, LINEAR_WORK};
 use toron::law::status;
+use toron_c::{HyperelasticLaw, LinearElasticLaw, TORON_CRITERION_FIBRE};
 
 /// Elements a block: large enough for the entry's preparation to cost nothing, small enough for its arrays to stay in
 /// the first cache (vector lengths of explicit solvers are of this order).

@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use nalgebra::Matrix3;
 use toron::Level;
-use toron::host::c::AsNumbers;
+use toron::host::prepared::AsNumbers;
 use toron::host::{Material, is_name, is_number};
 use toron::law::description::Description;
 use toron::law::interface::{Law, Points};

@@ -12,7 +12,7 @@ use std::ptr::{null, null_mut};
 use crate::library::{LIBRARY, ROOT, SYSTEM, folder, run};
 use nalgebra::{Matrix3, Vector3};
 use toron::host::abaqus::{StandardLaw, Umat};
-use toron::host::c::TORON_MESSAGE_CAPACITY;
+use toron::host::constants::TORON_MESSAGE_CAPACITY;
 use toron::host::lsdyna::{self, UserRoutines};
 use toron::host::units::UnitSystem;
 use toron::law::parameters::{self, DENSITY, Dimension, FIBRE, PRESETS, Preset, Property};

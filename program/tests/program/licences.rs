@@ -9,10 +9,11 @@ use serde_json::Value;
 
 use crate::library::{INSTALLED, ROOT, run};
 
-const LIBRARIES: [&str; 7] = [
+const LIBRARIES: [&str; 8] = [
     "toron-abaqus",
     "toron-abaqus-sp",
     "toron-c",
+    "toron-c-functions",
     "toron-calculix",
     "toron-mgis",
     "toron-openradioss",

@@ -5,7 +5,7 @@ use std::ffi::c_char;
 use std::ptr::{null, null_mut};
 use std::thread::LocalKey;
 
-use toron::host::c::TORON_MESSAGE_CAPACITY;
+use toron::host::constants::TORON_MESSAGE_CAPACITY;
 use toron::host::openradioss::{Group, Laws, MyReal, group_of_f32, group_of_f64, needs_nodes};
 
 use super::solver::{coordinates_of_nodes, stop};

@@ -5,7 +5,7 @@ use core::mem::MaybeUninit;
 use libc::{c_char, size_t};
 
 use super::{VUMAT_COUNTS, check_counts, property_count};
-use crate::host::c::level;
+use crate::host::arguments::level;
 use crate::host::entry_points::{Message, check_plane, check_pointers, entry, properties, stiffness_at_rest};
 use crate::host::limit_variable;
 use crate::host::structures::{read, structures};

@@ -5,8 +5,8 @@ use core::ffi::c_int;
 
 use super::message::History;
 use super::{Umat, Utan, UtanVector, check_number, element_range, is_plausible, law, no_gradient};
-use crate::host::c::PointAnswer;
 use crate::host::entry_points::{check_pointers, properties};
+use crate::host::points::PointAnswer;
 use crate::law::block::{Points, Precision, components};
 use crate::law::derivative::SixBySix;
 use crate::law::derivative::Stress;

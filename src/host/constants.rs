@@ -1,21 +1,4 @@
-//! The constants of the C interface that a caller passes by name.
-
-use crate::law::{parameters, state};
-
-/// Version of the binary interface. A program built against it runs with every later library of the same number.
-pub const TORON_ABI_VERSION: i32 = 2;
-
-/// Selects the hyperelastic yarn law in the functions for tables.
-pub const TORON_HYPERELASTIC: i32 = 0;
-/// Selects the linear elastic orthotropic law in these functions.
-pub const TORON_LINEAR_ELASTIC: i32 = 1;
-
-/// Number of properties and of state variables of the hyperelastic law.
-pub const TORON_HYPERELASTIC_PROPERTIES: usize = 11;
-pub const TORON_HYPERELASTIC_STATE: usize = 11;
-/// Number of properties and of state variables of the linear elastic law.
-pub const TORON_LINEAR_ELASTIC_PROPERTIES: usize = 10;
-pub const TORON_LINEAR_ELASTIC_STATE: usize = 10;
+//! The constants of the C interface by which a caller chooses something in a structure.
 
 /// Linear elastic law: the material frame follows the fibre.
 pub const TORON_ROTATION_FIBRE: i32 = 0;
@@ -51,10 +34,3 @@ pub const TORON_LEVEL_AVX512: i32 = 3;
 
 /// Room for any message, its terminating null included.
 pub const TORON_MESSAGE_CAPACITY: usize = 512;
-
-const _: () = {
-    assert!(TORON_HYPERELASTIC_PROPERTIES == parameters::HYPERELASTIC_PROPERTIES);
-    assert!(TORON_HYPERELASTIC_STATE == state::HYPERELASTIC_STATE);
-    assert!(TORON_LINEAR_ELASTIC_PROPERTIES == parameters::LINEAR_ELASTIC_PROPERTIES);
-    assert!(TORON_LINEAR_ELASTIC_STATE == state::LINEAR_ELASTIC_STATE);
-};

@@ -1,4 +1,5 @@
-//! Neither law allocates: not when it is prepared, not at a point, not when it says what is wrong.
+//! Neither law allocates: not when it is prepared, not at a point, not when it says what is wrong. A binary of its own,
+//! since it counts in the allocator.
 
 use allocation_counter::measure;
 use nalgebra::{Matrix3, Vector3};

@@ -7,10 +7,10 @@ use core::ptr::{null, null_mut};
 use libc::{c_char, size_t};
 
 use super::arguments::{Layout, check_density, check_points, leading_dimension, level, measure_of};
+use super::entry_points::{Message, entry, look_up, of_points};
 use super::prepared::{AsNumbers, PreparedLaw, numbers};
+use super::structures::{Structure, read};
 use super::tables::{TableRow, write_row};
-use crate::host::entry_points::{Message, entry, look_up, of_points};
-use crate::host::structures::{Structure, read};
 use crate::law::block::{Precision, distances};
 use crate::law::description::Description;
 use crate::law::error::Error;
@@ -148,7 +148,7 @@ impl<N: Named<T>, T: Precision> ListedPoints<N, T> {
 ///
 /// # Safety
 /// `law` is null or points to `size` writable bytes, `values` to `count` values, `message` to `capacity` bytes.
-pub unsafe fn listed_prepare<N: Named<T>, T: Precision>(
+pub unsafe fn prepare<N: Named<T>, T: Precision>(
     law: *mut PreparedOf<N, T>,
     size: size_t,
     values: *const T,
@@ -165,7 +165,7 @@ pub unsafe fn listed_prepare<N: Named<T>, T: Precision>(
 /// # Safety
 /// `law` is null or points to a prepared law, `points` to a structure with as many bytes as its size says; the arrays have as many values
 /// as the header says, and outputs overlap nothing but, exactly, the old state; `message` is null or has `capacity` bytes.
-pub unsafe fn listed_block<N: Named<T>, T: Precision>(
+pub unsafe fn block<N: Named<T>, T: Precision>(
     law: *const PreparedOf<N, T>,
     points: *const ListedPoints<N, T>,
     message: *mut c_char,
@@ -189,7 +189,7 @@ pub unsafe fn listed_block<N: Named<T>, T: Precision>(
 ///
 /// # Safety
 /// `row` is null or points to a structure with as many bytes as its size says, `message` to `capacity` bytes.
-pub unsafe fn listed_property(
+pub unsafe fn property(
     law: &'static Description,
     index: i32,
     row: *mut TableRow,
@@ -203,8 +203,8 @@ pub unsafe fn listed_property(
 /// `NAME_state_variable`: writes a row of the table of state variables.
 ///
 /// # Safety
-/// As for [`listed_property`].
-pub unsafe fn listed_state_variable(
+/// As for [`property`].
+pub unsafe fn state_variable(
     law: &'static Description,
     index: i32,
     row: *mut TableRow,

@@ -3,13 +3,12 @@
 use core::mem::MaybeUninit;
 use core::ptr::{null, null_mut};
 
-use libc::{c_char, size_t};
+use libc::size_t;
 
 use super::arguments::{Layout, check_density, check_points, leading_dimension, level, measure};
 use super::constants::{TORON_LEVEL_BASELINE, TORON_TANGENT_NOMINAL};
-use super::prepared::{HyperelasticLaw, numbers};
-use crate::host::entry_points::{Message, entry, of_points, properties};
-use crate::host::structures::{read, structures};
+use super::entry_points::of_points;
+use super::structures::{read, structures};
 use crate::law::block::{MOST, Points, Precision, Strides, at_fault, components, components_mut, distances};
 use crate::law::derivative::{NoTangent, SixBySix, Stress};
 use crate::law::error::Error;
@@ -18,9 +17,8 @@ use crate::law::interface::Law;
 use crate::law::number::level::{Level, has_fma};
 use crate::law::number::real::Scalar;
 use crate::law::number::registers::Registers;
-use crate::law::parameters;
 use crate::law::point::{self, Call, Columns, OldState, Sink, evaluate_call};
-use crate::law::prepared::PreparedHyperelastic;
+use crate::law::prepared::{Given, PreparedHyperelastic};
 use crate::law::response::Request;
 use crate::law::state::{ENERGIES, FAILURE_INDEX, INVARIANTS};
 use crate::law::status;
@@ -223,24 +221,7 @@ impl<T: Scalar> Block<T> {
     }
 }
 
-/// A law as a caller passes it.
-#[derive(Clone, Copy)]
-enum Given<'a, T> {
-    Properties(&'a [T]),
-    Prepared(&'a PreparedHyperelastic<T>),
-}
-
 impl<T: Precision> Given<'_, T> {
-    /// # Errors
-    /// The first property that is wrong.
-    #[inline(always)]
-    fn law(self) -> Result<Hyperelastic<T>, Error> {
-        match self {
-            Given::Properties(properties) => Hyperelastic::new(properties),
-            Given::Prepared(prepared) => Ok(prepared.law()),
-        }
-    }
-
     /// # Errors
     /// The first property that is wrong, before what [`Law::step`] refuses, which calls F by another name.
     ///
@@ -257,10 +238,16 @@ impl<T: Precision> Given<'_, T> {
     }
 }
 
+/// Evaluates the law at the points of a block. Returns 0.
+///
+/// # Errors
+/// A property or an argument is wrong, and nothing is written; or the worst code of the points, with the first that has
+/// it.
+///
 /// # Safety
 /// What [a caller promises](super#what-a-caller-promises).
 #[inline(always)]
-unsafe fn evaluate<T: Precision + Registers>(law: Given<'_, T>, block: *const Block<T>) -> Result<i32, Error> {
+pub unsafe fn evaluate<T: Precision + Registers>(law: Given<'_, T>, block: *const Block<T>) -> Result<i32, Error> {
     let mut buffer = MaybeUninit::uninit();
     // SAFETY: `read` refuses null, and the layouts are plain, or checked before an array is read; how long the arrays are the C caller
     // promises, and of `status` that it has n codes.
@@ -441,47 +428,3 @@ unsafe fn evaluate_in_layouts<T: Precision>(law: Given<'_, T>, block: &Block<T>)
     // SAFETY: the layouts have just been checked; how long the arrays are the C caller promises.
     unsafe { law.step(&block.points()) }
 }
-
-macro_rules! entries {
-    ($t:ty: $block:ident, $with_properties:ident) => {
-        /// The entry of the C interface with `toron_` before its name; package `toron-c` documents its arguments.
-        ///
-        /// # Safety
-        /// What [a caller promises](super#what-a-caller-promises).
-        #[inline(never)]
-        pub unsafe extern "C" fn $block(
-            law: *const HyperelasticLaw<$t>,
-            block: *const Block<$t>,
-            message: *mut c_char,
-            capacity: size_t,
-        ) -> i32 {
-            // SAFETY: the arguments are the C caller's; `numbers` and `evaluate` refuse null.
-            unsafe {
-                entry(Message { text: message, capacity }, move || evaluate(Given::Prepared(numbers(law)?), block))
-            }
-        }
-
-        /// The entry of the C interface with `toron_` before its name; package `toron-c` documents its arguments.
-        ///
-        /// # Safety
-        /// What [a caller promises](super#what-a-caller-promises).
-        #[inline(never)]
-        pub unsafe extern "C" fn $with_properties(
-            values: *const $t,
-            count: size_t,
-            block: *const Block<$t>,
-            message: *mut c_char,
-            capacity: size_t,
-        ) -> i32 {
-            // SAFETY: the arguments are the C caller's; `properties` and `evaluate` refuse null.
-            unsafe {
-                entry(Message { text: message, capacity }, move || {
-                    evaluate(Given::Properties(properties(values, count, &parameters::HYPERELASTIC)?), block)
-                })
-            }
-        }
-    };
-}
-
-entries!(f64: hyperelastic_block_f64, hyperelastic_block_with_properties_f64);
-entries!(f32: hyperelastic_block_f32, hyperelastic_block_with_properties_f32);

@@ -1,17 +1,17 @@
-//! No C entry allocates, whether the call is right or wrong.
+//! No C entry allocates, whether the call is right or wrong: a binary of its own, since it counts in the allocator.
 
 use std::ffi::{c_char, c_int};
 use std::ptr::{null, null_mut};
 
 use allocation_counter::measure;
 use toron::host::abaqus::{ExplicitLaw, StandardLaw, Vumat};
-use toron::host::c::*;
 use toron::host::calculix::{Behaviour, CalculixLaw};
 use toron::host::lsdyna::{Umat, UmatVector, UserRoutines, Utan, UtanVector};
 use toron::host::mgis::{BehaviourDataView, MgisLaw, StateView};
 use toron::host::openradioss::{Group, ListingLine, MaterialCard};
-use toron::host::{abaqus, c, calculix, mgis, openradioss};
+use toron::host::{abaqus, calculix, mgis, openradioss};
 use toron::{Hyperelastic, LinearElastic};
+use toron_c::*;
 
 const P: usize = TORON_HYPERELASTIC_PROPERTIES;
 const L: usize = TORON_LINEAR_ELASTIC_PROPERTIES;
@@ -61,28 +61,31 @@ macro_rules! quiet {
     }};
 }
 
-/// The names of all entries, as the packages that export them call them.
+/// The names of the functions that a source defines, each behind one of these words.
+fn defined<'a>(source: &'a str, words: &'a str) -> impl Iterator<Item = &'a str> {
+    source.split(words).skip(1).filter_map(|text| text.split_once("fn ")?.1.split(['(', '<']).next())
+}
+
+/// The names of all entries: of C functions that compute themselves, of the routines of hosts that others call.
 fn entries() -> Vec<String> {
-    let sources = [
-        include_str!("../../c/src/about.rs"),
-        include_str!("../../c/src/tables.rs"),
-        include_str!("../../c/src/hyperelastic.rs"),
-        include_str!("../../c/src/linear_elastic.rs"),
-        include_str!("../../c/src/openradioss.rs"),
+    let functions = [
+        include_str!("../functions/src/about.rs"),
+        include_str!("../functions/src/tables.rs"),
+        include_str!("../functions/src/hyperelastic.rs"),
+        include_str!("../functions/src/linear_elastic.rs"),
     ];
-    // These have a name for each law, which is called by the law's type.
+    let functions = functions.into_iter().flat_map(|source| defined(source, "#[unsafe(no_mangle)]").map(str::to_owned));
     let hosts = [
         ("calculix", include_str!("../../src/host/calculix.rs")),
         ("mgis", include_str!("../../src/host/mgis/hyperelastic.rs")),
         ("mgis", include_str!("../../src/host/mgis/step.rs")),
     ];
-    let functions = hosts.into_iter().flat_map(|(host, source)| {
-        let definitions = source.split("\npub unsafe ").skip(1);
-        definitions.filter_map(move |text| Some(format!("{host}::{}", text.split_once("fn ")?.1.split_once('(')?.0)))
-    });
-    let calls = sources.into_iter().flat_map(|source| source.split("toron::host::").skip(1));
-    let calls = calls.filter_map(|call| call.split_once('(')).map(|(name, _)| name);
-    // And these a method.
+    let hosts = hosts
+        .into_iter()
+        .flat_map(|(host, source)| defined(source, "\npub unsafe ").map(move |name| format!("{host}::{name}")));
+    let groups = include_str!("../functions/src/openradioss.rs").split("unsafe { ").skip(1);
+    let groups = groups.filter_map(|call| Some(format!("openradioss::{}", call.split_once('(')?.0)));
+    // These have a name for each law, which is called by the law's type.
     let traits = [
         ("StandardLaw", include_str!("../../src/host/abaqus/umat.rs")),
         ("ExplicitLaw", include_str!("../../src/host/abaqus/vumat.rs")),
@@ -90,18 +93,16 @@ fn entries() -> Vec<String> {
     ];
     let methods = traits.into_iter().flat_map(|(name, source)| {
         let body = source.split_once(&format!("pub trait {name}")).and_then(|(_, rest)| rest.split_once("\n}"));
-        let definitions = body.expect("a trait").0.split("    unsafe fn ").skip(1);
-        definitions.filter_map(|text| Some(format!("::{}", text.split_once('(')?.0)))
+        defined(body.expect("a trait").0, "    unsafe ").map(|name| format!("::{name}"))
     });
-    let is_name = |name: &&str| name.chars().all(|c| c.is_alphanumeric() || c == '_' || c == ':');
-    calls.filter(is_name).map(str::to_owned).chain(functions).chain(methods).collect()
+    functions.chain(hosts).chain(groups).chain(methods).collect()
 }
 
 /// A new entry has to be added to the calls below.
 #[test]
 fn every_entry_is_called() {
     let separator = |c: char| !c.is_alphanumeric() && c != '_' && c != ':';
-    let words: Vec<&str> = include_str!("entries.rs").split(separator).collect();
+    let words: Vec<&str> = include_str!("no_alloc.rs").split(separator).collect();
     let entries = entries();
     assert!(entries.len() > 20, "{entries:?}");
     for entry in entries {
@@ -123,30 +124,30 @@ fn the_library_about_itself() {
     let mut text = [0 as c_char; ROOM];
     let t = text.as_mut_ptr();
     let names: [*const c_char; 4] = [c"k_el".as_ptr(), c"alive".as_ptr(), c"nothing".as_ptr(), null()];
-    assert_eq!(quiet!(c::abi_version,), TORON_ABI_VERSION);
-    assert!(!quiet!(c::version,).is_null());
+    assert_eq!(quiet!(toron_abi_version,), TORON_ABI_VERSION);
+    assert!(!quiet!(toron_version,).is_null());
     for code in -400..10 {
-        quiet!(c::status_message, code, t, ROOM);
-        quiet!(c::status_message, code, null_mut(), 0);
+        quiet!(toron_status_message, code, t, ROOM);
+        quiet!(toron_status_message, code, null_mut(), 0);
     }
     for law in -1..3 {
-        let properties = quiet!(c::property_count, law, t, ROOM);
-        let state = quiet!(c::state_count, law, null_mut(), 0);
+        let properties = quiet!(toron_property_count, law, t, ROOM);
+        let state = quiet!(toron_state_count, law, null_mut(), 0);
         assert_eq!(properties < 0, !(0..2).contains(&law));
         assert_eq!(state < 0, properties < 0);
         for index in -1..12 {
             // SAFETY: numbers, which may be 0.
             let mut row = unsafe { std::mem::zeroed::<TableRow>() };
-            quiet!(c::property, law, index, &mut row, t, ROOM);
+            quiet!(toron_property, law, index, &mut row, t, ROOM);
             row.size = size_of::<TableRow>();
-            quiet!(c::property, law, index, &mut row, t, ROOM);
-            quiet!(c::property, law, index, null_mut(), t, ROOM);
-            quiet!(c::state_variable, law, index, &mut row, t, ROOM);
-            quiet!(c::state_variable, law, index, null_mut(), null_mut(), 0);
+            quiet!(toron_property, law, index, &mut row, t, ROOM);
+            quiet!(toron_property, law, index, null_mut(), t, ROOM);
+            quiet!(toron_state_variable, law, index, &mut row, t, ROOM);
+            quiet!(toron_state_variable, law, index, null_mut(), null_mut(), 0);
         }
         for name in names {
-            quiet!(c::property_index, law, name, t, ROOM);
-            quiet!(c::state_index, law, name, t, ROOM);
+            quiet!(toron_property_index, law, name, t, ROOM);
+            quiet!(toron_state_index, law, name, t, ROOM);
         }
     }
 }
@@ -329,22 +330,22 @@ macro_rules! both_precisions {
 both_precisions!(
     double_precision,
     f64,
-    c::preset_f64,
-    c::hyperelastic_prepare_f64,
-    c::hyperelastic_point_f64,
-    c::hyperelastic_point_with_properties_f64,
-    c::hyperelastic_block_f64,
-    c::hyperelastic_block_with_properties_f64
+    toron_preset_f64,
+    toron_hyperelastic_prepare_f64,
+    toron_hyperelastic_point_f64,
+    toron_hyperelastic_point_with_properties_f64,
+    toron_hyperelastic_block_f64,
+    toron_hyperelastic_block_with_properties_f64
 );
 both_precisions!(
     single_precision,
     f32,
-    c::preset_f32,
-    c::hyperelastic_prepare_f32,
-    c::hyperelastic_point_f32,
-    c::hyperelastic_point_with_properties_f32,
-    c::hyperelastic_block_f32,
-    c::hyperelastic_block_with_properties_f32
+    toron_preset_f32,
+    toron_hyperelastic_prepare_f32,
+    toron_hyperelastic_point_f32,
+    toron_hyperelastic_point_with_properties_f32,
+    toron_hyperelastic_block_f32,
+    toron_hyperelastic_block_with_properties_f32
 );
 
 #[test]
@@ -357,7 +358,7 @@ fn double_precision_only() {
         quiet!(Hyperelastic::card_moduli, yarn, 3, &mut bulk, null_mut(), null_mut(), 0);
         // SAFETY: numbers, which may be 0.
         let mut law = unsafe { std::mem::zeroed::<HyperelasticLaw<f64>>() };
-        quiet!(c::hyperelastic_prepare_f64, &mut law, size_of_val(&law), yarn, P, t, ROOM);
+        quiet!(toron_hyperelastic_prepare_f64, &mut law, size_of_val(&law), yarn, P, t, ROOM);
         for f in deformations() {
             let (mut stress, mut state, mut energy, mut step) = ([0.0; 6], [0.0; S], 0.0, 1.0);
             let (s, h) = (stress.as_mut_ptr(), state.as_mut_ptr());
@@ -388,9 +389,9 @@ fn double_precision_only() {
             let (mut least, mut direction) = (0.0, [0.0; 3]);
             let (w, n, nothing) = (&mut least, direction.as_mut_ptr(), null_mut());
             let point = Point { deformation_gradient: f.as_ptr(), ..Point::empty() };
-            quiet!(c::hyperelastic_least_acoustic_eigenvalue_f64, &law, &point, w, n, t, ROOM);
-            quiet!(c::hyperelastic_least_acoustic_eigenvalue_f64, &law, null(), w, n, t, ROOM);
-            quiet!(c::hyperelastic_least_acoustic_eigenvalue_f64, null(), &point, nothing, n, t, ROOM);
+            quiet!(toron_hyperelastic_least_acoustic_eigenvalue_f64, &law, &point, w, n, t, ROOM);
+            quiet!(toron_hyperelastic_least_acoustic_eigenvalue_f64, &law, null(), w, n, t, ROOM);
+            quiet!(toron_hyperelastic_least_acoustic_eigenvalue_f64, null(), &point, nothing, n, t, ROOM);
         }
     }
 }
@@ -677,24 +678,24 @@ macro_rules! linear_elastic {
 linear_elastic!(
     linear_elastic_in_double_precision,
     f64,
-    c::linear_elastic_prepare_f64,
-    c::linear_elastic_axes_f64,
-    c::linear_elastic_point_f64,
-    c::linear_elastic_point_with_properties_f64,
-    c::linear_elastic_increment_f64,
-    c::linear_elastic_block_f64,
-    c::linear_elastic_block_with_properties_f64
+    toron_linear_elastic_prepare_f64,
+    toron_linear_elastic_axes_f64,
+    toron_linear_elastic_point_f64,
+    toron_linear_elastic_point_with_properties_f64,
+    toron_linear_elastic_increment_f64,
+    toron_linear_elastic_block_f64,
+    toron_linear_elastic_block_with_properties_f64
 );
 linear_elastic!(
     linear_elastic_in_single_precision,
     f32,
-    c::linear_elastic_prepare_f32,
-    c::linear_elastic_axes_f32,
-    c::linear_elastic_point_f32,
-    c::linear_elastic_point_with_properties_f32,
-    c::linear_elastic_increment_f32,
-    c::linear_elastic_block_f32,
-    c::linear_elastic_block_with_properties_f32
+    toron_linear_elastic_prepare_f32,
+    toron_linear_elastic_axes_f32,
+    toron_linear_elastic_point_f32,
+    toron_linear_elastic_point_with_properties_f32,
+    toron_linear_elastic_increment_f32,
+    toron_linear_elastic_block_f32,
+    toron_linear_elastic_block_with_properties_f32
 );
 
 /// The starter and cycles of both laws, with fibre directions from the card, the nodes and initial values; points that fail and that

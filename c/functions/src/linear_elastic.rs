@@ -1,7 +1,42 @@
 //! The linear elastic law: prepared, at one point, at blocks of points.
 
 use libc::{c_char, size_t};
-use toron::host::c::{LinearBlock, LinearElasticLaw, LinearIncrement, LinearPoint};
+use toron::host::entry_points::{Message, entry, properties};
+use toron::host::linear_elastic::{self as linear, LinearBlock, LinearIncrement, LinearPoint};
+use toron::host::prepared::{AsNumbers, PreparedLaw, numbers, prepare};
+use toron::law::block::Precision;
+use toron::law::parameters;
+use toron::{Error, LinearElastic};
+
+use crate::prepared::LinearElasticLaw;
+
+/// The law that a caller has prepared.
+///
+/// # Errors
+/// It is null, or has not been prepared as this law.
+///
+/// # Safety
+/// `law` is null or points to a structure of this type.
+#[inline(always)]
+unsafe fn prepared<T: Precision>(law: *const LinearElasticLaw<T>) -> Result<LinearElastic<T>, Error>
+where
+    LinearElasticLaw<T>: PreparedLaw<T, Law = LinearElastic<T>>,
+{
+    // SAFETY: the same argument.
+    Ok(LinearElastic::of(unsafe { numbers(law) }?))
+}
+
+/// The law of the properties that a caller passes.
+///
+/// # Errors
+/// They are null, not as many as the law has, or one of them is wrong.
+///
+/// # Safety
+/// `values` is null or points to `count` values.
+unsafe fn with<T: Precision>(values: *const T, count: size_t) -> Result<LinearElastic<T>, Error> {
+    // SAFETY: the same arguments.
+    LinearElastic::new(unsafe { properties(values, count, &parameters::LINEAR_ELASTIC) }?)
+}
 
 /// Checks the properties of the linear elastic law, and prepares the law from them; as `toron_hyperelastic_prepare_f64`.
 #[unsafe(no_mangle)]
@@ -14,7 +49,7 @@ pub unsafe extern "C" fn toron_linear_elastic_prepare_f64(
     capacity: size_t,
 ) -> i32 {
     // SAFETY: the caller's arguments, as lib.rs says.
-    unsafe { toron::host::c::linear_elastic_prepare_f64(law, size, properties, count, message, capacity) }
+    unsafe { prepare(law, size, properties, count, Message { text: message, capacity }) }
 }
 
 /// As `toron_linear_elastic_prepare_f64`, in single precision.
@@ -28,7 +63,7 @@ pub unsafe extern "C" fn toron_linear_elastic_prepare_f32(
     capacity: size_t,
 ) -> i32 {
     // SAFETY: the caller's arguments, as lib.rs says.
-    unsafe { toron::host::c::linear_elastic_prepare_f32(law, size, properties, count, message, capacity) }
+    unsafe { prepare(law, size, properties, count, Message { text: message, capacity }) }
 }
 
 /// The material axes of the linear elastic law in the undeformed state: the initial value of `axes` for
@@ -49,7 +84,9 @@ pub unsafe extern "C" fn toron_linear_elastic_axes_f64(
     capacity: size_t,
 ) -> i32 {
     // SAFETY: the caller's arguments, as lib.rs says.
-    unsafe { toron::host::c::linear_elastic_axes_f64(law, fibre, second_axis, axes, message, capacity) }
+    unsafe {
+        entry(Message { text: message, capacity }, move || linear::axes(&prepared(law)?, fibre, second_axis, axes))
+    }
 }
 
 /// As `toron_linear_elastic_axes_f64`, in single precision.
@@ -63,7 +100,9 @@ pub unsafe extern "C" fn toron_linear_elastic_axes_f32(
     capacity: size_t,
 ) -> i32 {
     // SAFETY: the caller's arguments, as lib.rs says.
-    unsafe { toron::host::c::linear_elastic_axes_f32(law, fibre, second_axis, axes, message, capacity) }
+    unsafe {
+        entry(Message { text: message, capacity }, move || linear::axes(&prepared(law)?, fibre, second_axis, axes))
+    }
 }
 
 /// The linear elastic law over a step at one point, from the deformation gradients at both ends: see
@@ -79,7 +118,7 @@ pub unsafe extern "C" fn toron_linear_elastic_point_f64(
     capacity: size_t,
 ) -> i32 {
     // SAFETY: the caller's arguments, as lib.rs says.
-    unsafe { toron::host::c::linear_elastic_point_f64(law, point, message, capacity) }
+    unsafe { entry(Message { text: message, capacity }, move || linear::point(&prepared(law)?, point)) }
 }
 
 /// As `toron_linear_elastic_point_f64`, in single precision.
@@ -91,7 +130,7 @@ pub unsafe extern "C" fn toron_linear_elastic_point_f32(
     capacity: size_t,
 ) -> i32 {
     // SAFETY: the caller's arguments, as lib.rs says.
-    unsafe { toron::host::c::linear_elastic_point_f32(law, point, message, capacity) }
+    unsafe { entry(Message { text: message, capacity }, move || linear::point(&prepared(law)?, point)) }
 }
 
 /// As `toron_linear_elastic_point_f64`, with the properties in the table's order in place of a law that has been prepared. The
@@ -105,7 +144,7 @@ pub unsafe extern "C" fn toron_linear_elastic_point_with_properties_f64(
     capacity: size_t,
 ) -> i32 {
     // SAFETY: the caller's arguments, as lib.rs says.
-    unsafe { toron::host::c::linear_elastic_point_with_properties_f64(properties, count, point, message, capacity) }
+    unsafe { entry(Message { text: message, capacity }, move || linear::point(&with(properties, count)?, point)) }
 }
 
 /// As `toron_linear_elastic_point_with_properties_f64`, in single precision.
@@ -118,7 +157,7 @@ pub unsafe extern "C" fn toron_linear_elastic_point_with_properties_f32(
     capacity: size_t,
 ) -> i32 {
     // SAFETY: the caller's arguments, as lib.rs says.
-    unsafe { toron::host::c::linear_elastic_point_with_properties_f32(properties, count, point, message, capacity) }
+    unsafe { entry(Message { text: message, capacity }, move || linear::point(&with(properties, count)?, point)) }
 }
 
 /// The linear elastic law for a strain increment in material axes that the host updates: see `toron_linear_increment_f64`.
@@ -133,7 +172,7 @@ pub unsafe extern "C" fn toron_linear_elastic_increment_f64(
     capacity: size_t,
 ) -> i32 {
     // SAFETY: the caller's arguments, as lib.rs says.
-    unsafe { toron::host::c::linear_elastic_increment_f64(law, increment, message, capacity) }
+    unsafe { entry(Message { text: message, capacity }, move || linear::increment(&prepared(law)?, increment)) }
 }
 
 /// As `toron_linear_elastic_increment_f64`, in single precision.
@@ -145,7 +184,7 @@ pub unsafe extern "C" fn toron_linear_elastic_increment_f32(
     capacity: size_t,
 ) -> i32 {
     // SAFETY: the caller's arguments, as lib.rs says.
-    unsafe { toron::host::c::linear_elastic_increment_f32(law, increment, message, capacity) }
+    unsafe { entry(Message { text: message, capacity }, move || linear::increment(&prepared(law)?, increment)) }
 }
 
 /// The linear elastic law over a step at a block of points: see `toron_linear_block_f64`.
@@ -161,7 +200,7 @@ pub unsafe extern "C" fn toron_linear_elastic_block_f64(
     capacity: size_t,
 ) -> i32 {
     // SAFETY: the caller's arguments, as lib.rs says.
-    unsafe { toron::host::c::linear_elastic_block_f64(law, block, message, capacity) }
+    unsafe { entry(Message { text: message, capacity }, move || linear::block(&prepared(law)?, block)) }
 }
 
 /// As `toron_linear_elastic_block_f64`, in single precision.
@@ -173,7 +212,7 @@ pub unsafe extern "C" fn toron_linear_elastic_block_f32(
     capacity: size_t,
 ) -> i32 {
     // SAFETY: the caller's arguments, as lib.rs says.
-    unsafe { toron::host::c::linear_elastic_block_f32(law, block, message, capacity) }
+    unsafe { entry(Message { text: message, capacity }, move || linear::block(&prepared(law)?, block)) }
 }
 
 /// As `toron_linear_elastic_block_f64`, with the properties in the table's order in place of a law that has been prepared. The
@@ -187,7 +226,7 @@ pub unsafe extern "C" fn toron_linear_elastic_block_with_properties_f64(
     capacity: size_t,
 ) -> i32 {
     // SAFETY: the caller's arguments, as lib.rs says.
-    unsafe { toron::host::c::linear_elastic_block_with_properties_f64(properties, count, block, message, capacity) }
+    unsafe { entry(Message { text: message, capacity }, move || linear::block(&with(properties, count)?, block)) }
 }
 
 /// As `toron_linear_elastic_block_with_properties_f64`, in single precision.
@@ -200,5 +239,5 @@ pub unsafe extern "C" fn toron_linear_elastic_block_with_properties_f32(
     capacity: size_t,
 ) -> i32 {
     // SAFETY: the caller's arguments, as lib.rs says.
-    unsafe { toron::host::c::linear_elastic_block_with_properties_f32(properties, count, block, message, capacity) }
+    unsafe { entry(Message { text: message, capacity }, move || linear::block(&with(properties, count)?, block)) }
 }

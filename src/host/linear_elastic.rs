@@ -3,20 +3,18 @@
 use core::mem::MaybeUninit;
 use core::ptr::{null, null_mut};
 
-use libc::{c_char, size_t};
+use libc::size_t;
 
 use super::arguments::{
     Layout, check_density, check_points, criterion, leading_dimension, level, measure_of, rotation,
 };
-use super::prepared::{LinearElasticLaw, numbers};
-use crate::host::entry_points::{Message, entry, of_points, properties, store};
-use crate::host::structures::{read, structures};
+use super::entry_points::of_points;
+use super::structures::{read, structures};
 use crate::law::block::{Points, Precision, Strides, at_fault, components, components_mut, distances};
 use crate::law::error::{Error, Value};
 use crate::law::interface::Law;
 use crate::law::linear_elastic::LinearElastic;
 use crate::law::number::real::Scalar;
-use crate::law::parameters;
 use crate::law::state::LINEAR_ELASTIC_STATE;
 use crate::law::status;
 
@@ -159,11 +157,14 @@ const _: () = {
     assert!(size_of::<LinearIncrement<f64>>() == 7 * 8 && size_of::<LinearIncrement<f32>>() == 7 * 8);
 };
 
-/// A point as a block of one.
+/// Evaluates the law at a point, as a block of one. Returns its status.
+///
+/// # Errors
+/// An argument is wrong, and nothing is written.
 ///
 /// # Safety
 /// What [a caller promises](super#what-a-caller-promises).
-unsafe fn point<T: Precision>(law: &LinearElastic<T>, point: *const LinearPoint<T>) -> Result<i32, Error> {
+pub unsafe fn point<T: Precision>(law: &LinearElastic<T>, point: *const LinearPoint<T>) -> Result<i32, Error> {
     let mut buffer = MaybeUninit::uninit();
     // SAFETY: `read` refuses null, and `step` an F that is; how long the arrays of the one point are the C caller promises.
     unsafe {
@@ -244,9 +245,14 @@ impl<T: Precision> LinearBlock<T> {
     }
 }
 
+/// Evaluates the law at the points of a block. Returns 0.
+///
+/// # Errors
+/// An argument is wrong, and nothing is written; or the worst code of the points, with the first that has it.
+///
 /// # Safety
 /// What [a caller promises](super#what-a-caller-promises).
-unsafe fn block<T: Precision>(law: &LinearElastic<T>, block: *const LinearBlock<T>) -> Result<i32, Error> {
+pub unsafe fn block<T: Precision>(law: &LinearElastic<T>, block: *const LinearBlock<T>) -> Result<i32, Error> {
     let mut buffer = MaybeUninit::uninit();
     // SAFETY: `read` refuses null, and `points` and `step` check the layouts; how long the arrays are the C caller promises.
     unsafe {
@@ -275,9 +281,28 @@ unsafe fn load<T: Scalar, const N: usize>(from: *const T) -> [f64; N] {
     values
 }
 
+/// Copies numbers in double precision to the caller, unless `to` is null.
+///
+/// # Safety
+/// `to` is null or has space for as many values.
+unsafe fn store_rounded<T: Scalar>(values: &[f64], to: *mut T) {
+    if !to.is_null() {
+        for (i, &value) in values.iter().enumerate() {
+            // SAFETY: `to` is not null, as just checked, and i counts the values that it has space for.
+            unsafe { *to.add(i) = T::splat(value) };
+        }
+    }
+}
+
+/// The material axes in the undeformed state, along a point's own directions or, where these are null, the properties'.
+/// Returns 0.
+///
+/// # Errors
+/// There are no such axes, or nowhere to write them.
+///
 /// # Safety
 /// What [a caller promises](super#what-a-caller-promises).
-unsafe fn axes<T: Scalar>(
+pub unsafe fn axes<T: Scalar>(
     law: &LinearElastic<T>,
     fibre: *const T,
     second_axis: *const T,
@@ -286,7 +311,7 @@ unsafe fn axes<T: Scalar>(
     if axes.is_null() {
         return Err(Error::Null { name: "axes" });
     }
-    // SAFETY: `axes` is not null, as just checked, and i < 9; `load` reads the three values of a direction.
+    // SAFETY: `axes` has nine values; `load` reads the three of a direction.
     unsafe {
         let mut law = law.lanes::<f64>();
         if !fibre.is_null() || !second_axis.is_null() {
@@ -295,19 +320,22 @@ unsafe fn axes<T: Scalar>(
             let second = if second_axis.is_null() { None } else { Some(load(second_axis)) };
             law = law.along(fibre, second)?;
         }
-        for (i, &x) in law.reference_axes().as_slice().iter().enumerate() {
-            *axes.add(i) = T::splat(x);
-        }
+        store_rounded(law.reference_axes().as_slice(), axes);
     }
     Ok(status::OK)
 }
 
+/// Evaluates the law for a strain increment. Returns the point's status.
+///
+/// # Errors
+/// An argument is wrong, and nothing is written.
+///
 /// # Safety
 /// What [a caller promises](super#what-a-caller-promises).
-unsafe fn increment<T: Scalar>(law: &LinearElastic<T>, increment: *const LinearIncrement<T>) -> Result<i32, Error> {
+pub unsafe fn increment<T: Scalar>(law: &LinearElastic<T>, increment: *const LinearIncrement<T>) -> Result<i32, Error> {
     let mut buffer = MaybeUninit::uninit();
-    // SAFETY: `read` refuses null, `strain` is checked, and `load` and `store` pass over null; the arrays are as long as the C caller
-    // promises.
+    // SAFETY: `read` refuses null, `strain` is checked, and `load` and `store_rounded` pass over null; the arrays are as long as the
+    // C caller promises.
     unsafe {
         let increment = read(increment, &mut buffer)?;
         if increment.strain.is_null() {
@@ -327,133 +355,12 @@ unsafe fn increment<T: Scalar>(law: &LinearElastic<T>, increment: *const LinearI
         let law = law.lanes::<f64>();
         let mut point = law.increment(&load(increment.strain), jacobian, &old, criterion);
         // Rounded to T, a number that does not fit is not finite.
-        if !point.stress.iter().chain(&point.state).all(|&x| T::splat(x).into().is_finite()) {
+        let fits = |values: &[f64]| values.iter().all(|&x| T::splat(x).into().is_finite());
+        if !(fits(&point.stress) && fits(&point.state)) {
             point = law.kept(&old, status::OVERFLOW);
         }
-        store(&point.state.map(T::splat), increment.state_new);
-        store(&point.stress.map(T::splat), increment.stress);
+        store_rounded(&point.state, increment.state_new);
+        store_rounded(&point.stress, increment.stress);
         Ok(point.status)
     }
 }
-
-macro_rules! entries {
-    ($t:ty: $axes:ident, $point:ident, $point_with_properties:ident, $increment:ident, $block:ident,
-     $block_with_properties:ident) => {
-        /// The entry of the C interface with `toron_` before its name; package `toron-c` documents its arguments.
-        ///
-        /// # Safety
-        /// What [a caller promises](super#what-a-caller-promises).
-        #[inline(never)]
-        pub unsafe extern "C" fn $axes(
-            law: *const LinearElasticLaw<$t>,
-            fibre: *const $t,
-            second_axis: *const $t,
-            axes: *mut $t,
-            message: *mut c_char,
-            capacity: size_t,
-        ) -> i32 {
-            // SAFETY: the arguments are the C caller's; `numbers` and `axes` refuse null.
-            unsafe {
-                entry(Message { text: message, capacity }, move || {
-                    self::axes(&numbers(law)?.law(), fibre, second_axis, axes)
-                })
-            }
-        }
-
-        /// The entry of the C interface with `toron_` before its name; package `toron-c` documents its arguments.
-        ///
-        /// # Safety
-        /// What [a caller promises](super#what-a-caller-promises).
-        #[inline(never)]
-        pub unsafe extern "C" fn $point(
-            law: *const LinearElasticLaw<$t>,
-            point: *const LinearPoint<$t>,
-            message: *mut c_char,
-            capacity: size_t,
-        ) -> i32 {
-            // SAFETY: the arguments are the C caller's; `numbers` and `point` refuse null.
-            unsafe { entry(Message { text: message, capacity }, move || self::point(&numbers(law)?.law(), point)) }
-        }
-
-        /// The entry of the C interface with `toron_` before its name; package `toron-c` documents its arguments.
-        ///
-        /// # Safety
-        /// What [a caller promises](super#what-a-caller-promises).
-        #[inline(never)]
-        pub unsafe extern "C" fn $point_with_properties(
-            values: *const $t,
-            count: size_t,
-            point: *const LinearPoint<$t>,
-            message: *mut c_char,
-            capacity: size_t,
-        ) -> i32 {
-            // SAFETY: the arguments are the C caller's; `properties` and `point` refuse null.
-            unsafe {
-                entry(Message { text: message, capacity }, move || {
-                    self::point(&LinearElastic::new(properties(values, count, &parameters::LINEAR_ELASTIC)?)?, point)
-                })
-            }
-        }
-
-        /// The entry of the C interface with `toron_` before its name; package `toron-c` documents its arguments.
-        ///
-        /// # Safety
-        /// What [a caller promises](super#what-a-caller-promises).
-        #[inline(never)]
-        pub unsafe extern "C" fn $increment(
-            law: *const LinearElasticLaw<$t>,
-            increment: *const LinearIncrement<$t>,
-            message: *mut c_char,
-            capacity: size_t,
-        ) -> i32 {
-            // SAFETY: the arguments are the C caller's; `numbers` and `increment` refuse null.
-            unsafe {
-                entry(Message { text: message, capacity }, move || self::increment(&numbers(law)?.law(), increment))
-            }
-        }
-
-        /// The entry of the C interface with `toron_` before its name; package `toron-c` documents its arguments.
-        ///
-        /// # Safety
-        /// What [a caller promises](super#what-a-caller-promises).
-        #[inline(never)]
-        pub unsafe extern "C" fn $block(
-            law: *const LinearElasticLaw<$t>,
-            block: *const LinearBlock<$t>,
-            message: *mut c_char,
-            capacity: size_t,
-        ) -> i32 {
-            // SAFETY: the arguments are the C caller's; `numbers` and `block` refuse null.
-            unsafe { entry(Message { text: message, capacity }, move || self::block(&numbers(law)?.law(), block)) }
-        }
-
-        /// The entry of the C interface with `toron_` before its name; package `toron-c` documents its arguments.
-        ///
-        /// # Safety
-        /// What [a caller promises](super#what-a-caller-promises).
-        #[inline(never)]
-        pub unsafe extern "C" fn $block_with_properties(
-            values: *const $t,
-            count: size_t,
-            block: *const LinearBlock<$t>,
-            message: *mut c_char,
-            capacity: size_t,
-        ) -> i32 {
-            // SAFETY: the arguments are the C caller's; `properties` and `block` refuse null.
-            unsafe {
-                entry(Message { text: message, capacity }, move || {
-                    self::block(&LinearElastic::new(properties(values, count, &parameters::LINEAR_ELASTIC)?)?, block)
-                })
-            }
-        }
-    };
-}
-
-entries!(
-    f64: linear_elastic_axes_f64, linear_elastic_point_f64, linear_elastic_point_with_properties_f64,
-    linear_elastic_increment_f64, linear_elastic_block_f64, linear_elastic_block_with_properties_f64
-);
-entries!(
-    f32: linear_elastic_axes_f32, linear_elastic_point_f32, linear_elastic_point_with_properties_f32,
-    linear_elastic_increment_f32, linear_elastic_block_f32, linear_elastic_block_with_properties_f32
-);

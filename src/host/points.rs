@@ -3,20 +3,20 @@
 use core::cell::Cell;
 use core::mem::MaybeUninit;
 
-use libc::{c_char, size_t};
+use libc::size_t;
 
 use super::arguments::{check_density, level, measure};
 use super::constants::TORON_LEVEL_BEST;
-use super::prepared::{HyperelasticLaw, numbers};
-use crate::host::entry_points::{Message, entry, properties, store};
-use crate::host::structures::{read, structures};
+use super::entry_points::store;
+use super::structures::{read, structures};
 use crate::law::derivative::{NineByNine, NoTangent, SixBySix, Stress};
 use crate::law::error::Error;
 use crate::law::number::level::Level;
 use crate::law::number::real::Real;
 use crate::law::number::registers::Registers;
-use crate::law::parameters;
 use crate::law::point::{self, Call, Sink, Source, cells, evaluate_call};
+use crate::law::prepared::Given;
+use crate::law::prepared::PreparedHyperelastic;
 use crate::law::response::Request;
 use crate::law::state::HYPERELASTIC_STATE;
 use crate::law::status;
@@ -177,12 +177,28 @@ impl<T: Real, const STATE: bool> Sink<T, 0> for StressAnswer<'_, T, STATE> {
     }
 }
 
-/// Evaluates the law at one point, from and to a caller's arrays.
+/// Evaluates the law at one point, from and to a caller's arrays. Returns its status.
+///
+/// # Errors
+/// A property or an argument is wrong, and nothing is written.
 ///
 /// # Safety
 /// What [a caller promises](super#what-a-caller-promises).
 #[inline(always)]
-unsafe fn evaluate<T: Registers, L: Source<T>>(source: L, point: *const Point<T>) -> Result<i32, Error> {
+pub unsafe fn evaluate<T: Registers>(law: Given<'_, T>, point: *const Point<T>) -> Result<i32, Error> {
+    // SAFETY: the caller's point.
+    unsafe {
+        match law {
+            Given::Prepared(law) => evaluate_from(law, point),
+            Given::Properties(properties) => evaluate_from(properties, point),
+        }
+    }
+}
+
+/// # Safety
+/// As for [`evaluate`].
+#[inline(always)]
+unsafe fn evaluate_from<T: Registers, L: Source<T>>(source: L, point: *const Point<T>) -> Result<i32, Error> {
     let mut buffer = MaybeUninit::uninit();
     // SAFETY: `read` refuses null, and `motion` an F that is; how long the arrays are the C caller promises.
     let (point, (f, fibre)) = unsafe {
@@ -244,76 +260,30 @@ unsafe fn evaluate<T: Registers, L: Source<T>>(source: L, point: *const Point<T>
     Ok(status)
 }
 
-macro_rules! entries {
-    ($t:ty: $point:ident, $with_properties:ident) => {
-        /// The entry of the C interface with `toron_` before its name; package `toron-c` documents its arguments.
-        ///
-        /// # Safety
-        /// What [a caller promises](super#what-a-caller-promises).
-        #[inline(never)]
-        pub unsafe extern "C" fn $point(
-            law: *const HyperelasticLaw<$t>,
-            point: *const Point<$t>,
-            message: *mut c_char,
-            capacity: size_t,
-        ) -> i32 {
-            // SAFETY: the arguments are the C caller's; `numbers` and `evaluate` refuse null.
-            unsafe { entry(Message { text: message, capacity }, move || evaluate(numbers(law)?, point)) }
-        }
-
-        /// The entry of the C interface with `toron_` before its name; package `toron-c` documents its arguments.
-        ///
-        /// # Safety
-        /// What [a caller promises](super#what-a-caller-promises).
-        #[inline(never)]
-        pub unsafe extern "C" fn $with_properties(
-            values: *const $t,
-            count: size_t,
-            point: *const Point<$t>,
-            message: *mut c_char,
-            capacity: size_t,
-        ) -> i32 {
-            // SAFETY: the arguments are the C caller's; `properties` and `evaluate` refuse null.
-            unsafe {
-                entry(Message { text: message, capacity }, move || {
-                    evaluate(properties(values, count, &parameters::HYPERELASTIC)?, point)
-                })
-            }
-        }
-    };
-}
-
-entries!(f64: hyperelastic_point_f64, hyperelastic_point_with_properties_f64);
-entries!(f32: hyperelastic_point_f32, hyperelastic_point_with_properties_f32);
-
-/// The entry of the C interface with `toron_` before its name; package `toron-c` documents its arguments.
+/// The smallest eigenvalue of the acoustic tensor at a point's F and fibre, to `least`, and the normal of its wave, to
+/// `direction`. Returns 0.
+///
+/// # Errors
+/// F cannot be evaluated, or something is null that must not be, and nothing is written.
 ///
 /// # Safety
 /// What [a caller promises](super#what-a-caller-promises).
-#[inline(never)]
-pub unsafe extern "C" fn hyperelastic_least_acoustic_eigenvalue_f64(
-    law: *const HyperelasticLaw<f64>,
+pub unsafe fn least_acoustic_eigenvalue(
+    law: &PreparedHyperelastic<f64>,
     point: *const Point<f64>,
     least: *mut f64,
     direction: *mut f64,
-    message: *mut c_char,
-    capacity: size_t,
-) -> i32 {
-    let body = move || {
-        let mut buffer = MaybeUninit::uninit();
-        // SAFETY: `numbers`, `read` and `motion` refuse null, `least` is checked, and `store` passes over a direction that is null.
-        unsafe {
-            let law = numbers(law)?.law();
-            let (f, fibre) = motion(read(point, &mut buffer)?)?;
-            if least.is_null() {
-                return Err(Error::Null { name: "least" });
-            }
-            let wave = law.acoustic(f, fibre).map_err(Error::Plain)?.least();
-            store(&[wave.modulus], least);
-            store(&wave.direction, direction);
+) -> Result<i32, Error> {
+    let mut buffer = MaybeUninit::uninit();
+    // SAFETY: `read` and `motion` refuse null, `least` is checked, and `store` passes over a direction that is null.
+    unsafe {
+        let (f, fibre) = motion(read(point, &mut buffer)?)?;
+        if least.is_null() {
+            return Err(Error::Null { name: "least" });
         }
-        Ok(status::OK)
-    };
-    // SAFETY: the message is the C caller's, and so are the arguments, which `body` checks.
-    unsafe { entry(Message { text: message, capacity }, body) }
+        let wave = law.law().acoustic(f, fibre).map_err(Error::Plain)?.least();
+        store(&[wave.modulus], least);
+        store(&wave.direction, direction);
+    }
+    Ok(status::OK)
 }

@@ -1,7 +1,27 @@
 //! The hyperelastic law: prepared, at one point, at blocks of points.
 
 use libc::{c_char, size_t};
-use toron::host::c::{Block, HyperelasticLaw, Point};
+use toron::Error;
+use toron::host::blocks::{self, Block};
+use toron::host::entry_points::{Message, entry, properties};
+use toron::host::points::{self, Point};
+use toron::host::prepared::{numbers, prepare};
+use toron::law::parameters;
+use toron::law::prepared::Given;
+
+use crate::prepared::HyperelasticLaw;
+
+/// The properties that a caller passes.
+///
+/// # Errors
+/// They are null or not as many as the law has.
+///
+/// # Safety
+/// `values` is null or points to `count` values.
+unsafe fn read<'a, T>(values: *const T, count: size_t) -> Result<&'a [T], Error> {
+    // SAFETY: the same arguments.
+    unsafe { properties(values, count, &parameters::HYPERELASTIC) }
+}
 
 /// Checks the properties of the hyperelastic law, and prepares the law from them.
 ///
@@ -20,7 +40,7 @@ pub unsafe extern "C" fn toron_hyperelastic_prepare_f64(
     capacity: size_t,
 ) -> i32 {
     // SAFETY: the caller's arguments, as lib.rs says.
-    unsafe { toron::host::c::hyperelastic_prepare_f64(law, size, properties, count, message, capacity) }
+    unsafe { prepare(law, size, properties, count, Message { text: message, capacity }) }
 }
 
 /// As `toron_hyperelastic_prepare_f64`, in single precision.
@@ -34,7 +54,7 @@ pub unsafe extern "C" fn toron_hyperelastic_prepare_f32(
     capacity: size_t,
 ) -> i32 {
     // SAFETY: the caller's arguments, as lib.rs says.
-    unsafe { toron::host::c::hyperelastic_prepare_f32(law, size, properties, count, message, capacity) }
+    unsafe { prepare(law, size, properties, count, Message { text: message, capacity }) }
 }
 
 /// The hyperelastic law at one point, with or without a tangent: see `toron_point_f64`.
@@ -49,7 +69,9 @@ pub unsafe extern "C" fn toron_hyperelastic_point_f64(
     capacity: size_t,
 ) -> i32 {
     // SAFETY: the caller's arguments, as lib.rs says.
-    unsafe { toron::host::c::hyperelastic_point_f64(law, point, message, capacity) }
+    unsafe {
+        entry(Message { text: message, capacity }, move || points::evaluate(Given::Prepared(numbers(law)?), point))
+    }
 }
 
 /// As `toron_hyperelastic_point_f64`, in single precision.
@@ -61,7 +83,9 @@ pub unsafe extern "C" fn toron_hyperelastic_point_f32(
     capacity: size_t,
 ) -> i32 {
     // SAFETY: the caller's arguments, as lib.rs says.
-    unsafe { toron::host::c::hyperelastic_point_f32(law, point, message, capacity) }
+    unsafe {
+        entry(Message { text: message, capacity }, move || points::evaluate(Given::Prepared(numbers(law)?), point))
+    }
 }
 
 /// As `toron_hyperelastic_point_f64`, with the properties in the table's order, which are checked in every call, in place of a
@@ -75,7 +99,11 @@ pub unsafe extern "C" fn toron_hyperelastic_point_with_properties_f64(
     capacity: size_t,
 ) -> i32 {
     // SAFETY: the caller's arguments, as lib.rs says.
-    unsafe { toron::host::c::hyperelastic_point_with_properties_f64(properties, count, point, message, capacity) }
+    unsafe {
+        entry(Message { text: message, capacity }, move || {
+            points::evaluate(Given::Properties(read(properties, count)?), point)
+        })
+    }
 }
 
 /// As `toron_hyperelastic_point_with_properties_f64`, in single precision.
@@ -88,7 +116,11 @@ pub unsafe extern "C" fn toron_hyperelastic_point_with_properties_f32(
     capacity: size_t,
 ) -> i32 {
     // SAFETY: the caller's arguments, as lib.rs says.
-    unsafe { toron::host::c::hyperelastic_point_with_properties_f32(properties, count, point, message, capacity) }
+    unsafe {
+        entry(Message { text: message, capacity }, move || {
+            points::evaluate(Given::Properties(read(properties, count)?), point)
+        })
+    }
 }
 
 /// The hyperelastic law at a block of points, with or without a tangent: see `toron_block_f64`.
@@ -104,7 +136,9 @@ pub unsafe extern "C" fn toron_hyperelastic_block_f64(
     capacity: size_t,
 ) -> i32 {
     // SAFETY: the caller's arguments, as lib.rs says.
-    unsafe { toron::host::c::hyperelastic_block_f64(law, block, message, capacity) }
+    unsafe {
+        entry(Message { text: message, capacity }, move || blocks::evaluate(Given::Prepared(numbers(law)?), block))
+    }
 }
 
 /// As `toron_hyperelastic_block_f64`, in single precision.
@@ -116,7 +150,9 @@ pub unsafe extern "C" fn toron_hyperelastic_block_f32(
     capacity: size_t,
 ) -> i32 {
     // SAFETY: the caller's arguments, as lib.rs says.
-    unsafe { toron::host::c::hyperelastic_block_f32(law, block, message, capacity) }
+    unsafe {
+        entry(Message { text: message, capacity }, move || blocks::evaluate(Given::Prepared(numbers(law)?), block))
+    }
 }
 
 /// As `toron_hyperelastic_block_f64`, with the properties in the table's order, which are checked in every call, in place of a
@@ -130,7 +166,11 @@ pub unsafe extern "C" fn toron_hyperelastic_block_with_properties_f64(
     capacity: size_t,
 ) -> i32 {
     // SAFETY: the caller's arguments, as lib.rs says.
-    unsafe { toron::host::c::hyperelastic_block_with_properties_f64(properties, count, block, message, capacity) }
+    unsafe {
+        entry(Message { text: message, capacity }, move || {
+            blocks::evaluate(Given::Properties(read(properties, count)?), block)
+        })
+    }
 }
 
 /// As `toron_hyperelastic_block_with_properties_f64`, in single precision.
@@ -143,7 +183,11 @@ pub unsafe extern "C" fn toron_hyperelastic_block_with_properties_f32(
     capacity: size_t,
 ) -> i32 {
     // SAFETY: the caller's arguments, as lib.rs says.
-    unsafe { toron::host::c::hyperelastic_block_with_properties_f32(properties, count, block, message, capacity) }
+    unsafe {
+        entry(Message { text: message, capacity }, move || {
+            blocks::evaluate(Given::Properties(read(properties, count)?), block)
+        })
+    }
 }
 
 /// Stability check: the smallest eigenvalue, over all wave directions, of the acoustic tensor times the reference density.
@@ -167,6 +211,8 @@ pub unsafe extern "C" fn toron_hyperelastic_least_acoustic_eigenvalue_f64(
 ) -> i32 {
     // SAFETY: the caller's arguments, as lib.rs says.
     unsafe {
-        toron::host::c::hyperelastic_least_acoustic_eigenvalue_f64(law, point, least, direction, message, capacity)
+        entry(Message { text: message, capacity }, move || {
+            points::least_acoustic_eigenvalue(numbers(law)?, point, least, direction)
+        })
     }
 }
