@@ -3,7 +3,8 @@
 use libc::{c_char, size_t};
 use toron::Error;
 use toron::host::blocks::{self, Block};
-use toron::host::entry_points::{Message, entry, properties};
+use toron::host::entry_points::{Message, properties};
+use toron::host::environment::in_default_environment;
 use toron::host::points::{self, Point};
 use toron::host::prepared::{numbers, prepare};
 use toron::law::parameters;
@@ -70,7 +71,8 @@ pub unsafe extern "C" fn toron_hyperelastic_point_f64(
 ) -> i32 {
     // SAFETY: the caller's arguments, as lib.rs says.
     unsafe {
-        entry(Message { text: message, capacity }, move || points::evaluate(Given::Prepared(numbers(law)?), point))
+        Message { text: message, capacity }
+            .answer(in_default_environment(move || points::evaluate(Given::Prepared(numbers(law)?), point)))
     }
 }
 
@@ -84,7 +86,8 @@ pub unsafe extern "C" fn toron_hyperelastic_point_f32(
 ) -> i32 {
     // SAFETY: the caller's arguments, as lib.rs says.
     unsafe {
-        entry(Message { text: message, capacity }, move || points::evaluate(Given::Prepared(numbers(law)?), point))
+        Message { text: message, capacity }
+            .answer(in_default_environment(move || points::evaluate(Given::Prepared(numbers(law)?), point)))
     }
 }
 
@@ -100,9 +103,9 @@ pub unsafe extern "C" fn toron_hyperelastic_point_with_properties_f64(
 ) -> i32 {
     // SAFETY: the caller's arguments, as lib.rs says.
     unsafe {
-        entry(Message { text: message, capacity }, move || {
+        Message { text: message, capacity }.answer(in_default_environment(move || {
             points::evaluate(Given::Properties(read(properties, count)?), point)
-        })
+        }))
     }
 }
 
@@ -117,9 +120,9 @@ pub unsafe extern "C" fn toron_hyperelastic_point_with_properties_f32(
 ) -> i32 {
     // SAFETY: the caller's arguments, as lib.rs says.
     unsafe {
-        entry(Message { text: message, capacity }, move || {
+        Message { text: message, capacity }.answer(in_default_environment(move || {
             points::evaluate(Given::Properties(read(properties, count)?), point)
-        })
+        }))
     }
 }
 
@@ -137,7 +140,8 @@ pub unsafe extern "C" fn toron_hyperelastic_block_f64(
 ) -> i32 {
     // SAFETY: the caller's arguments, as lib.rs says.
     unsafe {
-        entry(Message { text: message, capacity }, move || blocks::evaluate(Given::Prepared(numbers(law)?), block))
+        Message { text: message, capacity }
+            .answer(in_default_environment(move || blocks::evaluate(Given::Prepared(numbers(law)?), block)))
     }
 }
 
@@ -151,7 +155,8 @@ pub unsafe extern "C" fn toron_hyperelastic_block_f32(
 ) -> i32 {
     // SAFETY: the caller's arguments, as lib.rs says.
     unsafe {
-        entry(Message { text: message, capacity }, move || blocks::evaluate(Given::Prepared(numbers(law)?), block))
+        Message { text: message, capacity }
+            .answer(in_default_environment(move || blocks::evaluate(Given::Prepared(numbers(law)?), block)))
     }
 }
 
@@ -167,9 +172,9 @@ pub unsafe extern "C" fn toron_hyperelastic_block_with_properties_f64(
 ) -> i32 {
     // SAFETY: the caller's arguments, as lib.rs says.
     unsafe {
-        entry(Message { text: message, capacity }, move || {
+        Message { text: message, capacity }.answer(in_default_environment(move || {
             blocks::evaluate(Given::Properties(read(properties, count)?), block)
-        })
+        }))
     }
 }
 
@@ -184,9 +189,9 @@ pub unsafe extern "C" fn toron_hyperelastic_block_with_properties_f32(
 ) -> i32 {
     // SAFETY: the caller's arguments, as lib.rs says.
     unsafe {
-        entry(Message { text: message, capacity }, move || {
+        Message { text: message, capacity }.answer(in_default_environment(move || {
             blocks::evaluate(Given::Properties(read(properties, count)?), block)
-        })
+        }))
     }
 }
 
@@ -211,8 +216,8 @@ pub unsafe extern "C" fn toron_hyperelastic_least_acoustic_eigenvalue_f64(
 ) -> i32 {
     // SAFETY: the caller's arguments, as lib.rs says.
     unsafe {
-        entry(Message { text: message, capacity }, move || {
+        Message { text: message, capacity }.answer(in_default_environment(move || {
             points::least_acoustic_eigenvalue(numbers(law)?, point, least, direction)
-        })
+        }))
     }
 }

@@ -1,7 +1,8 @@
 //! The linear elastic law: prepared, at one point, at blocks of points.
 
 use libc::{c_char, size_t};
-use toron::host::entry_points::{Message, entry, properties};
+use toron::host::entry_points::{Message, properties};
+use toron::host::environment::in_default_environment;
 use toron::host::linear_elastic::{self as linear, LinearBlock, LinearIncrement, LinearPoint};
 use toron::host::prepared::{AsNumbers, PreparedLaw, numbers, prepare};
 use toron::law::block::Precision;
@@ -85,7 +86,8 @@ pub unsafe extern "C" fn toron_linear_elastic_axes_f64(
 ) -> i32 {
     // SAFETY: the caller's arguments, as lib.rs says.
     unsafe {
-        entry(Message { text: message, capacity }, move || linear::axes(&prepared(law)?, fibre, second_axis, axes))
+        Message { text: message, capacity }
+            .answer(in_default_environment(move || linear::axes(&prepared(law)?, fibre, second_axis, axes)))
     }
 }
 
@@ -101,7 +103,8 @@ pub unsafe extern "C" fn toron_linear_elastic_axes_f32(
 ) -> i32 {
     // SAFETY: the caller's arguments, as lib.rs says.
     unsafe {
-        entry(Message { text: message, capacity }, move || linear::axes(&prepared(law)?, fibre, second_axis, axes))
+        Message { text: message, capacity }
+            .answer(in_default_environment(move || linear::axes(&prepared(law)?, fibre, second_axis, axes)))
     }
 }
 
@@ -118,7 +121,10 @@ pub unsafe extern "C" fn toron_linear_elastic_point_f64(
     capacity: size_t,
 ) -> i32 {
     // SAFETY: the caller's arguments, as lib.rs says.
-    unsafe { entry(Message { text: message, capacity }, move || linear::point(&prepared(law)?, point)) }
+    unsafe {
+        Message { text: message, capacity }
+            .answer(in_default_environment(move || linear::point(&prepared(law)?, point)))
+    }
 }
 
 /// As `toron_linear_elastic_point_f64`, in single precision.
@@ -130,7 +136,10 @@ pub unsafe extern "C" fn toron_linear_elastic_point_f32(
     capacity: size_t,
 ) -> i32 {
     // SAFETY: the caller's arguments, as lib.rs says.
-    unsafe { entry(Message { text: message, capacity }, move || linear::point(&prepared(law)?, point)) }
+    unsafe {
+        Message { text: message, capacity }
+            .answer(in_default_environment(move || linear::point(&prepared(law)?, point)))
+    }
 }
 
 /// As `toron_linear_elastic_point_f64`, with the properties in the table's order in place of a law that has been prepared. The
@@ -144,7 +153,10 @@ pub unsafe extern "C" fn toron_linear_elastic_point_with_properties_f64(
     capacity: size_t,
 ) -> i32 {
     // SAFETY: the caller's arguments, as lib.rs says.
-    unsafe { entry(Message { text: message, capacity }, move || linear::point(&with(properties, count)?, point)) }
+    unsafe {
+        Message { text: message, capacity }
+            .answer(in_default_environment(move || linear::point(&with(properties, count)?, point)))
+    }
 }
 
 /// As `toron_linear_elastic_point_with_properties_f64`, in single precision.
@@ -157,7 +169,10 @@ pub unsafe extern "C" fn toron_linear_elastic_point_with_properties_f32(
     capacity: size_t,
 ) -> i32 {
     // SAFETY: the caller's arguments, as lib.rs says.
-    unsafe { entry(Message { text: message, capacity }, move || linear::point(&with(properties, count)?, point)) }
+    unsafe {
+        Message { text: message, capacity }
+            .answer(in_default_environment(move || linear::point(&with(properties, count)?, point)))
+    }
 }
 
 /// The linear elastic law for a strain increment in material axes that the host updates: see `toron_linear_increment_f64`.
@@ -172,7 +187,10 @@ pub unsafe extern "C" fn toron_linear_elastic_increment_f64(
     capacity: size_t,
 ) -> i32 {
     // SAFETY: the caller's arguments, as lib.rs says.
-    unsafe { entry(Message { text: message, capacity }, move || linear::increment(&prepared(law)?, increment)) }
+    unsafe {
+        Message { text: message, capacity }
+            .answer(in_default_environment(move || linear::increment(&prepared(law)?, increment)))
+    }
 }
 
 /// As `toron_linear_elastic_increment_f64`, in single precision.
@@ -184,7 +202,10 @@ pub unsafe extern "C" fn toron_linear_elastic_increment_f32(
     capacity: size_t,
 ) -> i32 {
     // SAFETY: the caller's arguments, as lib.rs says.
-    unsafe { entry(Message { text: message, capacity }, move || linear::increment(&prepared(law)?, increment)) }
+    unsafe {
+        Message { text: message, capacity }
+            .answer(in_default_environment(move || linear::increment(&prepared(law)?, increment)))
+    }
 }
 
 /// The linear elastic law over a step at a block of points: see `toron_linear_block_f64`.
@@ -200,7 +221,10 @@ pub unsafe extern "C" fn toron_linear_elastic_block_f64(
     capacity: size_t,
 ) -> i32 {
     // SAFETY: the caller's arguments, as lib.rs says.
-    unsafe { entry(Message { text: message, capacity }, move || linear::block(&prepared(law)?, block)) }
+    unsafe {
+        Message { text: message, capacity }
+            .answer(in_default_environment(move || linear::block(&prepared(law)?, block)))
+    }
 }
 
 /// As `toron_linear_elastic_block_f64`, in single precision.
@@ -212,7 +236,10 @@ pub unsafe extern "C" fn toron_linear_elastic_block_f32(
     capacity: size_t,
 ) -> i32 {
     // SAFETY: the caller's arguments, as lib.rs says.
-    unsafe { entry(Message { text: message, capacity }, move || linear::block(&prepared(law)?, block)) }
+    unsafe {
+        Message { text: message, capacity }
+            .answer(in_default_environment(move || linear::block(&prepared(law)?, block)))
+    }
 }
 
 /// As `toron_linear_elastic_block_f64`, with the properties in the table's order in place of a law that has been prepared. The
@@ -226,7 +253,10 @@ pub unsafe extern "C" fn toron_linear_elastic_block_with_properties_f64(
     capacity: size_t,
 ) -> i32 {
     // SAFETY: the caller's arguments, as lib.rs says.
-    unsafe { entry(Message { text: message, capacity }, move || linear::block(&with(properties, count)?, block)) }
+    unsafe {
+        Message { text: message, capacity }
+            .answer(in_default_environment(move || linear::block(&with(properties, count)?, block)))
+    }
 }
 
 /// As `toron_linear_elastic_block_with_properties_f64`, in single precision.
@@ -239,5 +269,8 @@ pub unsafe extern "C" fn toron_linear_elastic_block_with_properties_f32(
     capacity: size_t,
 ) -> i32 {
     // SAFETY: the caller's arguments, as lib.rs says.
-    unsafe { entry(Message { text: message, capacity }, move || linear::block(&with(properties, count)?, block)) }
+    unsafe {
+        Message { text: message, capacity }
+            .answer(in_default_environment(move || linear::block(&with(properties, count)?, block)))
+    }
 }
