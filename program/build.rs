@@ -4,8 +4,16 @@
 use std::path::{Path, PathBuf};
 
 /// The workspace's folders that the program is compiled from.
-const SOURCES: [&str; 6] =
-    ["src", "solvers/src", "packages/shared/src", "packages/umat-check/src", "program/src", "program/assets"];
+pub const SOURCES: [&str; 8] = [
+    "src",
+    "solvers/src",
+    "packages/pictures/assets",
+    "packages/pictures/src",
+    "packages/shared/src",
+    "packages/umat-check/src",
+    "program/assets",
+    "program/src",
+];
 /// What else the compiler is told.
 const OPTIONS: [&str; 2] = ["CARGO_ENCODED_RUSTFLAGS", "CARGO_CFG_TARGET_FEATURE"];
 

@@ -12,9 +12,10 @@ use serde_json::Value;
 type Arrows = (&'static str, &'static [&'static str], &'static [&'static str]);
 
 /// From the ground up.
-const ARROWS: [Arrows; 17] = [
+const ARROWS: [Arrows; 18] = [
     ("toron", &[], &[]),
     ("toron-shared", &[], &[]),
+    ("toron-pictures", &["toron-shared"], &[]),
     ("umat-check", &["toron-shared"], &[]),
     ("toron-solvers", &["toron"], &[]),
     ("toron-abaqus", &["toron", "toron-solvers"], &[]),
@@ -24,8 +25,8 @@ const ARROWS: [Arrows; 17] = [
     ("toron-openradioss", &["toron", "toron-solvers"], &[]),
     ("toron-openradioss-sp", &["toron", "toron-solvers"], &[]),
     ("toron-c", &["toron"], &["toron-solvers"]),
-    ("toron-program", &["toron", "toron-shared", "toron-solvers", "umat-check"], &[]),
-    ("toron-benches", &[], &["toron", "toron-program"]),
+    ("toron-program", &["toron", "toron-pictures", "toron-shared", "toron-solvers", "umat-check"], &[]),
+    ("toron-benches", &[], &["toron", "toron-pictures", "toron-program"]),
     // `examples/own_law`.
     ("reinforced-solid", &["toron"], &[]),
     ("own-law-double", &["reinforced-solid", "toron-solvers"], &[]),

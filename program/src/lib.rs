@@ -22,8 +22,8 @@
 //! - woven panels as meshes of hexahedra (`toron weave`): [`weave`];
 //! - `run`, `params`, `deck` and `eval` for a law of one's own, in a program of three lines: [`of_law`];
 //! - what they share: materials, presets and how files describe them in [`material`], the calls of the C interface in [`entries`],
-//!   drawing in [`picture`], units and tables of measured data in [`common`]; errors, TOML files, arguments and exit codes in the package
-//!   `toron-shared`.
+//!   units and tables of measured data in [`common`]; drawing in the package `toron-pictures`; errors, TOML
+//!   files, arguments and exit codes in `toron-shared`.
 
 pub mod bench;
 pub mod cell;
@@ -42,7 +42,6 @@ pub mod load_path;
 pub mod material;
 mod own_program;
 pub mod params;
-pub mod picture;
 pub mod scene_deck;
 pub mod strength;
 pub mod struck;

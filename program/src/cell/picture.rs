@@ -9,11 +9,12 @@ use super::model::Model;
 use super::report::title;
 use super::run::{Outcome, Shape};
 use super::scene::Scene;
-use crate::common::units::{number, unit};
-use crate::picture::page::{self, Area, Drawn};
-use crate::picture::style::{GREY, INK, TEXT, TITLE, fine, stroke, text};
+use crate::common::units::unit;
 use toron::law::parameters::STRESS;
+use toron_pictures::page::{self, Area, Drawn};
+use toron_pictures::style::{GREY, INK, TEXT, TITLE, fine, stroke, text};
 use toron_shared::error::Error;
+use toron_shared::numbers::number;
 
 /// The width of what is drawn, the air around it, and the heading's height.
 const WIDTH: i32 = 760;

@@ -5,6 +5,7 @@ use toml::Spanned;
 use toron::host::units::UnitSystem;
 use toron::law::parameters::{DENSITY, Dimension, ENERGY_DENSITY, NUMBER, STRESS};
 use toron_shared::error::Error;
+use toron_shared::numbers::number;
 use toron_shared::toml_file::Source;
 
 /// Joule, for work and energies.
@@ -85,33 +86,9 @@ fn imperial(units: &UnitSystem, [inch, foot]: [&str; 2]) -> Option<String> {
     }
 }
 
-/// All digits of a number, with an exponent where it is very large or small.
-pub fn plain(value: f64) -> String {
-    let size = value.abs();
-    if size == 0.0 || (1e-3..1e6).contains(&size) { value.to_string() } else { format!("{value:e}") }
-}
-
 /// A number's text with its unit, if it has one.
 pub fn with_unit(units: &UnitSystem, number: &str, dimension: Dimension) -> String {
     if dimension == NUMBER { number.to_string() } else { format!("{number} {}", unit(units, dimension)) }
-}
-
-/// A number for people: four significant digits, with an exponent where the number is very large or small.
-pub fn number(value: f64) -> String {
-    let size = value.abs();
-    if value == 0.0 {
-        return "0".to_string(); // without the sign of -0
-    }
-    if !(1e-3..1e6).contains(&size) {
-        return format!("{value:.3e}");
-    }
-    let digits = (3 - size.log10().floor() as i32).max(0) as usize;
-    format!("{value:.digits$}")
-}
-
-/// The size of a number for people: one digit and an exponent.
-pub fn one_digit(value: f64) -> String {
-    if value == 0.0 { "0".to_string() } else { format!("{value:.0e}") }
 }
 
 /// A time for people, by the system's unit or by a finer one that makes it 1 at least: 30 µs where the unit is ms.

@@ -6,9 +6,9 @@ use toron::host::units::UnitSystem;
 
 use super::history::{History, QUANTITIES};
 use crate::common::units::{TIME, unit};
-use crate::picture::history;
-use crate::picture::panel::{Abscissa, Panel, Series};
-use crate::picture::style::COLOURS;
+use toron_pictures::history;
+use toron_pictures::panel::{Abscissa, Panel, Series};
+use toron_pictures::style::COLOURS;
 use toron_shared::error::Error;
 
 /// Points of a line.

@@ -4,7 +4,6 @@ use nalgebra::Vector3;
 
 use super::scene::{Case, Zones};
 use super::strength::PanelStrength;
-use crate::common::units::number;
 use crate::explicit::body::{Body, Support};
 use crate::explicit::contact::{Contact, Rigid, Shape};
 use crate::explicit::lanes::Number;
@@ -18,6 +17,7 @@ use crate::material::model::Material;
 use crate::weave::model::{LOWER, Model, UPPER, Yarn};
 use crate::weave::panel::Part;
 use toron_shared::error::Error;
+use toron_shared::numbers::number;
 
 /// Checks that a run of this case can begin.
 ///

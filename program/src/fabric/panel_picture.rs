@@ -6,21 +6,22 @@ use std::path::Path;
 use plotters::prelude::*;
 
 use super::scene::{Case, Scene, Zones};
-use crate::common::units::{number, time, unit};
+use crate::common::units::{time, unit};
 use crate::explicit::contact::Shape;
 use crate::explicit::snapshot::Snapshot;
 use crate::material::model::Law;
-use crate::picture::colour_scale::{Colours, Scale};
-use crate::picture::page::{self, Area, Drawn};
-use crate::picture::raster::Raster;
-use crate::picture::ruler;
-use crate::picture::style::{GREY, INK, TEXT, TITLE, fine, text};
-use crate::picture::view::View;
 use crate::weave::model::Model;
 use crate::weave::projection::{self, Eye};
 use crate::weave::surface::{self, Visible};
 use toron::law::parameters::ENERGY_DENSITY;
+use toron_pictures::colour_scale::{Colours, Scale};
+use toron_pictures::page::{self, Area, Drawn};
+use toron_pictures::raster::Raster;
+use toron_pictures::ruler;
+use toron_pictures::style::{GREY, INK, TEXT, TITLE, fine, text};
+use toron_pictures::view::View;
 use toron_shared::error::Error;
+use toron_shared::numbers::number;
 
 const WIDTH: i32 = 1280;
 /// Air beside all that is drawn, and between two views.

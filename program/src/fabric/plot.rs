@@ -5,11 +5,12 @@ use std::path::Path;
 use super::measure::Sample;
 use super::run::Outcome;
 use super::scene::{Case, Scene};
-use crate::common::units::{ENERGY, FORCE, LENGTH, SPEED};
-use crate::picture::history::{self, Samples};
-use crate::picture::panel::{Panel, Series, tidy};
-use crate::picture::style::INK;
+use crate::common::units::{ENERGY, FORCE, LENGTH, SPEED, TIME, unit};
+use toron::host::units::UnitSystem;
 use toron::law::parameters::ENERGY_DENSITY;
+use toron_pictures::history::{self, Samples};
+use toron_pictures::panel::{Panel, Series, tidy};
+use toron_pictures::style::INK;
 use toron_shared::error::Error;
 
 const MODES: [&str; 5] = ["elongation", "compaction", "distortion", "shear", "work of the linear law"];
@@ -27,15 +28,15 @@ pub fn write(
     outcome: &Outcome,
     verdict: &str,
 ) -> Result<(), Error> {
-    let samples = Samples { all: &outcome.history, units: &scene.units };
-    let abscissa = samples.over_time(|sample| sample.time, outcome.failed);
+    let samples = Samples(&outcome.history);
+    let abscissa = samples.over_time(&unit(&scene.units, TIME), |sample| sample.time, outcome.failed);
     let subtitle = format!("{}; verdict: {verdict}", case.name);
-    history::write(svg, png, [&scene.title, &subtitle], panels(&samples), &abscissa)
+    history::write(svg, png, [&scene.title, &subtitle], panels(&samples, &scene.units), &abscissa)
 }
 
-fn panels(samples: &Samples<Sample>) -> [Panel; 11] {
+fn panels(samples: &Samples<Sample>, units: &UnitSystem) -> [Panel; 11] {
     let line = |colour: usize, name: &str, of: &dyn Fn(&Sample) -> f64| samples.line(colour, name, of);
-    let panel = |title, dimension, series: Vec<Series>| samples.panel(title, dimension, series);
+    let panel = |title, dimension, series: Vec<Series>| Panel::new(title, &unit(units, dimension), tidy(series));
     let energies = vec![
         line(0, "sphere", &|s| s.energies.projectile),
         line(1, "kinetic", &|s| s.energies.kinetic),

@@ -8,7 +8,7 @@ use toml::Spanned;
 
 use super::file::{CaseFile, Rim, SceneFile, ShapeName};
 use super::scene::{Case, Scene, Striker};
-use crate::common::units::{self, number};
+use crate::common::units;
 use crate::explicit::contact::{Rigid, Shape};
 use crate::explicit::control_keys::zero_or_more;
 use crate::explicit::medium::Control;
@@ -29,6 +29,7 @@ use crate::weave::panel::Part;
 use crate::weave::reader::layup;
 use toron::law::parameters::DENSITY;
 use toron_shared::error::Error;
+use toron_shared::numbers::number;
 use toron_shared::toml_file::{self, Numbers, Source, over};
 
 /// Samples of a history where the file does not say otherwise.

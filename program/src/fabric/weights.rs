@@ -3,7 +3,6 @@
 use std::ops::RangeInclusive;
 
 use super::scene::Case;
-use crate::common::units::number;
 use crate::explicit::contact::Shape;
 use crate::explicit::judgement::Finding;
 use crate::struck::blow;
@@ -12,6 +11,7 @@ use crate::weave::geometry::Family;
 use crate::weave::model::Model;
 use crate::weave::weights::PlyWeight;
 use toron::host::units::UnitSystem;
+use toron_shared::numbers::number;
 
 /// What steels have, in kg/m³.
 const STEEL: RangeInclusive<f64> = 7.6e3..=8.2e3;

@@ -7,11 +7,12 @@ use super::frame::Frame;
 use super::model::{Striking, micro};
 use super::outcome::{Outcome, Sample};
 use super::scene::{Case, Scene};
-use crate::common::units::{ENERGY, LENGTH, SPEED, TIME, time};
+use crate::common::units::{ENERGY, LENGTH, SPEED, TIME, time, unit};
 use crate::impact::outcome::STATIONS;
-use crate::picture::history::{self, Samples};
-use crate::picture::panel::{self, Panel, Series};
-use crate::picture::style::INK;
+use toron::host::units::UnitSystem;
+use toron_pictures::history::{self, Samples};
+use toron_pictures::panel::{self, Panel, Series, tidy};
+use toron_pictures::style::INK;
 use toron_shared::error::Error;
 
 /// Speed, energies, strain and widths of a case over time, as far as they change.
@@ -26,9 +27,9 @@ pub fn write_history(
     result: &Outcome,
     law: Option<&Beside>,
 ) -> Result<(), Error> {
-    let samples = Samples { all: &result.samples, units: &scene.units };
-    let abscissa = samples.over_time(|sample| sample.time, result.first_break());
-    history::write(svg, png, [&scene.title, &case.name], panels(&samples, case, result, law), &abscissa)
+    let samples = Samples(&result.samples);
+    let abscissa = samples.over_time(&unit(&scene.units, TIME), |sample| sample.time, result.first_break());
+    history::write(svg, png, [&scene.title, &case.name], panels(&samples, &scene.units, case, result, law), &abscissa)
 }
 
 /// Mean strain along the yarn at the times of the pictures, and the law's beside, where its run has drawn the yarn at
@@ -67,8 +68,15 @@ pub fn write_strains(svg: &Path, png: &Path, scene: &Scene, case: &Case, result:
     history::write(svg, png, [&scene.title, &case.name], panels, &abscissa)
 }
 
-fn panels(samples: &Samples<Sample>, case: &Case, result: &Outcome, law: Option<&Beside>) -> [Panel; 6] {
+fn panels(
+    samples: &Samples<Sample>,
+    units: &UnitSystem,
+    case: &Case,
+    result: &Outcome,
+    law: Option<&Beside>,
+) -> [Panel; 6] {
     let line = |colour: usize, name: &str, of: &dyn Fn(&Sample) -> f64| samples.line(colour, name, of);
+    let panel = |title, dimension, series: Vec<Series>| Panel::new(title, &unit(units, dimension), tidy(series));
     let beside = |colour: usize, name: &str, columns: &[&str]| {
         law.map(|law| {
             let of = |sample: &Sample| columns.iter().map(|column| law.at(column, sample.time)).sum();
@@ -103,7 +111,7 @@ fn panels(samples: &Samples<Sample>, case: &Case, result: &Outcome, law: Option<
         section.retain(|series| series.name != "contact, projectile");
     }
     section.extend(beside(4, "W_tc + W_td", &["compaction_energy", "distortion_energy"]));
-    let length = samples.units.names()[0];
+    let length = units.names()[0];
     let station = |i: usize| format!("{:.2} {length}", STATIONS[i] * case.half_length);
     let limit = case.fibre.strain_at_failure.map(|strain| 100.0 * strain);
     let speeds = [line(0, "speed", &|s| s.speed)].into_iter().chain(beside(1, "speed", &["speed"])).collect();
@@ -111,11 +119,11 @@ fn panels(samples: &Samples<Sample>, case: &Case, result: &Outcome, law: Option<
     let mut widths: Vec<Series> = (0..STATIONS.len()).map(|i| line(i, &station(i), &|s| s.spreads[i])).collect();
     widths.extend(beside(4, "first", &["width_1"]));
     [
-        samples.panel("Speed of the projectile", SPEED, speeds),
-        samples.panel("Energies", ENERGY, energies),
-        samples.panel("Energies of the section", ENERGY, section),
+        panel("Speed of the projectile", SPEED, speeds),
+        panel("Energies", ENERGY, energies),
+        panel("Energies of the section", ENERGY, section),
         Panel { limit, ..Panel::new("Largest strain of a fibre", "%", vec![line(0, "strain", &|s| 100.0 * s.strain)]) },
-        samples.panel("Fastest bead", SPEED, vec![line(0, "speed", &|s| s.fastest)]),
+        panel("Fastest bead", SPEED, vec![line(0, "speed", &|s| s.fastest)]),
         Panel::new("Width of the section by place", length, widths),
     ]
 }

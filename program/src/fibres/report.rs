@@ -7,8 +7,9 @@ use super::outcome::{Fronts, Outcome};
 use super::pressed;
 use super::scene::{Case, Scene};
 use super::summary::{cost, outcome};
-use crate::common::units::{ENERGY, SPEED, TIME, number, one_digit, unit};
+use crate::common::units::{ENERGY, SPEED, TIME, unit};
 use crate::material::linear_density::LinearDensity;
+use toron_shared::numbers::{number, one_digit};
 use toron_shared::text_table::{Column, files, or_dash, shortened, table};
 
 /// Columns of a terminal.

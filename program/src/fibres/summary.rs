@@ -5,9 +5,10 @@ use std::path::Path;
 use super::model::{Striking, micro};
 use super::outcome::Outcome;
 use super::scene::{Case, Scene};
-use crate::common::units::{LENGTH, TIME, number, one_digit};
+use crate::common::units::{LENGTH, TIME};
 use toron::host::units::UnitSystem;
 use toron_shared::error::Error;
+use toron_shared::numbers::{number, one_digit};
 use toron_shared::text_table::{or_dash, write_csv};
 
 /// How a case ended, in the words of `toron impact` where it is the same.

@@ -4,10 +4,10 @@ use super::data::DataSet;
 use super::data_sheet::MODULI;
 use super::fit::{Fit, Problem, SetFit};
 use super::parameter::{ALL, Parameter};
-use crate::common::units::number;
 use crate::material::fibre_wave::FibreWave;
 use crate::material::laws::LawName;
 use toron::law::parameters::STRESS;
+use toron_shared::numbers::number;
 
 /// An interval that reaches this far to one side, over the value, tells little.
 const WIDE: f64 = 0.5;

@@ -9,10 +9,10 @@ use super::file::Job;
 use super::fit::{Fit, SetFit};
 use super::parameter::Parameter;
 use crate::common::units::unit;
-use crate::picture::legend::{self, Mark};
-use crate::picture::page::{self, Area, Drawn};
-use crate::picture::panel::{bounds, chart, tick};
-use crate::picture::style::{COLOURS, GREY, HEADING, INK, TEXT, TITLE, fine, stroke, text};
+use toron_pictures::legend::{self, Mark};
+use toron_pictures::page::{self, Area, Drawn};
+use toron_pictures::panel::{bounds, chart, tick};
+use toron_pictures::style::{COLOURS, GREY, HEADING, INK, TEXT, TITLE, fine, stroke, text};
 use toron_shared::error::Error;
 
 const WIDTH: u32 = 1280;
@@ -78,7 +78,7 @@ struct Frame<'a> {
 
 type Plane<'a> = ChartContext<
     'a,
-    &'a mut crate::picture::sheet::Sheet,
+    &'a mut toron_pictures::sheet::Sheet,
     Cartesian2d<plotters::coord::types::RangedCoordf64, plotters::coord::types::RangedCoordf64>,
 >;
 

@@ -7,9 +7,10 @@ use super::notes;
 use super::parameter::{ALL, Parameter};
 use super::ranges::{self, PARTS};
 use super::uncertainty::{self, Estimate};
-use crate::common::units::{number, unit};
+use crate::common::units::unit;
 use toron::law::parameters::NUMBER;
 use toron_shared::console::{is_json, value_record};
+use toron_shared::numbers::number;
 use toron_shared::text_table::{or_dash, plain_table};
 
 /// The width of the names.

@@ -4,9 +4,10 @@
 use super::outcome::{End, Outcome};
 use super::scene::{Case, Striker};
 use super::weights;
-use crate::common::units::{TIME, number, unit};
+use crate::common::units::{TIME, unit};
 use crate::explicit::judgement::{self, Finding};
 use toron::host::units::UnitSystem;
+use toron_shared::numbers::number;
 
 /// Artificial viscosity may take this part of what the blow has given away while the yarn is whole. Runs of the
 /// examples have 0.9 to 3.7 %; one in eight layers has 7.9 %, one with a hundred times the viscosity 7.8 %, and both

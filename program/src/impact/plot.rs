@@ -6,12 +6,13 @@ use plotters::prelude::*;
 
 use super::outcome::{Outcome, STATIONS, Sample};
 use super::scene::{Abscissa, Case, Scene, Striker};
-use crate::common::units::{CONTACT_STIFFNESS, ENERGY, SPEED, unit};
-use crate::picture::history::{self, Samples};
-use crate::picture::page::{self, Area, Drawn};
-use crate::picture::panel::{self, Panel, Series};
-use crate::picture::style::{COLOURS, HEADING, INK, TEXT, TITLE, fine, stroke, text};
+use crate::common::units::{CONTACT_STIFFNESS, ENERGY, SPEED, TIME, unit};
+use toron::host::units::UnitSystem;
 use toron::law::parameters::ENERGY_DENSITY;
+use toron_pictures::history::{self, Samples};
+use toron_pictures::page::{self, Area, Drawn};
+use toron_pictures::panel::{self, Panel, Series, tidy};
+use toron_pictures::style::{COLOURS, HEADING, INK, TEXT, TITLE, fine, stroke, text};
 use toron_shared::error::Error;
 
 const COMPARISON: [u32; 2] = [760, 480];
@@ -29,14 +30,16 @@ pub fn write_history(
     result: &Outcome,
     verdict: &str,
 ) -> Result<(), Error> {
-    let samples = Samples { all: &result.history, units: &scene.units };
-    let abscissa = samples.over_time(|sample| sample.time, result.course.broken.map(|(time, _)| time));
+    let samples = Samples(&result.history);
+    let abscissa =
+        samples.over_time(&unit(&scene.units, TIME), |sample| sample.time, result.course.broken.map(|(time, _)| time));
     let subtitle = format!("{}; verdict: {verdict}", case.name);
-    history::write(svg, png, [&scene.title, &subtitle], panels(&samples, case), &abscissa)
+    history::write(svg, png, [&scene.title, &subtitle], panels(&samples, &scene.units, case), &abscissa)
 }
 
-fn panels(samples: &Samples<Sample>, case: &Case) -> [Panel; 4] {
+fn panels(samples: &Samples<Sample>, units: &UnitSystem, case: &Case) -> [Panel; 4] {
     let line = |colour: usize, name: &str, of: &dyn Fn(&Sample) -> f64| samples.line(colour, name, of);
+    let panel = |title, dimension, series: Vec<Series>| Panel::new(title, &unit(units, dimension), tidy(series));
     let mut energies = vec![
         line(1, "kinetic", &|s| s.energies.kinetic),
         line(2, "internal", &|s| s.energies.internal),
@@ -50,12 +53,12 @@ fn panels(samples: &Samples<Sample>, case: &Case) -> [Panel; 4] {
         energies.push(Series { colour: INK, ..line(0, "external work", &|s| s.energies.external) });
     }
     let modes = ["elongation", "compaction", "distortion", "shear", "work of the linear law"];
-    let length = samples.units.names()[0];
+    let length = units.names()[0];
     let station = |i: usize| format!("{:.2} {length}", STATIONS[i] * case.yarn.length);
     [
-        samples.panel("Speed of the projectile", SPEED, vec![line(0, "speed", &|s| s.speed)]),
-        samples.panel("Energies", ENERGY, energies),
-        samples.panel(
+        panel("Speed of the projectile", SPEED, vec![line(0, "speed", &|s| s.speed)]),
+        panel("Energies", ENERGY, energies),
+        panel(
             "Largest energy per reference volume",
             ENERGY_DENSITY,
             (0..modes.len()).map(|mode| line(mode, modes[mode], &|s| s.largest[mode])).collect(),

@@ -5,7 +5,7 @@ use std::path::Path;
 use super::judgement::judge;
 use super::outcome::{End, OfYarn, Outcome};
 use super::scene::{Case, Outputs, Striker, Zones};
-use crate::common::units::{CONTACT_STIFFNESS, LENGTH, SPEED, TIME, number, one_digit};
+use crate::common::units::{CONTACT_STIFFNESS, LENGTH, SPEED, TIME};
 use crate::explicit::judgement::verdict;
 use crate::material::smith::Smith;
 use crate::struck::history::Column;
@@ -13,6 +13,7 @@ use crate::struck::summary::{Cells, Line};
 use toron::host::units::UnitSystem;
 use toron::law::parameters::{ENERGY_DENSITY, NUMBER};
 use toron_shared::error::Error;
+use toron_shared::numbers::{number, one_digit};
 use toron_shared::text_table::{NONE, or_dash, write_csv};
 
 /// Writes mean and largest strain along the yarn: their place in the middle of a layer at rest, and they.

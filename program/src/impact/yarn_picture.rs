@@ -11,11 +11,11 @@ use crate::common::units::{time, unit};
 use crate::explicit::mesh::Mesh;
 use crate::explicit::snapshot::Snapshot;
 use crate::material::model::Law;
-use crate::picture::colour_scale::{Colours, Scale};
-use crate::picture::page::{self, Area, Drawn};
-use crate::picture::ruler;
-use crate::picture::style::{GREY, INK, TEXT, TITLE, fine, stroke, text};
 use toron::law::parameters::ENERGY_DENSITY;
+use toron_pictures::colour_scale::{Colours, Scale};
+use toron_pictures::page::{self, Area, Drawn};
+use toron_pictures::ruler;
+use toron_pictures::style::{GREY, INK, TEXT, TITLE, fine, stroke, text};
 use toron_shared::error::Error;
 
 const WIDTH: i32 = 1280;

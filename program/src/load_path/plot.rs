@@ -12,11 +12,11 @@ use super::run::{History, Increment};
 use super::table;
 use crate::common::units::{ENERGY, unit};
 use crate::material::model::Law;
-use crate::picture::page::{self, Area, Drawn};
-use crate::picture::panel::{Abscissa, Panel, Series, tidy};
-use crate::picture::style::{COLOURS, GREY, INK, TEXT, TITLE, fine, text};
 use toron::law::parameters::{ENERGY_DENSITY, NUMBER, STRESS};
 use toron::law::state::{ENERGIES, INVARIANTS};
+use toron_pictures::page::{self, Area, Drawn};
+use toron_pictures::panel::{Abscissa, Panel, Series, tidy};
+use toron_pictures::style::{COLOURS, GREY, INK, TEXT, TITLE, fine, text};
 use toron_shared::error::Error;
 
 /// Width and height of the picture.

@@ -3,11 +3,12 @@
 use super::newton::{COMPONENT_NAMES, COMPONENTS};
 use super::path::{LoadPath, Target};
 use super::run::{End, History, Increment};
-use crate::common::units::{ENERGY, number, unit};
+use crate::common::units::{ENERGY, unit};
 use crate::material::fibre_wave::FibreWave;
 use crate::material::model::{Law, Material};
 use toron::law::parameters::{ENERGY_DENSITY, STRESS};
 use toron::law::state::{ENERGIES, INVARIANTS};
+use toron_shared::numbers::number;
 use toron_shared::text_table::value_line;
 
 /// The names of the four deformation modes.

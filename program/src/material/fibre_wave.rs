@@ -4,8 +4,9 @@ use std::ops::RangeInclusive;
 
 use super::laws::LawName;
 use super::model::{Law, Material};
-use crate::common::units::{SPEED, number};
+use crate::common::units::SPEED;
 use toron::host::units::UnitSystem;
+use toron_shared::numbers::number;
 
 /// Speeds in fibres, in km/s, with a margin on both sides: nylon has 2, polyethylene 12, graphene would have 20.
 const KNOWN: RangeInclusive<f64> = 1.0..=20.0;

@@ -9,13 +9,14 @@ use toml::Spanned;
 use super::laws::{LawName, LawText, Laws};
 use super::model::{Law, Material, Origin};
 use super::preset::{Preset, first_property};
-use crate::common::units::{plain, with_unit};
+use crate::common::units::with_unit;
 use crate::material::laws::law;
 use crate::material::preset::property_index;
 use toron::host::units::UnitSystem;
 use toron::law::parameters::{DENSITY, NUMBER, Property};
 use toron::{Criterion, Rotation};
 use toron_shared::error::Error;
+use toron_shared::numbers::plain;
 use toron_shared::toml_file::{Numbers, Source};
 
 /// A table that describes a material.

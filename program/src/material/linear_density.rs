@@ -3,9 +3,9 @@
 
 use std::ops::RangeInclusive;
 
-use crate::common::units::number;
 use toron::host::units::UnitSystem;
 use toron::law::parameters::{DENSITY, Dimension};
+use toron_shared::numbers::number;
 
 const MASS_BY_LENGTH: Dimension = Dimension { mass: 1, length: -1, time: 0, name: "linear density" };
 /// A tex is a gram a kilometre.

@@ -8,13 +8,14 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use super::laws::{LawName, LawText, Laws};
-use crate::common::units::{self, plain, with_unit};
+use crate::common::units::{self, with_unit};
 use crate::material::laws::law;
 use toron::host::units::UnitSystem;
 use toron::law::bounds;
 use toron::law::parameters::{self, DENSITY, Dimension, Property};
 use toron_shared::error::Error;
 use toron_shared::nearest;
+use toron_shared::numbers::plain;
 use toron_shared::text_table::grouped;
 use toron_shared::toml_error::shortened;
 use toron_shared::toml_file::Source;

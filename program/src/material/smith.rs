@@ -9,9 +9,9 @@ use std::ops::Range;
 
 use super::fibre_wave::FibreWave;
 use super::model::{Law, Material};
-use crate::common::units::number;
 use toron::host::units::UnitSystem;
 use toron_shared::error::Error;
+use toron_shared::numbers::number;
 use toron_shared::toml_file::Source;
 
 /// Steps of the integral, and of the bisection for the strain.

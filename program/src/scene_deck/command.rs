@@ -9,13 +9,13 @@ use toron::host::units::UnitSystem;
 
 use super::model::{Conversion, Model};
 use super::{abaqus, ls_dyna, of_fabric, of_impact, openradioss};
-use crate::common::units::number;
 use crate::deck::openradioss::FibreFrom;
 use crate::explicit::judgement::warnings;
 use crate::{fabric, impact, weave};
 use toron_shared::console::{print, print_error};
 use toron_shared::error::Error;
 use toron_shared::kept_file;
+use toron_shared::numbers::number;
 use toron_shared::run_directory::{RunDirectory, Writes};
 use toron_shared::text_table::of_cases;
 

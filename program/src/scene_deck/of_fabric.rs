@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::model::{Contact, Conversion, Mesh, Model, Part, Strike, Support, frame, hourglass, step};
 use super::striker::{Striker, divisions};
-use crate::common::units::{LENGTH, MASS, SPEED, TIME, number};
+use crate::common::units::{LENGTH, MASS, SPEED, TIME};
 use crate::deck::material::Material;
 use crate::explicit::contact::Shape;
 use crate::fabric::model::{check, share, start, zone};
@@ -14,6 +14,7 @@ use crate::weave::command::NAME;
 use crate::weave::model as woven;
 use crate::weave::model::Yarn;
 use toron_shared::error::Error;
+use toron_shared::numbers::number;
 
 /// Corners of a woven element in the order of a deck's: its section where it starts, then the one where it ends.
 pub const SECTIONS: [usize; 8] = [0, 2, 6, 4, 1, 3, 7, 5];

@@ -8,10 +8,10 @@ use super::field::Field;
 use super::file::{LawFile, StrengthFile};
 use super::scatter::Strength;
 use super::weibull::Weibull;
-use crate::common::units::number;
 use crate::material::of_law::LawName;
 use crate::struck::keys::Reader;
 use toron_shared::error::Error;
+use toron_shared::numbers::number;
 
 /// The seed where the file gives none.
 const SEED: u64 = 1;

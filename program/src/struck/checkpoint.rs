@@ -5,9 +5,9 @@ use serde::{Deserialize, Serialize};
 use super::plan::Plan;
 use super::run::{End, OutcomeOf, ROUNDING, Struck};
 use crate::common::build;
-use crate::common::units::number;
 use crate::explicit::archive::Archive;
 use toron_shared::error::Error;
+use toron_shared::numbers::number;
 
 /// The build in which a checkpoint begins: one of another build is not to be taken.
 fn build() -> String {

@@ -10,7 +10,6 @@ use super::checkpoint;
 use super::pace::{Estimate, Pace};
 use super::plan::Plan;
 use super::sample::Sample;
-use crate::common::units::number;
 use crate::explicit::archive::Archive;
 use crate::explicit::energies::{Balance, Cost};
 use crate::explicit::judgement::MEASURED_EVERY;
@@ -19,6 +18,7 @@ use crate::explicit::snapshot::Snapshot;
 use crate::explicit::solver::Solver;
 use crate::explicit::vtu;
 use toron_shared::error::Error;
+use toron_shared::numbers::number;
 
 /// Times closer than this part of a case's time are the same.
 pub const ROUNDING: f64 = 1e-9;

@@ -3,9 +3,9 @@
 use std::fmt::Display;
 
 use super::history::title;
-use crate::common::units::number;
 use toron::host::units::UnitSystem;
 use toron::law::parameters::Dimension;
+use toron_shared::numbers::number;
 use toron_shared::text_table::or_dash;
 
 /// Titles and entries, as [`write_csv`](toron_shared::text_table::write_csv) takes them.

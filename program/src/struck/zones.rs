@@ -1,7 +1,7 @@
 //! What a yarn or a panel is made of, from where it is struck outwards.
 
-use crate::common::units::number;
 use crate::material::model::{self, Material};
+use toron_shared::numbers::number;
 
 #[derive(Clone, Debug)]
 pub enum Zones {

@@ -8,8 +8,8 @@ use super::records::Records;
 use super::run::{FiringRange, stays};
 use super::scene::Shot;
 use super::shot::{Ended, Ending};
-use crate::common::units::number;
 use toron_shared::error::Error;
+use toron_shared::numbers::number;
 
 /// How many tolerances from the limit it is probed, on either side.
 const PROBES: [f64; 4] = [1.5, 3.0, 6.0, 12.0];

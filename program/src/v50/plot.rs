@@ -11,10 +11,10 @@ use super::series::Series;
 use super::shot::{Ended, Ending};
 use crate::common::units::{SPEED, unit};
 use crate::explicit::judgement::SOUND;
-use crate::picture::legend::{self, BAND, Mark};
-use crate::picture::page::{self, Area, Drawn};
-use crate::picture::panel::{bounds, chart, tick};
-use crate::picture::style::{COLOURS, GREY, HEADING, INK, TEXT, TITLE, fine, stroke, text};
+use toron_pictures::legend::{self, BAND, Mark};
+use toron_pictures::page::{self, Area, Drawn};
+use toron_pictures::panel::{bounds, chart, tick};
+use toron_pictures::style::{COLOURS, GREY, HEADING, INK, TEXT, TITLE, fine, stroke, text};
 use toron_shared::error::Error;
 
 const WIDTH: i32 = 1280;

@@ -9,11 +9,12 @@ use super::series::Series;
 use super::shot::{self, Ending};
 use super::simulation::Coverage;
 use super::test_houses::Mean;
-use crate::common::units::{SPEED, TIME, number, unit};
+use crate::common::units::{SPEED, TIME, unit};
 use crate::explicit::judgement::SOUND;
 use crate::strength::scatter::{self, Strength};
 use crate::struck::history::title;
 use toron_shared::error::Error;
+use toron_shared::numbers::number;
 use toron_shared::text_table::{Column, NONE, files, folded, grouped, or_dash, table, write_csv};
 
 /// Columns of a terminal.

@@ -13,11 +13,12 @@ use super::designs::Fired;
 use super::records::Records;
 use super::scene::{Scene, Shot};
 use super::shot::{Ended, Ending, Watch, fire};
-use crate::common::units::{SPEED, number, unit};
+use crate::common::units::{SPEED, unit};
 use crate::struck::pace::{Estimate, duration};
 use toron_shared::console::print_note;
 use toron_shared::error::Error;
 use toron_shared::interrupt::Interrupt;
+use toron_shared::numbers::number;
 use toron_shared::progress;
 
 /// Ticks of the progress bar for each shot.

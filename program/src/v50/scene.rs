@@ -4,7 +4,6 @@ use std::path::Path;
 
 use super::designs::{Design, scattered};
 use crate::common::chance::uniform;
-use crate::common::units::number;
 use crate::impact::scene::Striker;
 use crate::material::model::Material;
 use crate::strength::scatter::Strength;
@@ -14,6 +13,7 @@ use crate::weave::panel::Part;
 use crate::{fabric, impact};
 use toron::host::units::UnitSystem;
 use toron_shared::error::Error;
+use toron_shared::numbers::number;
 use toron_shared::toml_file::{self, Source};
 
 /// Tables that a scene of a panel has, one at least.

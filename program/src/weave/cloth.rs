@@ -11,9 +11,9 @@ use super::foreign::reader::Foreign;
 use super::layup::{Layup, Ply};
 use super::model::Model;
 use super::panel::{Outline, Part};
-use crate::common::units::number;
 use toron::host::units::UnitSystem;
 use toron_shared::error::Error;
+use toron_shared::numbers::number;
 use toron_shared::toml_file::Source;
 
 #[derive(Clone, Debug)]

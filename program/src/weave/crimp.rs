@@ -7,7 +7,7 @@
 use super::centre_line::CentreLines;
 use super::geometry::{Family, Geometry, Weave};
 use super::panel::Centre;
-use crate::common::units::number;
+use toron_shared::numbers::number;
 
 /// The crimp of a mesh may differ by this from that of the weave. It is a strain; in the panel of the tutorial, struck
 /// at 25 m/s, 0.6 % of slack make the deflection 18 % larger, in proportion this 7 %.

@@ -4,9 +4,9 @@ use plotters::prelude::*;
 
 use super::geometry::Family;
 use super::model::{Model, Yarn};
-use crate::picture::page::{Area, Drawn};
-use crate::picture::style::fine;
-use crate::picture::view::View;
+use toron_pictures::page::{Area, Drawn};
+use toron_pictures::style::fine;
+use toron_pictures::view::View;
 
 /// A plane goes by this part of a yarn's width beside where it is asked for, so that it meets no node.
 const BESIDE: f64 = 1e-5;

@@ -2,7 +2,7 @@
 
 use super::pattern::Pattern;
 use super::section::{Columns, Section, Thread};
-use crate::common::units::number;
+use toron_shared::numbers::number;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Family {

@@ -12,10 +12,10 @@ use super::model::Model;
 use super::projection::{self, FACING, Lit};
 use super::reader::Scene;
 use super::surface::{self, Visible};
-use crate::picture::page::{self, Area, Drawn};
-use crate::picture::ruler;
-use crate::picture::style::{COLOURS, GREY, HEADING, INK, TEXT, TITLE, fine, text};
-use crate::picture::view::View;
+use toron_pictures::page::{self, Area, Drawn};
+use toron_pictures::ruler;
+use toron_pictures::style::{COLOURS, GREY, HEADING, INK, TEXT, TITLE, fine, text};
+use toron_pictures::view::View;
 use toron_shared::error::Error;
 
 const WIDTH: i32 = 1280;

@@ -5,9 +5,9 @@ use nalgebra::Vector3;
 use plotters::prelude::*;
 
 use super::surface::Visible;
-use crate::picture::page::{Area, Drawn};
-use crate::picture::raster::Raster;
-use crate::picture::view::View;
+use toron_pictures::page::{Area, Drawn};
+use toron_pictures::raster::Raster;
+use toron_pictures::view::View;
 
 /// Where the light comes from: to the right, upwards and towards the eye.
 const LIGHT: [f64; 3] = [-0.5, 0.35, 0.79];

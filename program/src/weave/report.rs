@@ -7,10 +7,10 @@ use super::layup::Ply;
 use super::model::Model;
 use super::reader::Scene;
 use super::weights::PlyWeight;
-use crate::common::units::number;
 use crate::material::fibre_wave::FibreWave;
 use toron::host::units::UnitSystem;
 use toron::law::parameters::DENSITY;
+use toron_shared::numbers::number;
 use toron_shared::text_table::value_line;
 
 /// What a yarn without a material is taken to have in kg/m³, to see whether its section can be a yarn's.

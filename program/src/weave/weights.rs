@@ -3,10 +3,10 @@
 use std::ops::RangeInclusive;
 
 use super::figures::Figures;
-use crate::common::units::number;
 use crate::material::linear_density::LinearDensity;
 use toron::host::units::UnitSystem;
 use toron::law::parameters::Dimension;
+use toron_shared::numbers::number;
 
 const AREAL_DENSITY: Dimension = Dimension { mass: 1, length: -2, time: 0, name: "areal density" };
 /// What woven fabrics weigh, in kg/m², with a margin on both sides: sailcloth and parachutes from 0.03, heavy rovings

@@ -1,12 +1,13 @@
 //! What tells builds apart: sources and options, and neither the folder nor the file of the program.
 
 use std::path::Path;
+use std::process::Command;
 
 #[allow(dead_code)] // its main is Cargo's
 #[path = "../../build.rs"]
 mod script;
 
-use crate::library::folder;
+use crate::library::{ROOT, folder, run};
 
 #[test]
 fn a_checksum_is_of_the_sources_and_not_of_their_place() {
@@ -35,4 +36,27 @@ fn a_checksum_is_of_the_sources_and_not_of_their_place() {
     write(&other, "src/law/a.rs", "src/law/a.rs");
     std::fs::rename(other.join("src/law/a.rs"), other.join("src/law/b.rs")).expect("it has another name");
     assert_ne!(first, sum(&other, &["", ""]));
+}
+
+/// The packages of this repository that the program is linked from, each with its files beside the source.
+#[test]
+fn the_checksum_is_of_every_package_of_the_program() {
+    let mut cargo = Command::new(env!("CARGO"));
+    let tree = ["tree", "-p", "toron-program", "--edges", "normal", "--prefix", "none", "--format", "{p}"];
+    let output = run(cargo.current_dir(ROOT).args(tree).args(["--offline", "--locked"]), "cargo tree");
+    let root = Path::new(ROOT).canonicalize().expect("the repository");
+    let tree = String::from_utf8(output.stdout).expect("UTF-8");
+    // `name v0.1.0 (/folder)` is one of ours.
+    let ours = tree.lines().filter_map(|line| line.split_once('(')?.1.split_once(')').map(|(folder, _)| folder));
+    let mut found: Vec<String> = ours
+        .filter_map(|folder| Some(Path::new(folder).strip_prefix(&root).ok()?.to_path_buf()))
+        .flat_map(|package| ["src", "assets"].map(|folder| package.join(folder)))
+        .filter(|folder| root.join(folder).is_dir())
+        .map(|folder| folder.display().to_string())
+        .collect();
+    found.sort();
+    found.dedup();
+    let mut listed = script::SOURCES.to_vec();
+    listed.sort_unstable();
+    assert_eq!(found, listed);
 }

@@ -18,6 +18,8 @@ const LIBRARIES: [&str; 7] = [
     "toron-openradioss",
     "toron-openradioss-sp",
 ];
+/// What the program is made of besides.
+const PACKAGES: [&str; 3] = ["toron-pictures", "toron-shared", "umat-check"];
 const TARGET: &str = "x86_64-unknown-linux-gnu";
 const PROGRAM: [&str; 1] = ["toron-program"];
 /// Licences with an Apache-2.0 among them need no text of their own: it is this repository's.
@@ -98,7 +100,7 @@ fn generated() -> String {
     sections.sort();
     sections.push((
         "DejaVu Sans, the program's font".to_string(),
-        lines(&Path::new(ROOT).join("program/assets/DejaVuSans-LICENSE.txt")),
+        lines(&Path::new(ROOT).join("packages/pictures/assets/DejaVuSans-LICENSE.txt")),
     ));
     for (names, licence) in sections {
         text += &format!("\n## {names}\n\n```text\n{licence}\n```\n");
@@ -119,7 +121,7 @@ fn the_list_of_what_is_linked_is_current() {
 
 #[test]
 fn every_package_has_the_licences() {
-    for package in ["toron"].iter().chain(&LIBRARIES).chain(&PROGRAM) {
+    for package in ["toron"].iter().chain(&LIBRARIES).chain(&PROGRAM).chain(&PACKAGES) {
         let files = cargo(&["package", "--list", "--allow-dirty", "-p", package]);
         for file in ["LICENSE-MIT", "LICENSE-APACHE"] {
             assert!(files.lines().any(|line| line == file), "{package}: {file}");

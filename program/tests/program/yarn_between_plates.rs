@@ -11,8 +11,8 @@ use plotters::prelude::*;
 use toron::law::state::{ENERGIES, HYPERELASTIC_STATE, INVARIANTS};
 use toron::law::stress::first_piola_kirchhoff;
 use toron::{Hyperelastic, Request};
-use toron_program::picture::page::{self, Area, Drawn};
-use toron_program::picture::style::{COLOURS, GREY, INK, RULE, TEXT, TITLE, fine, stroke, text};
+use toron_pictures::page::{self, Area, Drawn};
+use toron_pictures::style::{COLOURS, GREY, INK, RULE, TEXT, TITLE, fine, stroke, text};
 
 /// Half axes of the section and thickness of the slice, in µm.
 const AXES: [f64; 2] = [266.85, 57.5];

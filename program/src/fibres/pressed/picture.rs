@@ -9,12 +9,12 @@ use crate::common::units::{LENGTH, TIME, time, unit};
 use crate::fibres::frame::Frame;
 use crate::fibres::model::micro;
 use crate::fibres::scene::{Case, Scene};
-use crate::picture::colour_scale::{Colours, Scale};
-use crate::picture::page::{self, Area, Drawn};
-use crate::picture::ruler;
-use crate::picture::style::{GREY, INK, TEXT, TITLE, fine, stroke, text};
-use crate::picture::view::View;
 use toron::law::parameters::STRESS;
+use toron_pictures::colour_scale::{Colours, Scale};
+use toron_pictures::page::{self, Area, Drawn};
+use toron_pictures::ruler;
+use toron_pictures::style::{GREY, INK, TEXT, TITLE, fine, stroke, text};
+use toron_pictures::view::View;
 use toron_shared::error::Error;
 
 const WIDTH: i32 = 760;

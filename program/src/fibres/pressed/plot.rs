@@ -3,10 +3,11 @@
 use std::path::Path;
 
 use super::outcome::{Pressed, Sample};
+use crate::common::units::unit;
 use crate::fibres::scene::{Case, Scene, Striker};
-use crate::picture::history::{self, Samples};
-use crate::picture::panel::{self, Panel, tidy};
 use toron::law::parameters::STRESS;
+use toron_pictures::history::{self, Samples};
+use toron_pictures::panel::{self, Panel, Series, tidy};
 use toron_shared::error::Error;
 
 /// Energies, where the work went, and invariants.
@@ -14,7 +15,7 @@ use toron_shared::error::Error;
 /// # Errors
 /// A file cannot be written.
 pub fn write(svg: &Path, png: &Path, scene: &Scene, case: &Case, result: &Pressed) -> Result<(), Error> {
-    let samples = Samples { all: &result.samples, units: &scene.units };
+    let samples = Samples(&result.samples);
     let line = |colour: usize, name: &str, of: &dyn Fn(&Sample) -> f64| samples.line(colour, name, of);
     let mut energies = vec![line(0, "middle", &|s| s.middle.energy), line(1, "whole section", &|s| s.whole.energy)];
     if let Striker::Walls { law: Some(law), .. } = case.striker {
@@ -33,11 +34,13 @@ pub fn write(svg: &Path, png: &Path, scene: &Scene, case: &Case, result: &Presse
         line(2, "I_td, middle", &|s| s.middle.invariants[1]),
         line(3, "section", &|s| s.whole.invariants[1]),
     ];
+    let stress = unit(&scene.units, STRESS);
+    let panel = |title, series: Vec<Series>| Panel::new(title, &stress, tidy(series));
     let panels = [
-        samples.panel("Contact energy over the area at rest", STRESS, energies),
-        samples.panel("The work of the walls", STRESS, work),
+        panel("Contact energy over the area at rest", energies),
+        panel("The work of the walls", work),
         Panel::new("Invariants", "–", tidy(invariants)),
-        samples.panel("Kinetic energy", STRESS, vec![line(0, "kinetic", &|s| s.kinetic)]),
+        panel("Kinetic energy", vec![line(0, "kinetic", &|s| s.kinetic)]),
     ];
     let abscissa = panel::Abscissa {
         label: "way of the walls over their distance (–)".to_string(),

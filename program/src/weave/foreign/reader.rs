@@ -10,7 +10,7 @@ use super::file::MeshFile;
 use super::raw::Raw;
 use super::{abaqus, ls_dyna, vtu};
 use crate::common::unit_expression::Unit;
-use crate::common::units::{LENGTH, number};
+use crate::common::units::LENGTH;
 use crate::weave::figures::Figures;
 use crate::weave::geometry::Family;
 use crate::weave::model::{Model, Yarn};
@@ -18,6 +18,7 @@ use crate::weave::panel::{MOST_ELEMENTS, Part};
 use toron::host::units::UnitSystem;
 use toron_shared::error::Error;
 use toron_shared::keyword_file::files::text;
+use toron_shared::numbers::number;
 use toron_shared::toml_file::Source;
 
 /// Volume over area of woven fabrics in m: ten times less and more than the thinnest and the thickest ones.

@@ -5,7 +5,6 @@ use std::path::PathBuf;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use super::reader::Foreign;
-use crate::common::units::number;
 use crate::weave::cloth::Cloth;
 use crate::weave::figures::Figures;
 use crate::weave::model::Model;
@@ -14,6 +13,7 @@ use crate::weave::report::section_warnings;
 use crate::weave::vtu;
 use toron::host::units::UnitSystem;
 use toron_shared::error::Error;
+use toron_shared::numbers::number;
 
 /// Four straight yarns: the weft lies on the warp, which is 0.1 high; all have a pitch of 1, are 3 long, and have three
 /// columns, the outer ones wedges of half the width.

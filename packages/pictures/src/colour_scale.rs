@@ -5,7 +5,7 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::page::{Area, Drawn};
 use super::style::{GREY, HEADING, INK, TEXT, fine, stroke, text};
-use crate::common::units::number;
+use toron_shared::numbers::number;
 
 const HEIGHT: i32 = 14;
 const STEPS: i32 = 40;

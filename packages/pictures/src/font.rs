@@ -4,7 +4,7 @@ use tiny_skia::{Path, PathBuilder, Transform};
 use ttf_parser::gpos::{PairAdjustment, PositioningSubtable};
 use ttf_parser::{Face, GlyphId, OutlineBuilder};
 
-static FILE: &[u8] = include_bytes!("../../assets/DejaVuSans-subset.ttf");
+static FILE: &[u8] = include_bytes!("../assets/DejaVuSans-subset.ttf");
 
 /// Heights above and below the base line, as parts of the font's size: of a capital, of the tallest letter, and down to
 /// the lowest.

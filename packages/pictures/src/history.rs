@@ -3,11 +3,8 @@
 use std::path::Path;
 
 use super::page;
-use super::panel::{Abscissa, Panel, Series, tidy};
+use super::panel::{Abscissa, Panel, Series};
 use super::style::{GREY, INK, TEXT, TITLE, fine, text};
-use crate::common::units::{TIME, unit};
-use toron::host::units::UnitSystem;
-use toron::law::parameters::Dimension;
 use toron_shared::error::Error;
 
 /// Width of the page, height of its titles and of a row of panels, and the panels of a row.
@@ -19,26 +16,18 @@ const PER_ROW: usize = 2;
 const STILL: f64 = 0.01;
 
 /// What a run has measured, to be drawn.
-pub struct Samples<'a, S> {
-    pub all: &'a [S],
-    pub units: &'a UnitSystem,
-}
+pub struct Samples<'a, S>(pub &'a [S]);
 
 impl<S> Samples<'_, S> {
     /// A figure of each sample, as a line in the colour of this number.
     pub fn line(&self, colour: usize, name: &str, of: impl Fn(&S) -> f64) -> Series {
-        Series::new(colour, name, self.all.iter().map(of).collect())
+        Series::new(colour, name, self.0.iter().map(of).collect())
     }
 
-    /// The panel of a quantity, with those of its lines that say something.
-    pub fn panel(&self, title: &'static str, dimension: Dimension, series: Vec<Series>) -> Panel {
-        Panel::new(title, &unit(self.units, dimension), tidy(series))
-    }
-
-    /// Time, and when something failed.
-    pub fn over_time(&self, time: impl Fn(&S) -> f64, failure: Option<f64>) -> Abscissa {
-        let label = format!("time ({})", unit(self.units, TIME));
-        Abscissa { label, values: self.all.iter().map(time).collect(), failure }
+    /// Time in this unit, and when something failed.
+    pub fn over_time(&self, unit: &str, time: impl Fn(&S) -> f64, failure: Option<f64>) -> Abscissa {
+        let label = format!("time ({unit})");
+        Abscissa { label, values: self.0.iter().map(time).collect(), failure }
     }
 }
 

@@ -2,8 +2,8 @@ use plotters::prelude::*;
 use plotters::style::text_anchor::Pos;
 
 use super::*;
-use crate::picture::page::draw;
-use crate::picture::style::{INK, fine, stroke, text};
+use crate::page::draw;
+use crate::style::{INK, fine, stroke, text};
 
 /// What is drawn on a white sheet of 60 × 40.
 fn drawn(paint: impl FnOnce(&mut Sheet)) -> Sheet {

@@ -243,8 +243,8 @@ pub fn tick(value: f64, range: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::picture::page::draw;
-    use crate::picture::style::COLOURS;
+    use crate::page::draw;
+    use crate::style::COLOURS;
 
     #[test]
     fn labels_are_short_whatever_the_unit() {
