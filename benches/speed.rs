@@ -21,9 +21,9 @@ use toron::Level;
 use toron::law::block::Precision;
 use toron::law::state::HYPERELASTIC_STATE;
 use toron::law::thesis::Yarn;
-use toron_program::bench::command::{SIZES, processor, properties};
-use toron_program::bench::entries::{Answer, Entry, each_point};
-use toron_program::bench::scene::Scene;
+use toron_materials::bench::command::{SIZES, processor, properties};
+use toron_materials::bench::entries::{Answer, Entry, each_point};
+use toron_materials::bench::scene::Scene;
 
 /// Every row is measured this often, in turn with the others, so that what disturbs one moment disturbs all.
 const ROUNDS: usize = 6;

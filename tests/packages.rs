@@ -12,9 +12,10 @@ use serde_json::Value;
 type Arrows = (&'static str, &'static [&'static str], &'static [&'static str]);
 
 /// From the ground up.
-const ARROWS: [Arrows; 18] = [
+const ARROWS: [Arrows; 20] = [
     ("toron", &[], &[]),
     ("toron-shared", &[], &[]),
+    ("toron-build-number", &[], &[]),
     ("toron-pictures", &["toron-shared"], &[]),
     ("umat-check", &["toron-shared"], &[]),
     ("toron-solvers", &["toron"], &[]),
@@ -25,13 +26,18 @@ const ARROWS: [Arrows; 18] = [
     ("toron-openradioss", &["toron", "toron-solvers"], &[]),
     ("toron-openradioss-sp", &["toron", "toron-solvers"], &[]),
     ("toron-c", &["toron"], &["toron-solvers"]),
-    ("toron-program", &["toron", "toron-pictures", "toron-shared", "toron-solvers", "umat-check"], &[]),
-    ("toron-benches", &[], &["toron", "toron-pictures", "toron-program"]),
+    ("toron-materials", &["toron", "toron-build-number", "toron-pictures", "toron-shared", "toron-solvers"], &[]),
+    (
+        "toron-program",
+        &["toron", "toron-build-number", "toron-materials", "toron-pictures", "toron-shared", "umat-check"],
+        &["toron-build-number"],
+    ),
+    ("toron-benches", &[], &["toron", "toron-materials", "toron-pictures"]),
     // `examples/own_law`.
     ("reinforced-solid", &["toron"], &[]),
     ("own-law-double", &["reinforced-solid", "toron-solvers"], &[]),
     ("own-law-single", &["reinforced-solid", "toron-solvers"], &[]),
-    ("own-law-program", &["reinforced-solid", "toron-program"], &[]),
+    ("own-law-program", &["reinforced-solid", "toron-materials"], &[]),
 ];
 
 /// The packages of a workspace, each with what it needs of this repository: to be built, and for its tests.

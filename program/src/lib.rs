@@ -1,16 +1,10 @@
-//! The program `toron`. It calls the laws as a host does, through the functions that the C interface exports; no law and no
-//! host knows of it.
+//! The commands of the program `toron` that strike, compare, fit and press; materials and their commands are in the
+//! package `toron-materials`. No law and no host knows of it.
 //!
 //! Which module answers which question:
 //!
-//! - one element along a load path (`toron run`): [`load_path`];
-//! - single points through any C entry (`toron eval`): [`eval`];
-//! - what a point costs (`toron bench`): [`mod@bench`];
-//! - tables of properties and presets (`toron params`): [`params`];
-//! - a material's card for a solver's deck (`toron deck`): [`deck`];
 //! - a scene as a solver's whole deck (`--deck` of `toron fabric`, `impact` and `weave`): [`scene_deck`];
 //! - histories of a scene from several hosts (`toron compare`): [`compare`];
-//! - what is wrong with anybody's UMAT (`toron check`): the package `umat-check`, on Linux;
 //! - scenes to start from, which are built in (`toron init`): [`init`];
 //! - properties from measured data (`toron fit`): [`identify`];
 //! - energies of a yarn's fibres by finite elements, in CalculiX, from which they are found too (`toron cell`): [`cell`];
@@ -20,36 +14,23 @@
 //! - at which speed half of the shots go through (`toron v50`), on scenes of either: [`v50`];
 //! - what those two have in common, from their keys to their checkpoints: [`struck`];
 //! - woven panels as meshes of hexahedra (`toron weave`): [`weave`];
-//! - `run`, `params`, `deck` and `eval` for a law of one's own, in a program of three lines: [`of_law`];
-//! - what they share: materials, presets and how files describe them in [`material`], the calls of the C interface in [`entries`],
-//!   units and tables of measured data in [`common`]; drawing in the package `toron-pictures`; errors, TOML
-//!   files, arguments and exit codes in `toron-shared`.
+//! - what they share: numbers of chance, roots, the level of intervals, files for ParaView: [`common`].
+//!
+//! What is wrong with anybody's UMAT (`toron check`) is asked in the package `umat-check`, on Linux.
 
-pub mod bench;
 pub mod cell;
 pub mod common;
 pub mod compare;
-pub mod deck;
-pub mod entries;
-pub mod eval;
 pub mod explicit;
 pub mod fabric;
 pub mod fibres;
 pub mod identify;
 pub mod impact;
 pub mod init;
-pub mod load_path;
-pub mod material;
-mod own_program;
-pub mod params;
 pub mod scene_deck;
 pub mod strength;
 pub mod struck;
 pub mod v50;
 pub mod weave;
 
-pub use own_program::of_law;
-
-/// The commands whose output is tables, which they can print as JSON too.
-pub const WITH_TABLES: [&str; 12] =
-    ["init", "fit", "run", "weave", "fabric", "impact", "v50", "fibres", "cell", "params", "compare", "bench"];
+pub use toron_materials::of_law;

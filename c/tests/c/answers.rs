@@ -2,7 +2,7 @@
 //! at every level, from every old state, with and without each output, with what is refused, and prints one number for
 //! all that it returned. `answers.txt` holds these numbers; `TORON_WRITE_ANSWERS=1 cargo test -p toron-c answers`
 //! writes them anew. `toron eval` has such a file of the truth's cases, with samples that can be read:
-//! `program/tests/program/answers.rs`.
+//! `packages/materials/tests/materials/answers.rs`.
 //!
 //! To find the calls that differ, build the program with either library and compare what `--sums --trace ENTRY` prints.
 #![cfg(all(target_arch = "x86_64", target_os = "linux"))]

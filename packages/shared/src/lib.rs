@@ -5,9 +5,10 @@
 //! - arguments and the end of a program: [`command_line`];
 //! - files in TOML, with the places of what stands in them: [`toml_file`], [`toml_error`]; keyword files of solvers: [`keyword_file`];
 //! - where a program writes: [`run_directory`], [`kept_file`], [`file_names`], [`folder`];
-//! - what runs beside it: [`interrupt`], [`bound_child`], the [`shell`]'s words.
+//! - which program it is: the [`mod@build`]; what runs beside it: [`interrupt`], [`bound_child`], the [`shell`]'s words.
 
 pub mod bound_child;
+pub mod build;
 pub mod command_line;
 pub mod console;
 pub mod error;

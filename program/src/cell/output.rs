@@ -7,9 +7,9 @@ use super::energies::Increment;
 use super::model::Model;
 use super::run::Outcome;
 use super::scene::{Arrangement, Load, Scene};
-use crate::common::units::unit;
 use crate::identify::written::{DEVIATION, Fibre, RANDOM_DEVIATION, Set, Written};
 use toron::law::parameters::STRESS;
+use toron_materials::units::unit;
 use toron_shared::error::Error;
 
 /// Writes a file.

@@ -7,7 +7,7 @@ use toml::Spanned;
 
 use super::file::{BoxFile, CellFile, FibreFile, HostName, LoadsFile, PackingName, SceneFile, YarnFile};
 use super::scene::{Arrangement, BoxOf, Fibre, Load, Packing, Scene, YarnName};
-use crate::common::units;
+use toron_materials::units;
 use toron_shared::error::Error;
 use toron_shared::toml_file::{self, Source};
 

@@ -8,8 +8,8 @@ use super::model::Model;
 use super::output::volume_fraction;
 use super::run::{Outcome, Shares};
 use super::scene::{Arrangement, Load, Packing, Scene};
-use crate::common::units::unit;
 use toron::law::parameters::STRESS;
+use toron_materials::units::unit;
 use toron_shared::numbers::number;
 use toron_shared::text_table::{Column, or_dash, table};
 

@@ -3,8 +3,8 @@
 use toron::host::units::UnitSystem;
 use toron::law::parameters::Dimension;
 
-use crate::common::units::{ENERGY, FORCE, LENGTH, SPEED, TIME};
 use crate::scene_deck::origin::Origin;
+use toron_materials::units::{ENERGY, FORCE, LENGTH, SPEED, TIME};
 
 /// A sum of energies falls if it does so by this many times its largest move before, which counts as so much of its
 /// size at least: the onset of contact takes 1.5e-4 of it into the first sample.

@@ -6,8 +6,8 @@ use toron::host::units::UnitSystem;
 use toron::law::parameters::{Dimension, NUMBER};
 
 use super::history::{Curve, History, Quantity};
-use crate::common::data_table::DataTable;
-use crate::common::units::{ENERGY, FORCE, LENGTH, SPEED, TIME};
+use toron_materials::data_table::DataTable;
+use toron_materials::units::{ENERGY, FORCE, LENGTH, SPEED, TIME};
 use toron_shared::error::Error;
 
 /// What its first title begins with.

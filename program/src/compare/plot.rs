@@ -5,7 +5,7 @@ use std::path::Path;
 use toron::host::units::UnitSystem;
 
 use super::history::{History, QUANTITIES};
-use crate::common::units::{TIME, unit};
+use toron_materials::units::{TIME, unit};
 use toron_pictures::history;
 use toron_pictures::panel::{Abscissa, Panel, Series};
 use toron_pictures::style::COLOURS;

@@ -4,8 +4,8 @@ use toron::host::units::UnitSystem;
 
 use super::figures::Figures;
 use super::history::{Curve, History, QUANTITIES};
-use crate::common::units::{ENERGY, LENGTH, SPEED, TIME, unit};
 use crate::struck::summary::{Cells, Line};
+use toron_materials::units::{ENERGY, LENGTH, SPEED, TIME, unit};
 use toron_shared::numbers::number;
 use toron_shared::text_table::{Column, NONE, or_dash, shortened, table};
 

@@ -12,11 +12,11 @@ use super::solid::{self, SOLID_VON_MISES, SOLID_WORK};
 use super::stress::{Points, nominal_stress};
 use super::viscosity::Viscosity;
 use super::wave_bounds::{Section, bounds_at};
-use crate::entries::blocks::{LinearFrame, LinearSolverBlock, SolverBlock, linear_elastic_block};
-use crate::entries::hosts::Given;
 use toron::host::c::{HyperelasticLaw, LinearElasticLaw, TORON_CRITERION_FIBRE};
 use toron::law::state::{FAILURE_INDEX, INVARIANTS, LINEAR_LARGEST, LINEAR_STRESS, LINEAR_WORK};
 use toron::law::status;
+use toron_materials::entries::blocks::{LinearFrame, LinearSolverBlock, SolverBlock, linear_elastic_block};
+use toron_materials::entries::hosts::Given;
 
 /// Elements a block: large enough for the entry's preparation to cost nothing, small enough for its arrays to stay in
 /// the first cache (vector lengths of explicit solvers are of this order).

@@ -1,9 +1,9 @@
 //! What a run is judged by, in both scenes: what is wrong with it, and what to change. `docs/guides/fabric.md` has the
 //! thresholds.
 
-use crate::material::fibre_wave::FibreWave;
-use crate::material::model::Material;
 use toron::host::units::UnitSystem;
+use toron_materials::material::fibre_wave::FibreWave;
+use toron_materials::material::model::Material;
 use toron_shared::text_table::{folded, grouped};
 
 /// Steps from one measurement to the next, whatever the history is asked for: what is said of a run, and whether it

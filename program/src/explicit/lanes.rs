@@ -7,7 +7,7 @@ use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
-use crate::entries::precision::BlockPrecision;
+use toron_materials::entries::precision::BlockPrecision;
 
 /// Elements side by side in an inner loop.
 pub const LANES: usize = 8;

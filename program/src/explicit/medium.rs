@@ -4,13 +4,13 @@
 use super::lanes::Number;
 use super::solid::{SOLID_FAILED, SOLID_STATE, Solid};
 use super::wave_bounds::wave_bounds;
-use crate::entries::blocks::{LinearFrame, prepared, prepared_linear};
-use crate::material::model::{Law, Material};
 use toron::host::c::{HyperelasticLaw, LinearElasticLaw, TORON_CRITERION_FIBRE, TORON_CRITERION_PRINCIPAL};
 use toron::law::parameters::{HYPERELASTIC_PROPERTIES, LINEAR_ELASTIC_PROPERTIES};
 use toron::law::wave_bounds::WaveBounds;
 use toron::law::{description, hyperelastic, linear_elastic};
 use toron::{Criterion, Rotation};
+use toron_materials::entries::blocks::{LinearFrame, prepared, prepared_linear};
+use toron_materials::material::model::{Law, Material};
 use toron_shared::error::Error;
 
 /// Coefficients of hourglass control and viscosity.

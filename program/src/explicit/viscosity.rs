@@ -146,9 +146,9 @@ mod tests {
     use super::*;
     use crate::explicit::medium::Control;
     use crate::explicit::stress::first_piola_kirchhoff;
-    use crate::material::model::{Law, Material, Origin};
     use toron::law::parameters;
     use toron::{Criterion, Rotation};
+    use toron_materials::material::model::{Law, Material, Origin};
 
     const STEP: f64 = 1e-8;
     const CONTROL: Control = Control { hourglass: 0.1, linear: 0.06, quadratic: 1.5, shape: 0.3, by_direction: false };

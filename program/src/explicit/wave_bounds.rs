@@ -1,8 +1,8 @@
 //! The laws' bounds of wave speeds by direction, of neighbouring elements at once.
 
 use super::lanes::{Lanes, Number, load};
-use crate::material::model::{Law, Material};
 use toron::law::wave_bounds::{Arithmetic, Deformed, WaveBounds};
+use toron_materials::material::model::{Law, Material};
 
 /// The measures of F that the bounds need, beside F: J, λ², and the section's metric.
 pub struct Section<'a, T> {
@@ -63,9 +63,9 @@ mod tests {
 
     use super::*;
     use crate::explicit::element::{Measures, Shapes};
-    use crate::material::model::Origin;
     use toron::law::parameters;
     use toron::{Criterion, Rotation};
+    use toron_materials::material::model::Origin;
 
     fn material(preset: &str, k_ld: f64) -> Material {
         turning(preset, k_ld, Rotation::Fibre)

@@ -3,11 +3,11 @@
 use serde::Deserialize;
 use toml::Spanned;
 
-use crate::material::of_law::LawName;
 use crate::struck::keys::{Keys, case_file, with_common_keys};
 use crate::struck::shots::ShotsFile;
 use crate::weave::file::{PlyFile, WeaveFile};
 use crate::weave::foreign::file::MeshFile;
+use toron_materials::material::of_law::LawName;
 use toron_shared::toml_file::{Numbers, Unused};
 
 #[derive(Deserialize)]

@@ -10,12 +10,12 @@ use super::measure::Sample;
 use super::run::{End, Outcome};
 use super::scene::Case;
 use super::weights;
-use crate::common::units::{LENGTH, TIME, unit};
 use crate::explicit::judgement::{self, Finding};
 use crate::explicit::lanes::{largest, smallest};
 use crate::weave::cloth::Cloth;
 use crate::weave::model::Model;
 use toron::host::units::UnitSystem;
+use toron_materials::units::{LENGTH, TIME, unit};
 use toron_shared::numbers::number;
 
 /// The sphere's radius has to hold so many edges of the elements' faces.

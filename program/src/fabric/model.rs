@@ -13,9 +13,9 @@ use crate::explicit::mutual_contact::{MutualContact, Surface};
 use crate::explicit::projectile::Projectile;
 use crate::explicit::solver::Solver;
 use crate::explicit::tie::masses_of_springs;
-use crate::material::model::Material;
 use crate::weave::model::{LOWER, Model, UPPER, Yarn};
 use crate::weave::panel::Part;
+use toron_materials::material::model::Material;
 use toron_shared::error::Error;
 use toron_shared::numbers::number;
 

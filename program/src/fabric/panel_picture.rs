@@ -6,14 +6,14 @@ use std::path::Path;
 use plotters::prelude::*;
 
 use super::scene::{Case, Scene, Zones};
-use crate::common::units::{time, unit};
 use crate::explicit::contact::Shape;
 use crate::explicit::snapshot::Snapshot;
-use crate::material::model::Law;
 use crate::weave::model::Model;
 use crate::weave::projection::{self, Eye};
 use crate::weave::surface::{self, Visible};
 use toron::law::parameters::ENERGY_DENSITY;
+use toron_materials::material::model::Law;
+use toron_materials::units::{time, unit};
 use toron_pictures::colour_scale::{Colours, Scale};
 use toron_pictures::page::{self, Area, Drawn};
 use toron_pictures::raster::Raster;

@@ -5,9 +5,9 @@ use std::path::Path;
 use super::run::Outcome;
 use super::scene::{Case, Scene};
 use super::summary::{Figures, ending, residual_speed};
-use crate::common::units::{LENGTH, SPEED, TIME, unit};
 use crate::explicit::judgement::{verdict, warnings};
 use crate::strength::scatter;
+use toron_materials::units::{LENGTH, SPEED, TIME, unit};
 use toron_shared::numbers::{number, one_digit};
 use toron_shared::text_table::{Column, NONE, files, folded, of_cases, or_dash, shortened, table};
 

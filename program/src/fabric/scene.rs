@@ -5,7 +5,6 @@ use std::sync::Arc;
 use crate::explicit::contact::Rigid;
 use crate::explicit::medium::Control;
 use crate::explicit::mutual_contact::Parameters;
-use crate::material::model::Material;
 use crate::strength::scatter::Strength;
 use crate::struck::plan::Plan;
 use crate::struck::shots::Shots;
@@ -14,6 +13,7 @@ use crate::weave::cloth::Cloth;
 use crate::weave::geometry::Family;
 use crate::weave::panel::Part;
 use toron::host::units::UnitSystem;
+use toron_materials::material::model::Material;
 
 /// The cases of a file.
 #[derive(Clone, Debug)]

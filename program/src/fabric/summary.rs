@@ -8,7 +8,6 @@ use super::run::{End, Outcome};
 use super::scene::{Case, Zones};
 use super::strength::PanelStrength;
 use super::weights;
-use crate::common::units::{LENGTH, SPEED, TIME};
 use crate::explicit::judgement::{Finding, verdict};
 use crate::explicit::lanes::{largest, smallest};
 use crate::strength::scatter;
@@ -17,6 +16,7 @@ use crate::struck::summary::{Cells, Line};
 use crate::weave::model::Model;
 use toron::host::units::UnitSystem;
 use toron::law::parameters::{Dimension, ENERGY_DENSITY, NUMBER};
+use toron_materials::units::{LENGTH, SPEED, TIME};
 use toron_shared::numbers::number;
 use toron_shared::text_table::NONE;
 

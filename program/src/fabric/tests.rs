@@ -6,9 +6,9 @@ use super::model;
 use super::scene::{Case, Scene};
 use crate::explicit::body::{Body, Support};
 use crate::explicit::solver::{Ramp, Solver};
-use crate::material::model::Law;
 use crate::weave::geometry::Family;
 use crate::weave::model::Yarn;
+use toron_materials::material::model::Law;
 
 /// A warp yarn and the five weft yarns that it crosses, which do not move.
 fn patch(friction: f64) -> (Vec<Yarn>, Solver<f64>) {

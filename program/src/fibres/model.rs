@@ -3,10 +3,10 @@
 use super::pressed::middle::Middle;
 use super::scene::{Case, MASS, Striker, Walls, contact_dimension};
 use super::section::Section;
-use crate::common::units::{LENGTH, SPEED, TIME};
 use crate::impact::outcome::STATIONS;
 use toron::host::units::UnitSystem;
 use toron::law::parameters::{DENSITY, Dimension, STRESS};
+use toron_materials::units::{LENGTH, SPEED, TIME};
 use toron_shared::error::Error;
 
 /// LAMMPS's units of mass, length and time in SI.

@@ -7,11 +7,11 @@ use toml::Spanned;
 
 use super::file::{CaseFile, FibreFile, PackingName, SceneFile, SectionName, StrikerName};
 use super::scene::{Case, Contact, Fibre, Outline, Packing, Scene, SectionLaw, Striker, Walls};
-use crate::common::units::{self, SPEED};
 use crate::explicit::control_keys::zero_or_more;
-use crate::material::laws::Laws;
-use crate::material::preset::Preset;
 use toron::host::units::UnitSystem;
+use toron_materials::material::laws::Laws;
+use toron_materials::material::preset::Preset;
+use toron_materials::units::{self, SPEED};
 use toron_shared::error::Error;
 use toron_shared::toml_file::{self, Source};
 

@@ -7,8 +7,8 @@ use super::outcome::{Fronts, Outcome};
 use super::pressed;
 use super::scene::{Case, Scene};
 use super::summary::{cost, outcome};
-use crate::common::units::{ENERGY, SPEED, TIME, unit};
-use crate::material::linear_density::LinearDensity;
+use toron_materials::material::linear_density::LinearDensity;
+use toron_materials::units::{ENERGY, SPEED, TIME, unit};
 use toron_shared::numbers::{number, one_digit};
 use toron_shared::text_table::{Column, files, or_dash, shortened, table};
 
@@ -70,7 +70,7 @@ fn driven(scene: &Scene, results: &Results) -> Vec<Column> {
     let speed = unit(&scene.units, SPEED);
     let front = |result: &Outcome, place: fn(&Fronts) -> f64| or_dash(result.front_speed(place), number);
     let percent = |strain: f64| number(100.0 * strain);
-    let theory = |result: &Outcome, of: fn(&crate::material::smith::Smith) -> f64| {
+    let theory = |result: &Outcome, of: fn(&toron_materials::material::smith::Smith) -> f64| {
         result.smith.filter(|_| result.plateau().is_some()).map(|smith| of(&smith))
     };
     let mut columns = vec![

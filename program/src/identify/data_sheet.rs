@@ -5,10 +5,10 @@ use toml::Spanned;
 
 use super::equivalence::{Constant, Fibre};
 use super::report::digits;
-use crate::common::unit_expression::{self, Unit};
-use crate::common::units::{LENGTH, unit};
 use toron::host::units::UnitSystem;
 use toron::law::parameters::{DENSITY, Dimension, NUMBER, STRESS};
+use toron_materials::unit_expression::{self, Unit};
+use toron_materials::units::{LENGTH, unit};
 use toron_shared::error::Error;
 use toron_shared::toml_file::Source;
 

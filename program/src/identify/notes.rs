@@ -4,9 +4,9 @@ use super::data::DataSet;
 use super::data_sheet::MODULI;
 use super::fit::{Fit, Problem, SetFit};
 use super::parameter::{ALL, Parameter};
-use crate::material::fibre_wave::FibreWave;
-use crate::material::laws::LawName;
 use toron::law::parameters::STRESS;
+use toron_materials::material::fibre_wave::FibreWave;
+use toron_materials::material::laws::LawName;
 use toron_shared::numbers::number;
 
 /// An interval that reaches this far to one side, over the value, tells little.

@@ -8,9 +8,9 @@ use super::file::Job;
 use super::fit::{Fit, SetFit};
 use super::parameter::ALL;
 use super::report::{base_name, interval};
-use crate::common::units::unit;
-use crate::material::preset::Preset;
 use toron::law::parameters::HYPERELASTIC;
+use toron_materials::material::preset::Preset;
+use toron_materials::units::unit;
 use toron_shared::error::Error;
 
 /// The preset with what has been fitted and what the base has; a comment for each property says where it comes from.

@@ -7,14 +7,14 @@ use super::file::DataFile;
 use super::path_response::PathResponse;
 use super::reader::{Reader, wrong};
 use super::response::{Measured, Quantity};
-use crate::common::data_table::DataTable;
-use crate::common::units::{ENERGY, FORCE, LENGTH};
-use crate::load_path::element::Hexahedron;
-use crate::load_path::newton::{COMPONENT_NAMES, COMPONENTS};
-use crate::load_path::path::{LoadPath, Target};
-use crate::material::laws::Laws;
-use crate::material::model::Law;
 use toron::law::parameters::{Dimension, NUMBER, STRESS};
+use toron_materials::data_table::DataTable;
+use toron_materials::load_path::element::Hexahedron;
+use toron_materials::load_path::newton::{COMPONENT_NAMES, COMPONENTS};
+use toron_materials::load_path::path::{LoadPath, Target};
+use toron_materials::material::laws::Laws;
+use toron_materials::material::model::Law;
+use toron_materials::units::{ENERGY, FORCE, LENGTH};
 use toron_shared::error::Error;
 
 /// Data at the very ends of a step may be off by this, as a part of it.

@@ -7,10 +7,10 @@ use nalgebra::{DMatrix, DVector};
 
 use super::parameter::{self, ALL, PARAMETERS, Parameter, Values};
 use super::response::{Measured, Modes, Quantity, Response};
-use crate::load_path::newton::COMPONENTS;
-use crate::load_path::path::{LoadPath, Point};
-use crate::load_path::run::{self, End, Increment};
-use crate::material::model::{Law, Material};
+use toron_materials::load_path::newton::COMPONENTS;
+use toron_materials::load_path::path::{LoadPath, Point};
+use toron_materials::load_path::run::{self, End, Increment};
+use toron_materials::material::model::{Law, Material};
 
 /// A direction of stiffness below this fraction of the largest has none, and does not move.
 const NO_STIFFNESS: f64 = 1e-9;

@@ -8,7 +8,7 @@ use super::data::{Axis, DataSet, Loading};
 use super::file::Job;
 use super::fit::{Fit, SetFit};
 use super::parameter::Parameter;
-use crate::common::units::unit;
+use toron_materials::units::unit;
 use toron_pictures::legend::{self, Mark};
 use toron_pictures::page::{self, Area, Drawn};
 use toron_pictures::panel::{bounds, chart, tick};

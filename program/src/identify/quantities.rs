@@ -4,8 +4,8 @@
 use nalgebra::Matrix3;
 
 use super::response::{Measured, Quantity};
-use crate::common::units::{FORCE, LENGTH};
 use toron::law::parameters::{Dimension, ENERGY_DENSITY, NUMBER, STRESS};
+use toron_materials::units::{FORCE, LENGTH};
 
 /// What a specimen undergoes as a whole, its fibre along the first axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -14,10 +14,10 @@ use super::path_file;
 use super::quantities::{Abscissa, COMPACTED, DISTORTED, FAILED_AT, Invariant, Simple};
 use super::response::{Measured, Modes};
 use super::toe::{Curve, Found};
-use crate::common::data_table::DataTable;
-use crate::common::units::unit;
 use toron::host::units::UnitSystem;
 use toron::law::parameters::{Dimension, ENERGY_DENSITY, NUMBER};
+use toron_materials::data_table::DataTable;
+use toron_materials::units::unit;
 use toron_shared::error::Error;
 use toron_shared::toml_file::Source;
 
@@ -115,8 +115,8 @@ impl Reader<'_> {
         let ordinate = &loading.ordinates()[self.choice("ordinate", file, &file.ordinate, &ordinates, table)?];
         let x = self.abscissae(file, table, abscissa.name, abscissa.dimension)?;
         let y = self.column(file, table, ordinate.name, ordinate.dimension)?;
-        let length = self.given("length", &file.length, abscissa.dimension == crate::common::units::LENGTH, file)?;
-        let area = self.given("area", &file.area, ordinate.dimension == crate::common::units::FORCE, file)?;
+        let length = self.given("length", &file.length, abscissa.dimension == toron_materials::units::LENGTH, file)?;
+        let area = self.given("area", &file.area, ordinate.dimension == toron_materials::units::FORCE, file)?;
         let mut x = x;
         let mut rows = self.rows(file, table, &x.values)?;
         let mut deviations = self.deviations(file, table, &rows, ordinate.dimension)?;

@@ -13,12 +13,12 @@ use super::notes::STRONG;
 use super::parameter::{ALL, PARAMETERS, Parameter};
 use super::report::{digits, line, table};
 use super::uncertainty::Estimate;
-use crate::common::units::{SPEED, unit};
 use crate::impact::run;
 use crate::impact::scene::{Case, Scene, Zones};
-use crate::material::model::{Law, Material};
 use crate::struck::plan::Plan;
 use toron::law::parameters::{DENSITY, ENERGY_DENSITY};
+use toron_materials::material::model::{Law, Material};
+use toron_materials::units::{SPEED, unit};
 use toron_shared::error::Error;
 use toron_shared::numbers::number;
 

@@ -4,9 +4,9 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use super::scene::{Abscissa, Outputs};
-use crate::material::of_law::LawName;
 use crate::struck::keys::{Keys, case_file, with_common_keys};
 use crate::struck::shots::ShotsFile;
+use toron_materials::material::of_law::LawName;
 use toron_shared::toml_file::Unused;
 
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]

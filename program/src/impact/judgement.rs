@@ -4,9 +4,9 @@
 use super::outcome::{End, Outcome};
 use super::scene::{Case, Striker};
 use super::weights;
-use crate::common::units::{TIME, unit};
 use crate::explicit::judgement::{self, Finding};
 use toron::host::units::UnitSystem;
+use toron_materials::units::{TIME, unit};
 use toron_shared::numbers::number;
 
 /// Artificial viscosity may take this part of what the blow has given away while the yarn is whole. Runs of the

@@ -7,9 +7,9 @@ use serde::{Deserialize, Serialize};
 use crate::explicit::lanes::largest;
 use crate::explicit::mesh::Mesh;
 use crate::explicit::snapshot::Snapshot;
-use crate::material::smith::Smith;
 use crate::struck;
 pub use crate::struck::run::End;
+use toron_materials::material::smith::Smith;
 
 /// Where the section's width is measured, as fractions of half the span (Fig. 4.16 has four points).
 pub const STATIONS: [f64; 4] = [0.2, 0.4, 0.6, 0.8];

@@ -6,9 +6,9 @@ use plotters::prelude::*;
 
 use super::outcome::{Outcome, STATIONS, Sample};
 use super::scene::{Abscissa, Case, Scene, Striker};
-use crate::common::units::{CONTACT_STIFFNESS, ENERGY, SPEED, TIME, unit};
 use toron::host::units::UnitSystem;
 use toron::law::parameters::ENERGY_DENSITY;
+use toron_materials::units::{CONTACT_STIFFNESS, ENERGY, SPEED, TIME, unit};
 use toron_pictures::history::{self, Samples};
 use toron_pictures::page::{self, Area, Drawn};
 use toron_pictures::panel::{self, Panel, Series, tidy};

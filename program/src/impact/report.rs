@@ -7,10 +7,10 @@ use super::outcome::Outcome;
 use super::scene::{Case, LEFT_OUT, Scene, Striker};
 use super::summary::outcome;
 use super::weights;
-use crate::common::units::{SPEED, TIME, unit};
 use crate::explicit::judgement::{verdict, warnings};
-use crate::material::fibre_wave::FibreWave;
 use crate::strength::scatter;
+use toron_materials::material::fibre_wave::FibreWave;
+use toron_materials::units::{SPEED, TIME, unit};
 use toron_shared::numbers::{number, one_digit};
 use toron_shared::text_table::{Column, NONE, files, of_cases, or_dash, shortened, table};
 

@@ -8,10 +8,10 @@ use crate::explicit::lanes::{Number, largest};
 use crate::explicit::medium::Medium;
 use crate::explicit::projectile::Projectile;
 use crate::explicit::solver::Solver;
-use crate::material::model::Material;
-use crate::material::smith::{LARGEST_STRAIN, Smith, Tension};
 use crate::struck::plan::Plan;
 use crate::struck::run::{self, Observer, Struck};
+use toron_materials::material::model::Material;
+use toron_materials::material::smith::{LARGEST_STRAIN, Smith, Tension};
 use toron_shared::error::Error;
 
 /// The front of the elongation is where the strain has this part of what Smith's theory gives behind it.

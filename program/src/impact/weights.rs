@@ -3,13 +3,13 @@
 use std::f64::consts::PI;
 
 use super::scene::{Case, Striker};
-use crate::common::units::{LENGTH, unit};
 use crate::explicit::judgement::Finding;
 use crate::explicit::mesh::Yarn;
-use crate::material::linear_density::LinearDensity;
 use crate::struck::blow::{self, DENSITIES};
 use toron::host::units::UnitSystem;
 use toron::law::parameters::DENSITY;
+use toron_materials::material::linear_density::LinearDensity;
+use toron_materials::units::{LENGTH, unit};
 use toron_shared::numbers::number;
 
 /// A cylinder lies across the yarn, and may be longer than the yarn is wide: its length over that width, at most.

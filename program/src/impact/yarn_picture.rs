@@ -7,11 +7,11 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::outcome::Outcome;
 use super::scene::{Case, Scene, Zones};
-use crate::common::units::{time, unit};
 use crate::explicit::mesh::Mesh;
 use crate::explicit::snapshot::Snapshot;
-use crate::material::model::Law;
 use toron::law::parameters::ENERGY_DENSITY;
+use toron_materials::material::model::Law;
+use toron_materials::units::{time, unit};
 use toron_pictures::colour_scale::{Colours, Scale};
 use toron_pictures::page::{self, Area, Drawn};
 use toron_pictures::ruler;

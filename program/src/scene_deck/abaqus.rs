@@ -8,7 +8,7 @@ use std::path::Path;
 use super::command::{Naming, file, mesh_file};
 use super::model::{COLLAPSED, Contact, HOURGLASS, Mesh, Model, STEP_FACTOR, Strike};
 use super::striker::{Striker, Surface};
-use crate::deck::abaqus::{self, Solver, card};
+use toron_materials::deck::abaqus::{self, Solver, card};
 use toron_shared::error::Error;
 use toron_shared::short_number::short;
 

@@ -9,9 +9,9 @@ use toron::host::units::UnitSystem;
 
 use super::model::{Conversion, Model};
 use super::{abaqus, ls_dyna, of_fabric, of_impact, openradioss};
-use crate::deck::openradioss::FibreFrom;
 use crate::explicit::judgement::warnings;
 use crate::{fabric, impact, weave};
+use toron_materials::deck::openradioss::FibreFrom;
 use toron_shared::console::{print, print_error};
 use toron_shared::error::Error;
 use toron_shared::kept_file;

@@ -9,7 +9,7 @@ use super::command::{Naming, file, mesh_file};
 use super::fields::number;
 use super::model::{COLLAPSED, Contact, Mesh, Model, Part, STEP_FACTOR, Strike};
 use super::striker::{Striker, Surface};
-use crate::deck::ls_dyna::{Fibre, card, lines, number_of};
+use toron_materials::deck::ls_dyna::{Fibre, card, lines, number_of};
 use toron_shared::error::Error;
 
 /// Node and element numbers have eight columns.

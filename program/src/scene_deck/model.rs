@@ -5,8 +5,8 @@ use toron::law::parameters::{Dimension, STRESS};
 
 use super::origin::Origin;
 use super::striker::Striker;
-use crate::deck::material::Material;
 use crate::explicit::medium::{Control, Medium};
+use toron_materials::deck::material::Material;
 use toron_shared::error::Error;
 
 /// One case of a scene.
@@ -119,11 +119,11 @@ impl Conversion {
 /// # Errors
 /// A material that the host cannot use.
 pub fn hourglass<'a>(
-    materials: impl IntoIterator<Item = &'a crate::material::model::Material>,
+    materials: impl IntoIterator<Item = &'a toron_materials::material::model::Material>,
     control: Control,
     conversion: Conversion,
 ) -> Result<Vec<f64>, Error> {
-    let modulus = |material: &crate::material::model::Material| {
+    let modulus = |material: &toron_materials::material::model::Material| {
         let medium = Medium::<f64>::new(material, material.density.unwrap_or_default(), control)?;
         Ok(conversion.of(medium.hourglass, STRESS))
     };

@@ -4,8 +4,6 @@ use std::collections::BTreeMap;
 
 use super::model::{Contact, Conversion, Mesh, Model, Part, Strike, Support, frame, hourglass, step};
 use super::striker::{Striker, divisions};
-use crate::common::units::{LENGTH, MASS, SPEED, TIME};
-use crate::deck::material::Material;
 use crate::explicit::contact::Shape;
 use crate::fabric::model::{check, share, start, zone};
 use crate::fabric::scene::Case;
@@ -13,6 +11,8 @@ use crate::weave::cloth::Cloth;
 use crate::weave::command::NAME;
 use crate::weave::model as woven;
 use crate::weave::model::Yarn;
+use toron_materials::deck::material::Material;
+use toron_materials::units::{LENGTH, MASS, SPEED, TIME};
 use toron_shared::error::Error;
 use toron_shared::numbers::number;
 
@@ -126,7 +126,7 @@ pub fn of_case(case: &Case, panel: &woven::Model, conversion: Conversion) -> Res
 pub fn of_panel(
     cloth: &Cloth,
     panel: &woven::Model,
-    material: &crate::material::model::Material,
+    material: &toron_materials::material::model::Material,
     conversion: Conversion,
 ) -> Result<Model, Error> {
     let Conversion { from, to } = conversion;

@@ -3,9 +3,9 @@
 use super::model::{Conversion, Mesh, Model, Part, Strike, Support, frame, hourglass, step};
 use super::of_fabric::{SECTIONS, WATCHED, lowest_on_axis, nearest, refuse_strength};
 use super::striker::Striker;
-use crate::common::units::{LENGTH, MASS, SPEED, TIME};
-use crate::deck::material::Material;
 use crate::impact::scene::{self, Case, Zones};
+use toron_materials::deck::material::Material;
+use toron_materials::units::{LENGTH, MASS, SPEED, TIME};
 use toron_shared::error::Error;
 
 /// The axis of the cylinder's motion.

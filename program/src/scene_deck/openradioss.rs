@@ -9,9 +9,9 @@ use super::command::{Naming, file, mesh_file};
 use super::fields::number;
 use super::model::{COLLAPSED, Contact, HOURGLASS, Model, Part, STEP_FACTOR, Strike};
 use super::striker::{Striker, Surface};
-use crate::deck::openradioss::{Control, FibreFrom, lines, material_card, property_card};
 use toron::host::units::UnitSystem;
 use toron::law::parameters::STRESS;
+use toron_materials::deck::openradioss::{Control, FibreFrom, lines, material_card, property_card};
 use toron_shared::error::Error;
 use toron_shared::short_number::short;
 
@@ -191,7 +191,7 @@ fn units(units: &UnitSystem) -> [String; 3] {
         _ => short(si, 19),
     };
     let si = |dimension| units.scale(dimension).convert(1.0, &toron::host::units::Scale::SI);
-    use crate::common::units::{LENGTH, MASS, TIME};
+    use toron_materials::units::{LENGTH, MASS, TIME};
     [factor(mass, si(MASS)), factor(length, si(LENGTH)), factor(time, si(TIME))]
 }
 

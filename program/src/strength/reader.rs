@@ -8,8 +8,8 @@ use super::field::Field;
 use super::file::{LawFile, StrengthFile};
 use super::scatter::Strength;
 use super::weibull::Weibull;
-use crate::material::of_law::LawName;
 use crate::struck::keys::Reader;
+use toron_materials::material::of_law::LawName;
 use toron_shared::error::Error;
 use toron_shared::numbers::number;
 

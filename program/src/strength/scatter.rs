@@ -2,10 +2,10 @@
 
 use super::field::{Cells, Field, Yarn};
 use super::weibull::Weibull;
-use crate::common::units::{LENGTH, unit};
-use crate::material::model::{Law, Material};
 use toron::host::units::UnitSystem;
 use toron::law::parameters::STRESS;
+use toron_materials::material::model::{Law, Material};
+use toron_materials::units::{LENGTH, unit};
 use toron_shared::numbers::number;
 use toron_shared::text_table::{folded, grouped};
 

@@ -2,10 +2,10 @@
 
 use std::ops::RangeInclusive;
 
-use crate::common::units::{CONTACT_STIFFNESS, LENGTH, SPEED, unit};
 use crate::explicit::contact::Rigid;
 use crate::explicit::judgement::Finding;
 use toron::host::units::UnitSystem;
+use toron_materials::units::{CONTACT_STIFFNESS, LENGTH, SPEED, unit};
 use toron_shared::numbers::number;
 
 /// Speeds at which yarns and panels are struck, in m/s, and stiffnesses of contact that yarns take, in MPa/mm, with a

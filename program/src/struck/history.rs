@@ -4,9 +4,9 @@
 use std::fmt::Write;
 
 use super::sample::Sample;
-use crate::common::units::{ENERGY, FORCE, LENGTH, SPEED, TIME, unit};
 use toron::host::units::UnitSystem;
 use toron::law::parameters::{Dimension, ENERGY_DENSITY, NUMBER};
+use toron_materials::units::{ENERGY, FORCE, LENGTH, SPEED, TIME, unit};
 
 /// What a column takes from a sample.
 type Quantity<E> = Box<dyn Fn(&Sample<E>) -> f64 + Send + Sync>;

@@ -9,13 +9,15 @@ use super::plan::Plan;
 use super::zones::Zones;
 use crate::explicit::control_keys::control;
 use crate::explicit::medium::Control;
-use crate::material::file::MaterialFile;
-use crate::material::model::Material;
-use crate::material::of_law::material_of_law;
-use crate::material::of_law::{Choice, FailureName, HYPERELASTIC, LINEAR_ELASTIC, LawName, own_yarn, unused_material};
-use crate::material::smith::strike_speed;
 use crate::strength::file::StrengthFile;
 use toron::host::units::UnitSystem;
+use toron_materials::material::file::MaterialFile;
+use toron_materials::material::model::Material;
+use toron_materials::material::of_law::material_of_law;
+use toron_materials::material::of_law::{
+    Choice, FailureName, HYPERELASTIC, LINEAR_ELASTIC, LawName, own_yarn, unused_material,
+};
+use toron_materials::material::smith::strike_speed;
 use toron_shared::error::Error;
 use toron_shared::toml_file::{Source, Unused, over};
 
@@ -47,11 +49,11 @@ macro_rules! with_common_keys {
         $then! {
             {
                 name: toml::Spanned<String>,
-                law: $crate::material::of_law::LawName,
-                failure: toml::Spanned<$crate::material::of_law::FailureName>,
+                law: toron_materials::material::of_law::LawName,
+                failure: toml::Spanned<toron_materials::material::of_law::FailureName>,
                 strength: toml::Spanned<$crate::strength::file::StrengthFile>,
-                hyperelastic: toml::Spanned<$crate::material::file::MaterialFile>,
-                linear_elastic: toml::Spanned<$crate::material::file::MaterialFile>,
+                hyperelastic: toml::Spanned<toron_materials::material::file::MaterialFile>,
+                linear_elastic: toml::Spanned<toron_materials::material::file::MaterialFile>,
                 speed: toml::Spanned<f64>,
                 mass: toml::Spanned<f64>,
                 radius: toml::Spanned<f64>,

@@ -5,8 +5,8 @@ use crate::explicit::control_keys::zero_or_more;
 use serde::Deserialize;
 use toml::Spanned;
 
-use crate::material::model::Material;
 use toron::host::units::UnitSystem;
+use toron_materials::material::model::Material;
 use toron_shared::error::Error;
 use toron_shared::toml_file::{Numbers, Source};
 

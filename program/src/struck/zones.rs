@@ -1,6 +1,6 @@
 //! What a yarn or a panel is made of, from where it is struck outwards.
 
-use crate::material::model::{self, Material};
+use toron_materials::material::model::{self, Material};
 use toron_shared::numbers::number;
 
 #[derive(Clone, Debug)]

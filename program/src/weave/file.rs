@@ -10,7 +10,7 @@ use super::foreign::file::MeshFile;
 use super::geometry::Family;
 use super::panel::{Centre, Part};
 use super::section::Section;
-use crate::material::file::MaterialFile;
+use toron_materials::material::file::MaterialFile;
 use toron_shared::toml_file::{Numbers, over};
 
 #[derive(Deserialize)]

@@ -5,7 +5,7 @@ use toron::host::units::UnitSystem;
 use super::geometry::Weave;
 use super::pattern::Pattern;
 use super::section::{Section, Thread};
-use crate::common::units::LENGTH;
+use toron_materials::units::LENGTH;
 
 /// Elements of a weave where a scene does not say otherwise, and the clearance in metres.
 pub const ALONG: usize = 8;

@@ -15,12 +15,12 @@ use super::panel::{MOST_ELEMENTS, Outline, Panel, Part, Place, Turn};
 use super::pattern::Pattern;
 use super::preset::{ALONG, CLEARANCE, COLUMNS, PRESETS, Preset, ROWS};
 use super::section::{Section, Thread};
-use crate::common::units::{self, LENGTH};
-use crate::material::file::read_material;
-use crate::material::laws::Laws;
-use crate::material::model::Material;
 use crate::weave::cloth::read_cloth;
 use toron::host::units::UnitSystem;
+use toron_materials::material::file::read_material;
+use toron_materials::material::laws::Laws;
+use toron_materials::material::model::Material;
+use toron_materials::units::{self, LENGTH};
 use toron_shared::error::Error;
 use toron_shared::toml_file::{self, Source};
 

@@ -7,9 +7,9 @@ use super::layup::Ply;
 use super::model::Model;
 use super::reader::Scene;
 use super::weights::PlyWeight;
-use crate::material::fibre_wave::FibreWave;
 use toron::host::units::UnitSystem;
 use toron::law::parameters::DENSITY;
+use toron_materials::material::fibre_wave::FibreWave;
 use toron_shared::numbers::number;
 use toron_shared::text_table::value_line;
 

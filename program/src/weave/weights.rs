@@ -3,9 +3,9 @@
 use std::ops::RangeInclusive;
 
 use super::figures::Figures;
-use crate::material::linear_density::LinearDensity;
 use toron::host::units::UnitSystem;
 use toron::law::parameters::Dimension;
+use toron_materials::material::linear_density::LinearDensity;
 use toron_shared::numbers::number;
 
 const AREAL_DENSITY: Dimension = Dimension { mass: 1, length: -2, time: 0, name: "areal density" };

@@ -3,9 +3,7 @@
 use std::path::Path;
 use std::process::Command;
 
-#[allow(dead_code)] // its main is Cargo's
-#[path = "../../build.rs"]
-mod script;
+use toron_build_number::{OF_MATERIALS, OF_PROGRAM, checksum};
 
 use crate::library::{ROOT, folder, run};
 
@@ -24,7 +22,7 @@ fn a_checksum_is_of_the_sources_and_not_of_their_place() {
         }
     }
     let sum = |root: &Path, options: &[&str]| {
-        script::checksum(root, &options.iter().map(|option| option.to_string()).collect::<Vec<_>>())
+        checksum(root, &of_program(), &options.iter().map(|option| option.to_string()).collect::<Vec<_>>())
     };
     let first = sum(&one, &["", ""]);
     write(&other, "docs/page.md", "no source");
@@ -38,11 +36,10 @@ fn a_checksum_is_of_the_sources_and_not_of_their_place() {
     assert_ne!(first, sum(&other, &["", ""]));
 }
 
-/// The packages of this repository that the program is linked from, each with its files beside the source.
-#[test]
-fn the_checksum_is_of_every_package_of_the_program() {
+/// The folders of sources of this repository that a package is linked from.
+fn folders_of(package: &str) -> Vec<String> {
     let mut cargo = Command::new(env!("CARGO"));
-    let tree = ["tree", "-p", "toron-program", "--edges", "normal", "--prefix", "none", "--format", "{p}"];
+    let tree = ["tree", "-p", package, "--edges", "normal", "--prefix", "none", "--format", "{p}"];
     let output = run(cargo.current_dir(ROOT).args(tree).args(["--offline", "--locked"]), "cargo tree");
     let root = Path::new(ROOT).canonicalize().expect("the repository");
     let tree = String::from_utf8(output.stdout).expect("UTF-8");
@@ -56,7 +53,17 @@ fn the_checksum_is_of_every_package_of_the_program() {
         .collect();
     found.sort();
     found.dedup();
-    let mut listed = script::SOURCES.to_vec();
-    listed.sort_unstable();
-    assert_eq!(found, listed);
+    found
+}
+
+fn of_program() -> Vec<&'static str> {
+    [&OF_MATERIALS[..], &OF_PROGRAM].concat()
+}
+
+#[test]
+fn the_checksum_is_of_every_package_of_a_program() {
+    assert_eq!(folders_of("toron-materials"), OF_MATERIALS);
+    let mut of_program = of_program();
+    of_program.sort_unstable();
+    assert_eq!(folders_of("toron-program"), of_program);
 }

@@ -9,6 +9,8 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::ptr::{null, null_mut};
 
+use toron_build_number::{OF_MATERIALS, OF_PROGRAM};
+
 use crate::library::{LIBRARY, ROOT, SYSTEM, folder, run};
 use nalgebra::{Matrix3, Vector3};
 use toron::host::abaqus::{StandardLaw, Umat};
@@ -458,7 +460,8 @@ fn links_lead_somewhere() {
 /// An installation has no folder docs: what the program says, and what it writes into decks, names no file there.
 #[test]
 fn no_message_points_at_a_file_of_the_sources() {
-    let mut folders = vec![Path::new(ROOT).join("program/src")];
+    let sources = OF_MATERIALS.iter().chain(&OF_PROGRAM);
+    let mut folders: Vec<_> = sources.map(|folder| Path::new(ROOT).join(folder)).collect();
     let mut lines = 0;
     while let Some(folder) = folders.pop() {
         for entry in std::fs::read_dir(folder).expect("a folder").flatten() {

@@ -8,6 +8,8 @@ use nalgebra::Matrix3;
 
 use crate::library::ROOT;
 use toron::host::units::UnitSystem;
+use toron_materials::load_path::path::LoadPath;
+use toron_materials::material::laws::Laws;
 use toron_program::identify::data::{Axis, DataSet, Loading};
 use toron_program::identify::file::Job;
 use toron_program::identify::fit::{Fit, Problem};
@@ -15,8 +17,6 @@ use toron_program::identify::parameter::{PARAMETERS, Parameter, Values};
 use toron_program::identify::response::{Measured, Quantity};
 use toron_program::identify::{notes, output, report, worth};
 use toron_program::impact::{self, scene::Scene};
-use toron_program::load_path::path::LoadPath;
-use toron_program::material::laws::Laws;
 
 /// Table 4.3, in GPa.
 const TRUE: Values = [82.341, 1.055, 2.2, 0.64974, 0.0, 0.0458, 1.8, 0.0];

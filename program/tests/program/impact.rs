@@ -17,13 +17,13 @@ use std::path::{Path, PathBuf};
 
 use toron::Rotation;
 use toron::host::units::UnitSystem;
+use toron_materials::material::model::Law;
 use toron_program::explicit::judgement::{Finding, verdict};
 use toron_program::identify::parameter::Parameter;
 use toron_program::impact::judgement::{contact, hourglass, judge};
 use toron_program::impact::outcome::{End, OfYarn, Outcome, Sample};
 use toron_program::impact::run::{self, StruckYarn};
 use toron_program::impact::scene::{Case, Outputs, Scene, Striker, Zones};
-use toron_program::material::model::Law;
 use toron_program::struck::run::Observer;
 use toron_program::struck::{self, checkpoint};
 use toron_shared::error::Error;

@@ -8,7 +8,7 @@ use std::sync::LazyLock;
 use serde_json::Value;
 
 use crate::library::{BUILD, LIBRARY, ROOT, SYSTEM, folder, run};
-use toron_program::bench::scene::Scene;
+use toron_materials::bench::scene::Scene;
 use toron_program::fabric::scene::Scene as Panel;
 
 /// The program as users build it: with the tests' dependencies some of its code would be another.

@@ -5,9 +5,9 @@ use crate::explicit::body::Support;
 use crate::explicit::medium::{Control, Medium};
 use crate::explicit::mesh::{Mesh, Section, Yarn};
 use crate::explicit::solver::{Ramp, Solver};
-use crate::material::model::{Law, Material, Origin};
 use toron::law::parameters;
 use toron::{Criterion, Rotation};
+use toron_materials::material::model::{Law, Material, Origin};
 
 const PARAMETERS: Parameters =
     Parameters { stiffness: 1e15, friction: 0.5, margin: 2e-5, deepest: 5e-5, pressed_at_rest: true };

@@ -4,9 +4,9 @@ use crate::explicit::contact::{Contact, Rigid, Shape};
 use crate::explicit::lanes::largest;
 use crate::explicit::medium::Control;
 use crate::explicit::mesh::{Section, Yarn};
-use crate::material::model::{Law, Material, Origin};
 use toron::law::parameters;
 use toron::{Criterion, Rotation};
+use toron_materials::material::model::{Law, Material, Origin};
 
 /// A cube of 1 mm with these boundary conditions; it may fail.
 fn cube(support_of: impl Fn([f64; 3]) -> Support) -> Solver<f64> {

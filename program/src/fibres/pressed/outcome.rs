@@ -1,11 +1,11 @@
 //! The result of a pressed section: energies over its reference volume, in the scene's unit of stress, and its invariants.
 
-use crate::common::units::TIME;
 use crate::fibres::frame::Frame;
 use crate::fibres::model::{Model, Pressing, Striking, micro};
 use crate::fibres::run::Raw;
 use toron::host::units::UnitSystem;
 use toron::law::parameters::STRESS;
+use toron_materials::units::TIME;
 
 /// A part of the section.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -4,11 +4,11 @@ use std::fmt::Write;
 use std::path::Path;
 
 use super::outcome::{Part, Pressed, Sample};
-use crate::common::units::{TIME, unit};
 use crate::fibres::report::column;
 use crate::fibres::scene::{Case, Packing, Scene, Striker, Walls};
 use crate::identify::written::{DEVIATION, Fibre, RANDOM_DEVIATION, Set, Written};
 use toron::law::parameters::STRESS;
+use toron_materials::units::{TIME, unit};
 use toron_shared::error::Error;
 use toron_shared::numbers::number;
 use toron_shared::run_directory::file_error;

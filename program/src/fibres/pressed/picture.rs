@@ -5,11 +5,11 @@ use std::path::Path;
 use plotters::prelude::*;
 
 use super::outcome::Pressed;
-use crate::common::units::{LENGTH, TIME, time, unit};
 use crate::fibres::frame::Frame;
 use crate::fibres::model::micro;
 use crate::fibres::scene::{Case, Scene};
 use toron::law::parameters::STRESS;
+use toron_materials::units::{LENGTH, TIME, time, unit};
 use toron_pictures::colour_scale::{Colours, Scale};
 use toron_pictures::page::{self, Area, Drawn};
 use toron_pictures::ruler;

@@ -3,9 +3,9 @@
 use std::path::Path;
 
 use super::outcome::{Pressed, Sample};
-use crate::common::units::unit;
 use crate::fibres::scene::{Case, Scene, Striker};
 use toron::law::parameters::STRESS;
+use toron_materials::units::unit;
 use toron_pictures::history::{self, Samples};
 use toron_pictures::panel::{self, Panel, Series, tidy};
 use toron_shared::error::Error;

@@ -6,14 +6,14 @@ use std::path::{Path, PathBuf};
 use serde::Deserialize;
 use toml::Spanned;
 
-use crate::common::data_table::{Cell, DataTable};
-use crate::common::units::{self, LENGTH};
 use crate::identify::file::FitFile;
 use crate::identify::reader::plain_name;
 use crate::strength::fit::{self, Fit, Test};
 use crate::strength::scales::{self, ScaleFit};
 use toron::host::units::UnitSystem;
 use toron::law::parameters::{Dimension, NUMBER, STRESS};
+use toron_materials::data_table::{Cell, DataTable};
+use toron_materials::units::{self, LENGTH};
 use toron_shared::error::Error;
 use toron_shared::toml_file::{self, Source};
 

@@ -1,12 +1,12 @@
 //! What a fit of strengths says on the terminal, and its files.
 
 use super::file::{Found, Set, StrengthJob};
-use crate::common::units::{LENGTH, unit};
 use crate::identify::report::{digits, line};
 use crate::strength::fit::{Estimate, Fit, Test, probability_of_one_law};
 use crate::strength::scales::{ScaleFit, contradiction};
 use toron::host::units::UnitSystem;
 use toron::law::parameters::NUMBER;
+use toron_materials::units::{LENGTH, unit};
 
 /// A law that tests contradict by chance in fewer cases is in doubt.
 const DOUBT: f64 = 0.05;

@@ -21,7 +21,7 @@ use crate::eval::evaluated;
 use crate::library::{ROOT, run};
 use model::{Deck, ROWS, Row};
 use toron::law::parameters::FIBRE;
-use toron_program::material::laws::LawName;
+use toron_materials::material::laws::LawName;
 
 /// A host: folder, ending of its decks, sign of a comment, how a deck is read, and the deck's time at the end.
 struct Host {

@@ -8,8 +8,8 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use super::laws::{LawName, LawText, Laws};
-use crate::common::units::{self, with_unit};
 use crate::material::laws::law;
+use crate::units::{self, with_unit};
 use toron::host::units::UnitSystem;
 use toron::law::bounds;
 use toron::law::parameters::{self, DENSITY, Dimension, Property};
@@ -502,7 +502,7 @@ mod tests {
 
     #[test]
     fn the_documentation_s_example_is_a_preset() {
-        let document = include_str!("../../../docs/guides/load-paths.md");
+        let document = include_str!("../../../../docs/guides/load-paths.md");
         let (_, section) = document.split_once("## A preset of your own").expect("the section");
         let example = section.split("```toml\n").nth(1).and_then(|rest| rest.split("```").next()).expect("an example");
         let preset = parse(example).expect("it is valid");

@@ -8,9 +8,9 @@ use toron::Hyperelastic;
 use toron::Level;
 use toron::law::block::{Arrays, Block, Precision};
 use toron::law::status::{BAD_LEADING_DIMENSION, INVERTED, OK};
-use toron_program::bench::command::properties;
-use toron_program::bench::parallel::parallel_block;
-use toron_program::bench::scene::Scene;
+use toron_materials::bench::command::properties;
+use toron_materials::bench::parallel::parallel_block;
+use toron_materials::bench::scene::Scene;
 
 /// Enough for every thread to get a part, and no multiple of any lanes.
 const POINTS: usize = 40_003;

@@ -275,7 +275,7 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
-    use crate::common::units::{CONTACT_STIFFNESS, ENERGY, FORCE, SPEED, TIME, unit};
+    use crate::units::{CONTACT_STIFFNESS, ENERGY, FORCE, SPEED, TIME, unit};
     use toron::law::parameters::{DENSITY, ENERGY_DENSITY, NUMBER, STRESS};
 
     const LENGTH: Dimension = Dimension { mass: 0, length: 1, time: 0, name: "length" };

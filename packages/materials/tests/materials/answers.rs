@@ -1,6 +1,6 @@
 //! What `toron eval` answers to the truth's cases through every entry, bit for bit: `answers/sums.txt` has a number for
 //! each entry and category, `answers/samples.jsonl` some answers as they are written. `TORON_WRITE_ANSWERS=1 cargo test
-//! -p toron-program answers` writes both anew. What every exported entry answers to much else is recorded by
+//! -p toron-materials answers` writes both anew. What every exported entry answers to much else is recorded by
 //! `c/tests/c/answers.rs`.
 //!
 //! Numbers of AVX2 and AVX-512, which give the same bits; a processor with neither has nothing to compare.
@@ -13,10 +13,10 @@ use std::path::Path;
 use clap::ValueEnum;
 use serde_json::Value;
 use toron::Level;
-use toron_program::eval::command::{Entry, evaluate};
+use toron_materials::eval::command::{Entry, evaluate};
 
 const TRUTH: [&str; 2] =
-    [include_str!("../../../tests/truth/points.jsonl"), include_str!("../../../tests/truth/far.jsonl")];
+    [include_str!("../../../../tests/truth/points.jsonl"), include_str!("../../../../tests/truth/far.jsonl")];
 /// Of each entry these cases are samples: a moderate one, one that fails, a fibre that has slipped far.
 const SAMPLES: [&str; 3] = ["moderate", "failure", "slip"];
 
@@ -67,7 +67,7 @@ fn every_entry_answers_as_recorded() {
         println!("skipped: the processor has no AVX2");
         return;
     }
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/program/answers");
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/materials/answers");
     let mut wrong = Vec::new();
     for (name, found) in ["sums.txt", "samples.jsonl"].into_iter().zip(recorded_today()) {
         let path = folder.join(name);
@@ -79,6 +79,6 @@ fn every_entry_answers_as_recorded() {
         let pairs = found.lines().zip(recorded.lines());
         wrong.extend(pairs.filter(|(found, recorded)| found != recorded).map(|(a, b)| format!("{a}\nrecorded:\n{b}")));
     }
-    let write = "where that is meant: TORON_WRITE_ANSWERS=1 cargo test -p toron-program answers";
+    let write = "where that is meant: TORON_WRITE_ANSWERS=1 cargo test -p toron-materials answers";
     assert!(wrong.is_empty(), "{}\n{write}", wrong.join("\n"));
 }

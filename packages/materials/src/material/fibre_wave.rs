@@ -4,7 +4,7 @@ use std::ops::RangeInclusive;
 
 use super::laws::LawName;
 use super::model::{Law, Material};
-use crate::common::units::SPEED;
+use crate::units::SPEED;
 use toron::host::units::UnitSystem;
 use toron_shared::numbers::number;
 

@@ -4,8 +4,8 @@ use nalgebra::Matrix3;
 use toron::law::parameters;
 use toron::law::stress::first_piola_kirchhoff;
 use toron::{Criterion, Rotation};
-use toron_program::load_path::newton::{self, Prescribed, Solution};
-use toron_program::material::model::{Law, Material};
+use toron_materials::load_path::newton::{self, Prescribed, Solution};
+use toron_materials::material::model::{Law, Material};
 
 fn material(preset: &str, frame: Rotation, changed: &[(usize, f64)]) -> Material {
     let preset = parameters::preset(preset).expect("a preset");

@@ -1,11 +1,11 @@
 //! The driver: mixed control, work, rotation, parallel points, and what its errors say.
 
 use nalgebra::{Matrix3, Rotation3, Unit, Vector3};
-use toron_program::load_path::element::Hexahedron;
-use toron_program::load_path::path::LoadPath;
-use toron_program::load_path::report;
-use toron_program::load_path::run::{self, End, History};
-use toron_program::material::laws::Laws;
+use toron_materials::load_path::element::Hexahedron;
+use toron_materials::load_path::path::LoadPath;
+use toron_materials::load_path::report;
+use toron_materials::load_path::run::{self, End, History};
+use toron_materials::material::laws::Laws;
 use toron_shared::error::Error;
 
 const HEAD: &str = "units = \"mm-tonne-s\"\n[material]\npreset = \"kevlar-km2-600\"\n";
@@ -288,7 +288,7 @@ fn input_errors_name_file_line_and_what_was_expected() {
 
 #[test]
 fn the_documentations_example_runs() {
-    let document = include_str!("../../../docs/guides/load-paths.md");
+    let document = include_str!("../../../../docs/guides/load-paths.md");
     let example = document.split("```toml\n").nth(1).and_then(|rest| rest.split("```").next()).expect("an example");
     let path = parse(example);
     assert_eq!(path.points.len(), 3);

@@ -1,8 +1,8 @@
 //! The columns of a point's table: their names and units.
 
 use super::newton::COMPONENT_NAMES;
-use crate::common::units::{ENERGY, FORCE, SPEED, TIME};
 use crate::material::model::{Law, Material};
+use crate::units::{ENERGY, FORCE, SPEED, TIME};
 use toron::law::parameters::{Dimension, NUMBER, STRESS};
 
 /// The order of the six components of a symmetric tensor.

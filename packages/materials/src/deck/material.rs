@@ -8,11 +8,11 @@ use toron::law::state::StateVariable;
 use toron::{Criterion, Rotation};
 
 use super::interface::Interface;
-use crate::common::units::unit;
 use crate::material::fibre_wave::FibreWave;
 use crate::material::laws::LawName;
 use crate::material::model::{self, Law};
 use crate::material::preset::{Guesses, Preset};
+use crate::units::unit;
 use toron_shared::error::Error;
 
 /// The columns of a number in cards that have room enough: twelve digits.

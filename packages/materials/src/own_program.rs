@@ -7,11 +7,15 @@ use clap::{CommandFactory, Parser, Subcommand};
 use crate::eval::own_law::{self, Entry};
 use crate::material::laws::Laws;
 use crate::material::own_law::OwnLaw;
-use crate::{WITH_TABLES, bench, deck, load_path, params};
+use crate::{bench, deck, load_path, params};
 use toron::host::Material;
 use toron::host::c::AsNumbers;
+use toron_shared::build;
 use toron_shared::command_line;
 use toron_shared::console::{print, print_error};
+
+/// The commands whose output is tables, which they can print as JSON too.
+const WITH_TABLES: [&str; 3] = ["run", "params", "bench"];
 
 #[derive(Parser)]
 struct Arguments {
@@ -49,7 +53,7 @@ enum Command {
 ///
 /// ```ignore
 /// fn main() -> std::process::ExitCode {
-///     toron_program::of_law::<ReinforcedSolid>("REINFORCED", 3)
+///     toron_materials::of_law::<ReinforcedSolid>("REINFORCED", 3)
 /// }
 /// ```
 pub fn of_law<M>(name: &'static str, number: i32) -> ExitCode
@@ -58,6 +62,7 @@ where
     <M as Material<f64>>::Law: AsNumbers<f64> + Send + Sync + 'static,
     <M as Material<f32>>::Law: AsNumbers<f32>,
 {
+    build::declare::<Arguments>(env!("TORON_SOURCES"));
     match OwnLaw::new::<M>(name, number) {
         // As long as the program runs, its law is there.
         Ok(law) => program(Box::leak(Box::new(law))),

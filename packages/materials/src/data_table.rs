@@ -298,7 +298,7 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
-    use crate::common::units::FORCE;
+    use crate::units::FORCE;
     use toron::law::parameters::NUMBER;
 
     #[track_caller]

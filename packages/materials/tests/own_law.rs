@@ -10,15 +10,15 @@ use clap::Parser;
 use reinforced_solid::ReinforcedSolid;
 use serde_json::Value;
 use toron::host::units::UnitSystem;
-use toron_program::eval::own_law::{Entry, evaluate};
-use toron_program::load_path::columns::columns;
-use toron_program::load_path::command::Arguments;
-use toron_program::load_path::path::LoadPath;
-use toron_program::load_path::run::{End, run};
-use toron_program::load_path::table;
-use toron_program::material::laws::Laws;
-use toron_program::material::own_law::OwnLaw;
-use toron_program::{deck, params};
+use toron_materials::eval::own_law::{Entry, evaluate};
+use toron_materials::load_path::columns::columns;
+use toron_materials::load_path::command::Arguments;
+use toron_materials::load_path::path::LoadPath;
+use toron_materials::load_path::run::{End, run};
+use toron_materials::load_path::table;
+use toron_materials::material::laws::Laws;
+use toron_materials::material::own_law::OwnLaw;
+use toron_materials::{deck, params};
 
 const MU: f64 = 2.0;
 const LAMBDA: f64 = 3.0;
@@ -105,7 +105,7 @@ fn the_files_are_those_of_every_load_path() {
     std::fs::write(folder.join("tension.toml"), TENSION).expect("a file can be written");
     let output = folder.join("out");
     let arguments = Arguments { path: Some(folder.join("tension.toml")), output: output.clone() };
-    toron_program::load_path::command::run(laws(), &arguments).expect("it runs");
+    toron_materials::load_path::command::run(laws(), &arguments).expect("it runs");
     let table = std::fs::read_to_string(output.join("increments.csv")).expect("the table");
     let head = "step,cycle,increment,time,F11,F12,F13,F21,F22,F23,F31,F32,F33,cauchy_11,cauchy_22,cauchy_33,cauchy_12,\
                 cauchy_23,cauchy_31,P11,P12,P13,P21,P22,P23,P31,P32,P33,energy,stretch,failed,alive,fibre_stress,";

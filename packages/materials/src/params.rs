@@ -4,16 +4,16 @@ use std::path::Path;
 
 use clap::Args;
 
-use crate::common::build;
-use crate::common::units::{unit, with_unit};
 use crate::material::laws::{LawName, Laws};
 use crate::material::model::Law;
 use crate::material::preset::Preset;
+use crate::units::{unit, with_unit};
 use toron::host::c::TORON_ABI_VERSION;
 use toron::host::units::UnitSystem;
 use toron::law::parameters::{DENSITY, Dimension, Property};
 use toron::law::state::StateVariable;
 use toron::{Criterion, Rotation};
+use toron_shared::build;
 use toron_shared::console::print;
 use toron_shared::error::Error;
 use toron_shared::short_number::short;

@@ -3,9 +3,9 @@
 use super::newton::{COMPONENT_NAMES, COMPONENTS};
 use super::path::{LoadPath, Target};
 use super::run::{End, History, Increment};
-use crate::common::units::{ENERGY, unit};
 use crate::material::fibre_wave::FibreWave;
 use crate::material::model::{Law, Material};
+use crate::units::{ENERGY, unit};
 use toron::law::parameters::{ENERGY_DENSITY, STRESS};
 use toron::law::state::{ENERGIES, INVARIANTS};
 use toron_shared::numbers::number;
