@@ -12,7 +12,7 @@ use serde_json::Value;
 type Arrows = (&'static str, &'static [&'static str], &'static [&'static str]);
 
 /// From the ground up.
-const ARROWS: [Arrows; 20] = [
+const ARROWS: [Arrows; 21] = [
     ("toron", &[], &[]),
     ("toron-shared", &[], &[]),
     ("toron-build-number", &[], &[]),
@@ -27,9 +27,18 @@ const ARROWS: [Arrows; 20] = [
     ("toron-openradioss-sp", &["toron", "toron-solvers"], &[]),
     ("toron-c", &["toron"], &["toron-solvers"]),
     ("toron-materials", &["toron", "toron-build-number", "toron-pictures", "toron-shared", "toron-solvers"], &[]),
+    ("toron-explicit-host", &["toron", "toron-materials", "toron-shared"], &[]),
     (
         "toron-program",
-        &["toron", "toron-build-number", "toron-materials", "toron-pictures", "toron-shared", "umat-check"],
+        &[
+            "toron",
+            "toron-build-number",
+            "toron-explicit-host",
+            "toron-materials",
+            "toron-pictures",
+            "toron-shared",
+            "umat-check",
+        ],
         &["toron-build-number"],
     ),
     ("toron-benches", &[], &["toron", "toron-materials", "toron-pictures"]),

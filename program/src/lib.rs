@@ -10,18 +10,17 @@
 //! - energies of a yarn's fibres by finite elements, in CalculiX, from which they are found too (`toron cell`): [`cell`];
 //! - a woven panel struck by a sphere (`toron fabric`): [`fabric`], on the same solver;
 //! - the fibres of a yarn under impact, as rows of beads in LAMMPS (`toron fibres`): [`fibres`];
-//! - a yarn under impact (`toron impact`): [`impact`], on the explicit solver in [`explicit`];
+//! - a yarn under impact (`toron impact`): [`impact`], on the explicit solver of the package `toron-explicit-host`;
 //! - at which speed half of the shots go through (`toron v50`), on scenes of either: [`v50`];
-//! - what those two have in common, from their keys to their checkpoints: [`struck`];
+//! - what those two have in common, their keys: [`struck`];
 //! - woven panels as meshes of hexahedra (`toron weave`): [`weave`];
-//! - what they share: numbers of chance, roots, the level of intervals, files for ParaView: [`common`].
+//! - what they share: numbers of chance, roots, the level of intervals: [`common`].
 //!
 //! What is wrong with anybody's UMAT (`toron check`) is asked in the package `umat-check`, on Linux.
 
 pub mod cell;
 pub mod common;
 pub mod compare;
-pub mod explicit;
 pub mod fabric;
 pub mod fibres;
 pub mod identify;

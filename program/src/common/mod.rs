@@ -1,6 +1,5 @@
-//! What the program's rooms share: numbers of chance, roots, the level of intervals, files for ParaView.
+//! What the program's rooms share: numbers of chance, roots, the level of intervals.
 
 pub mod chance;
 pub mod confidence;
 pub mod root;
-pub mod vtk;

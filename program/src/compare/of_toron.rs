@@ -13,7 +13,7 @@ use toron_shared::error::Error;
 /// What its first title begins with.
 pub const START: &str = "time (";
 
-/// Quantities by the titles of [`columns`](crate::struck::history::columns).
+/// Quantities by the titles of [`columns`](toron_explicit_host::struck::history::columns).
 const NAMED: [(Quantity, &str, Dimension); 10] = [
     (Quantity::Speed, "speed", SPEED),
     (Quantity::Force, "force", FORCE),

@@ -4,7 +4,7 @@ use toron::host::units::UnitSystem;
 
 use super::figures::Figures;
 use super::history::{Curve, History, QUANTITIES};
-use crate::struck::summary::{Cells, Line};
+use toron_explicit_host::struck::summary::{Cells, Line};
 use toron_materials::units::{ENERGY, LENGTH, SPEED, TIME, unit};
 use toron_shared::numbers::number;
 use toron_shared::text_table::{Column, NONE, or_dash, shortened, table};

@@ -8,13 +8,13 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::explicit::body::Body;
-use crate::explicit::contact::Rigid;
-use crate::explicit::lanes::Number;
-use crate::explicit::projectile::Projectile;
-use crate::explicit::solver::Solver;
 use crate::weave::model::{Model, Yarn};
 use crate::weave::torn;
+use toron_explicit_host::body::Body;
+use toron_explicit_host::contact::Rigid;
+use toron_explicit_host::lanes::Number;
+use toron_explicit_host::projectile::Projectile;
+use toron_explicit_host::solver::Solver;
 
 /// How many times it is looked at on the way of one radius; the force is that since the last look.
 const LOOKS: f64 = 48.0;

@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 
 use super::model;
 use super::scene::Scene;
-use crate::explicit::solver::Solver;
 use crate::weave::model::Yarn;
+use toron_explicit_host::solver::Solver;
 
 /// Half the length of the pulses, four elements of the coarse mesh, and where they start.
 const WIDTH: f64 = 1.5;

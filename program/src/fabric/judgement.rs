@@ -10,11 +10,11 @@ use super::measure::Sample;
 use super::run::{End, Outcome};
 use super::scene::Case;
 use super::weights;
-use crate::explicit::judgement::{self, Finding};
-use crate::explicit::lanes::{largest, smallest};
 use crate::weave::cloth::Cloth;
 use crate::weave::model::Model;
 use toron::host::units::UnitSystem;
+use toron_explicit_host::judgement::{self, Finding};
+use toron_explicit_host::lanes::{largest, smallest};
 use toron_materials::units::{LENGTH, TIME, unit};
 use toron_shared::numbers::number;
 
@@ -257,9 +257,9 @@ fn sunk(units: &UnitSystem, case: &Case, measures: &Measures) -> Option<Finding>
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::explicit::energies::{Balance, Energies};
-    use crate::explicit::judgement::verdict;
     use crate::fabric::scene::Scene;
+    use toron_explicit_host::energies::{Balance, Energies};
+    use toron_explicit_host::judgement::verdict;
 
     /// A run of the coarse example, but for its size.
     const SOUND: Measures = Measures {

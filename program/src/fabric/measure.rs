@@ -5,13 +5,13 @@ use nalgebra::Vector3;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use crate::explicit::body::Body;
-use crate::explicit::hexahedron::{Edges, solid_corners};
-use crate::explicit::lanes::{Number, largest, smallest};
-use crate::explicit::solver::Solver;
-use crate::struck;
 use crate::weave::model::{Grid, Model, Piece, Yarn};
 use crate::weave::torn;
+use toron_explicit_host::body::Body;
+use toron_explicit_host::hexahedron::{Edges, solid_corners};
+use toron_explicit_host::lanes::{Number, largest, smallest};
+use toron_explicit_host::solver::Solver;
+use toron_explicit_host::struck;
 
 /// What a sample of a panel has besides the quantities of all scenes.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

@@ -6,12 +6,12 @@ use std::path::Path;
 use plotters::prelude::*;
 
 use super::scene::{Case, Scene, Zones};
-use crate::explicit::contact::Shape;
-use crate::explicit::snapshot::Snapshot;
 use crate::weave::model::Model;
 use crate::weave::projection::{self, Eye};
 use crate::weave::surface::{self, Visible};
 use toron::law::parameters::ENERGY_DENSITY;
+use toron_explicit_host::contact::Shape;
+use toron_explicit_host::snapshot::Snapshot;
 use toron_materials::material::model::Law;
 use toron_materials::units::{time, unit};
 use toron_pictures::colour_scale::{Colours, Scale};

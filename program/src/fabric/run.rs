@@ -4,12 +4,12 @@ use super::fate::{self, Fate};
 use super::measure::{OfPanel, Sample};
 use super::model::{self, share};
 use super::scene::Case;
-use crate::explicit::lanes::Number;
-use crate::explicit::solver::Solver;
-use crate::struck::plan::Plan;
-pub use crate::struck::run::End;
-use crate::struck::run::{self, Struck};
 use crate::weave::model::Model;
+use toron_explicit_host::lanes::Number;
+use toron_explicit_host::solver::Solver;
+use toron_explicit_host::struck::plan::Plan;
+pub use toron_explicit_host::struck::run::End;
+use toron_explicit_host::struck::run::{self, Struck};
 use toron_shared::error::Error;
 
 /// What came of a case.

@@ -2,17 +2,17 @@
 
 use std::sync::Arc;
 
-use crate::explicit::contact::Rigid;
-use crate::explicit::medium::Control;
-use crate::explicit::mutual_contact::Parameters;
 use crate::strength::scatter::Strength;
-use crate::struck::plan::Plan;
 use crate::struck::shots::Shots;
 pub use crate::struck::zones::Zones;
 use crate::weave::cloth::Cloth;
 use crate::weave::geometry::Family;
 use crate::weave::panel::Part;
 use toron::host::units::UnitSystem;
+use toron_explicit_host::contact::Rigid;
+use toron_explicit_host::medium::Control;
+use toron_explicit_host::mutual_contact::Parameters;
+use toron_explicit_host::struck::plan::Plan;
 use toron_materials::material::model::Material;
 
 /// The cases of a file.

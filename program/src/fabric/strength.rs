@@ -1,7 +1,6 @@
 //! The strength of each element of a panel's yarns.
 
 use super::scene::Case;
-use crate::explicit::lanes::smallest;
 use crate::strength::field;
 use crate::strength::scatter::Strength;
 use crate::struck::keys::Reader;
@@ -11,6 +10,7 @@ use crate::weave::geometry::Family;
 use crate::weave::layup::Ply;
 use crate::weave::model::{Model, Yarn};
 use crate::weave::panel::Place;
+use toron_explicit_host::lanes::smallest;
 use toron_shared::error::Error;
 
 /// A case whose strength scatters.

@@ -4,10 +4,10 @@ use nalgebra::Vector3;
 
 use super::model;
 use super::scene::{Case, Scene};
-use crate::explicit::body::{Body, Support};
-use crate::explicit::solver::{Ramp, Solver};
 use crate::weave::geometry::Family;
 use crate::weave::model::Yarn;
+use toron_explicit_host::body::{Body, Support};
+use toron_explicit_host::solver::{Ramp, Solver};
 use toron_materials::material::model::Law;
 
 /// A warp yarn and the five weft yarns that it crosses, which do not move.

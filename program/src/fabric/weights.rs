@@ -3,14 +3,14 @@
 use std::ops::RangeInclusive;
 
 use super::scene::Case;
-use crate::explicit::contact::Shape;
-use crate::explicit::judgement::Finding;
-use crate::struck::blow;
 use crate::weave::figures::Figures;
 use crate::weave::geometry::Family;
 use crate::weave::model::Model;
 use crate::weave::weights::PlyWeight;
 use toron::host::units::UnitSystem;
+use toron_explicit_host::contact::Shape;
+use toron_explicit_host::judgement::Finding;
+use toron_explicit_host::struck::blow;
 use toron_shared::numbers::number;
 
 /// What steels have, in kg/m³.

@@ -6,9 +6,9 @@ use super::history::{self, Line, Station};
 use super::model::{Model, Striking, micro};
 use super::run::Raw;
 use super::scene::{Case, Striker};
-use crate::explicit::lanes::largest;
 use crate::impact::run::{FRONT, PLATEAU, front};
 use toron::host::units::UnitSystem;
+use toron_explicit_host::lanes::largest;
 use toron_materials::material::smith::{Smith, Tension};
 use toron_materials::units::{ENERGY, FORCE, LENGTH, SPEED, TIME};
 

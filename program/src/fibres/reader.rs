@@ -7,8 +7,8 @@ use toml::Spanned;
 
 use super::file::{CaseFile, FibreFile, PackingName, SceneFile, SectionName, StrikerName};
 use super::scene::{Case, Contact, Fibre, Outline, Packing, Scene, SectionLaw, Striker, Walls};
-use crate::explicit::control_keys::zero_or_more;
 use toron::host::units::UnitSystem;
+use toron_explicit_host::control_keys::zero_or_more;
 use toron_materials::material::laws::Laws;
 use toron_materials::material::preset::Preset;
 use toron_materials::units::{self, SPEED};

@@ -6,12 +6,12 @@ use super::outcome::{Course, OfYarn, Outcome};
 use super::run::StruckYarn;
 use super::scene::{Case, Scene};
 use super::{judgement, plot, report, summary, yarn_picture};
-use crate::explicit::judgement::{Finding, verdict};
-use crate::struck::command;
-use crate::struck::history::Column;
-use crate::struck::run;
-use crate::struck::summary::Cells;
 use toron::host::units::UnitSystem;
+use toron_explicit_host::judgement::{Finding, verdict};
+use toron_explicit_host::struck::command;
+use toron_explicit_host::struck::history::Column;
+use toron_explicit_host::struck::run;
+use toron_explicit_host::struck::summary::Cells;
 use toron_shared::error::Error;
 use toron_shared::file_names::{STRAINS, YARN};
 

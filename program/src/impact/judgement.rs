@@ -4,8 +4,8 @@
 use super::outcome::{End, Outcome};
 use super::scene::{Case, Striker};
 use super::weights;
-use crate::explicit::judgement::{self, Finding};
 use toron::host::units::UnitSystem;
+use toron_explicit_host::judgement::{self, Finding};
 use toron_materials::units::{TIME, unit};
 use toron_shared::numbers::number;
 
@@ -86,9 +86,9 @@ pub fn viscosity(case: &Case, result: &Outcome) -> Option<Finding> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::explicit::judgement::verdict;
     use crate::impact::run;
     use crate::impact::scene::Scene;
+    use toron_explicit_host::judgement::verdict;
 
     /// The example's yarn at 120 m/s with so many layers, these keys, and this end in µs.
     fn verdict_of(layers: usize, keys: &str, end: f64) -> (String, f64) {

@@ -4,11 +4,11 @@ use std::ops::{Deref, DerefMut};
 
 use serde::{Deserialize, Serialize};
 
-use crate::explicit::lanes::largest;
-use crate::explicit::mesh::Mesh;
-use crate::explicit::snapshot::Snapshot;
-use crate::struck;
-pub use crate::struck::run::End;
+use toron_explicit_host::lanes::largest;
+use toron_explicit_host::mesh::Mesh;
+use toron_explicit_host::snapshot::Snapshot;
+use toron_explicit_host::struck;
+pub use toron_explicit_host::struck::run::End;
 use toron_materials::material::smith::Smith;
 
 /// Where the section's width is measured, as fractions of half the span (Fig. 4.16 has four points).

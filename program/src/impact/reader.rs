@@ -6,12 +6,12 @@ use toml::Spanned;
 
 use super::file::{CaseFile, SceneFile, SectionName, StrikerName};
 use super::scene::{Abscissa, Case, Outputs, Scene, Striker};
-use crate::explicit::contact::{Rigid, Shape};
-use crate::explicit::control_keys::zero_or_more;
-use crate::explicit::mesh::{Section, Yarn};
 use crate::strength::scatter::Strength;
 use crate::struck::keys::{self, Reader};
 use crate::struck::shots::read_shots;
+use toron_explicit_host::contact::{Rigid, Shape};
+use toron_explicit_host::control_keys::zero_or_more;
+use toron_explicit_host::mesh::{Section, Yarn};
 use toron_materials::units;
 use toron_shared::error::Error;
 use toron_shared::toml_file::{self, Source};

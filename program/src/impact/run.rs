@@ -2,14 +2,14 @@
 
 use super::outcome::{Course, OfYarn, Outcome, STATIONS, Sample};
 use super::scene::{Case, Outputs, Striker, Zones};
-use crate::explicit::body::{Body, Support};
-use crate::explicit::contact::Contact;
-use crate::explicit::lanes::{Number, largest};
-use crate::explicit::medium::Medium;
-use crate::explicit::projectile::Projectile;
-use crate::explicit::solver::Solver;
-use crate::struck::plan::Plan;
-use crate::struck::run::{self, Observer, Struck};
+use toron_explicit_host::body::{Body, Support};
+use toron_explicit_host::contact::Contact;
+use toron_explicit_host::lanes::{Number, largest};
+use toron_explicit_host::medium::Medium;
+use toron_explicit_host::projectile::Projectile;
+use toron_explicit_host::solver::Solver;
+use toron_explicit_host::struck::plan::Plan;
+use toron_explicit_host::struck::run::{self, Observer, Struck};
 use toron_materials::material::model::Material;
 use toron_materials::material::smith::{LARGEST_STRAIN, Smith, Tension};
 use toron_shared::error::Error;

@@ -2,14 +2,14 @@
 
 use serde::Deserialize;
 
-use crate::explicit::contact::Rigid;
-use crate::explicit::medium::Control;
-use crate::explicit::mesh::Yarn;
 use crate::strength::scatter::Strength;
-use crate::struck::plan::Plan;
 use crate::struck::shots::Shots;
 pub use crate::struck::zones::Zones;
 use toron::host::units::UnitSystem;
+use toron_explicit_host::contact::Rigid;
+use toron_explicit_host::medium::Control;
+use toron_explicit_host::mesh::Yarn;
+use toron_explicit_host::struck::plan::Plan;
 
 /// What symmetry leaves out.
 pub const LEFT_OUT: &str = "the other half of a yarn";

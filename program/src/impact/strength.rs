@@ -1,11 +1,11 @@
 //! The strength of each element of a yarn.
 
 use super::scene::Case;
-use crate::explicit::lanes::smallest;
-use crate::explicit::mesh::Mesh;
 use crate::strength::field::Yarn;
 use crate::strength::scatter;
 use toron::host::units::UnitSystem;
+use toron_explicit_host::lanes::smallest;
+use toron_explicit_host::mesh::Mesh;
 
 /// A scene has one.
 const YARN: Yarn = Yarn { ply: 0, family: 0, number: 0 };

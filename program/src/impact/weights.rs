@@ -3,11 +3,11 @@
 use std::f64::consts::PI;
 
 use super::scene::{Case, Striker};
-use crate::explicit::judgement::Finding;
-use crate::explicit::mesh::Yarn;
-use crate::struck::blow::{self, DENSITIES};
 use toron::host::units::UnitSystem;
 use toron::law::parameters::DENSITY;
+use toron_explicit_host::judgement::Finding;
+use toron_explicit_host::mesh::Yarn;
+use toron_explicit_host::struck::blow::{self, DENSITIES};
 use toron_materials::material::linear_density::LinearDensity;
 use toron_materials::units::{LENGTH, unit};
 use toron_shared::numbers::number;

@@ -7,9 +7,9 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::outcome::Outcome;
 use super::scene::{Case, Scene, Zones};
-use crate::explicit::mesh::Mesh;
-use crate::explicit::snapshot::Snapshot;
 use toron::law::parameters::ENERGY_DENSITY;
+use toron_explicit_host::mesh::Mesh;
+use toron_explicit_host::snapshot::Snapshot;
 use toron_materials::material::model::Law;
 use toron_materials::units::{time, unit};
 use toron_pictures::colour_scale::{Colours, Scale};

@@ -9,8 +9,8 @@ use toron::host::units::UnitSystem;
 
 use super::model::{Conversion, Model};
 use super::{abaqus, ls_dyna, of_fabric, of_impact, openradioss};
-use crate::explicit::judgement::warnings;
 use crate::{fabric, impact, weave};
+use toron_explicit_host::judgement::warnings;
 use toron_materials::deck::openradioss::FibreFrom;
 use toron_shared::console::{print, print_error};
 use toron_shared::error::Error;

@@ -5,7 +5,7 @@ use toron::law::parameters::{Dimension, STRESS};
 
 use super::origin::Origin;
 use super::striker::Striker;
-use crate::explicit::medium::{Control, Medium};
+use toron_explicit_host::medium::{Control, Medium};
 use toron_materials::deck::material::Material;
 use toron_shared::error::Error;
 

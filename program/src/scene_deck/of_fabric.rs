@@ -4,13 +4,13 @@ use std::collections::BTreeMap;
 
 use super::model::{Contact, Conversion, Mesh, Model, Part, Strike, Support, frame, hourglass, step};
 use super::striker::{Striker, divisions};
-use crate::explicit::contact::Shape;
 use crate::fabric::model::{check, share, start, zone};
 use crate::fabric::scene::Case;
 use crate::weave::cloth::Cloth;
 use crate::weave::command::NAME;
 use crate::weave::model as woven;
 use crate::weave::model::Yarn;
+use toron_explicit_host::contact::Shape;
 use toron_materials::deck::material::Material;
 use toron_materials::units::{LENGTH, MASS, SPEED, TIME};
 use toron_shared::error::Error;

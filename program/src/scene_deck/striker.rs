@@ -3,7 +3,7 @@
 
 use std::f64::consts::FRAC_PI_4;
 
-use crate::explicit::contact::Shape;
+use toron_explicit_host::contact::Shape;
 
 /// Quadrangles along the arc of half a cylinder, and along an edge of the cube that a hemisphere is made of, at most. Their middles lie
 /// 0.05 % of the radius inside the cylinder, 0.03 % inside the sphere.

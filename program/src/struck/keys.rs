@@ -5,12 +5,12 @@ use std::ops::Range;
 use serde::Deserialize;
 use toml::Spanned;
 
-use super::plan::Plan;
 use super::zones::Zones;
-use crate::explicit::control_keys::control;
-use crate::explicit::medium::Control;
 use crate::strength::file::StrengthFile;
 use toron::host::units::UnitSystem;
+use toron_explicit_host::control_keys::control;
+use toron_explicit_host::medium::Control;
+use toron_explicit_host::struck::plan::Plan;
 use toron_materials::material::file::MaterialFile;
 use toron_materials::material::model::Material;
 use toron_materials::material::of_law::material_of_law;

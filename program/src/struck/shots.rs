@@ -1,9 +1,9 @@
 //! The table `[shots]` of a scene: how a series of shots differs from the one that the scene describes.
 //! `docs/guides/v50.md` has the keys; `toron v50` fires them.
 
-use crate::explicit::control_keys::zero_or_more;
 use serde::Deserialize;
 use toml::Spanned;
+use toron_explicit_host::control_keys::zero_or_more;
 
 use toron::host::units::UnitSystem;
 use toron_materials::material::model::Material;

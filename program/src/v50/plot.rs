@@ -9,7 +9,7 @@ use super::link::Link;
 use super::scene::Scene;
 use super::series::Series;
 use super::shot::{Ended, Ending};
-use crate::explicit::judgement::SOUND;
+use toron_explicit_host::judgement::SOUND;
 use toron_materials::units::{SPEED, unit};
 use toron_pictures::legend::{self, BAND, Mark};
 use toron_pictures::page::{self, Area, Drawn};

@@ -10,7 +10,7 @@ use csv::{Position, ReaderBuilder, StringRecord, WriterBuilder};
 use super::difference;
 use super::scene::{Scene, Shot};
 use super::shot::{Ended, Ending};
-use crate::struck::history::title;
+use toron_explicit_host::struck::history::title;
 use toron_materials::units::{LENGTH, SPEED, TIME};
 use toron_shared::build;
 use toron_shared::error::Error;

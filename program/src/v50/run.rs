@@ -13,7 +13,7 @@ use super::designs::Fired;
 use super::records::Records;
 use super::scene::{Scene, Shot};
 use super::shot::{Ended, Ending, Watch, fire};
-use crate::struck::pace::{Estimate, duration};
+use toron_explicit_host::struck::pace::{Estimate, duration};
 use toron_materials::units::{SPEED, unit};
 use toron_shared::console::print_note;
 use toron_shared::error::Error;

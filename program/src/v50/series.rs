@@ -5,7 +5,7 @@ use super::lambert_jonas::{Degenerate, LambertJonas};
 use super::link::Link;
 use super::shot::{Ended, Ending};
 use super::test_houses::{self, Mean};
-use crate::explicit::judgement::parts_of_verdict;
+use toron_explicit_host::judgement::parts_of_verdict;
 
 /// As many stops and as many perforations as test houses take: of four, six and ten shots.
 const EACH: [usize; 3] = [2, 3, 5];

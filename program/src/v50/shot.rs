@@ -5,14 +5,14 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use super::curve::Fate;
 use super::scene::{Scene, Shot, Target};
-use crate::explicit::judgement::{Finding, verdict};
 use crate::fabric::run::StruckPanel;
 use crate::fabric::summary::Figures;
 use crate::impact::run::StruckYarn;
-use crate::struck::pace::Estimate;
-use crate::struck::run::{self, End, Observer};
-use crate::struck::sample::Sample;
 use crate::{fabric, impact};
+use toron_explicit_host::judgement::{Finding, verdict};
+use toron_explicit_host::struck::pace::Estimate;
+use toron_explicit_host::struck::run::{self, End, Observer};
+use toron_explicit_host::struck::sample::Sample;
 use toron_shared::error::Error;
 use toron_shared::text_table::NONE;
 

@@ -9,7 +9,7 @@
 use super::geometry::{Family, Geometry, Weave};
 use super::mesh::lines;
 use super::panel::{Panel, Place};
-use crate::explicit::tie::Tie;
+use toron_explicit_host::tie::Tie;
 
 /// Columns of a coarse section.
 pub const COLUMNS: usize = 2;

@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 
 use super::geometry::{Family, Geometry};
 use super::model::{Model, Yarn};
-use crate::explicit::hexahedron::{Edges, solid_corners};
+use toron_explicit_host::hexahedron::{Edges, solid_corners};
 
 /// Lengths are in the units of the weave.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -7,7 +7,7 @@ use super::geometry::{Family, Geometry, Weave};
 use super::model::{Crossing, Face, Grid, LEFT, LOWER, Model, Piece, RIGHT, Side, UPPER, Yarn};
 use super::panel::{Panel, Part, Place};
 use super::section::Columns;
-use crate::explicit::tie::Tie;
+use toron_explicit_host::tie::Tie;
 
 impl Model {
     /// Meshes a panel of a weave.

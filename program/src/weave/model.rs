@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::geometry::Family;
-use crate::explicit::tie::Tie;
+use toron_explicit_host::tie::Tie;
 
 /// Faces of an element, by the corners that stand counterclockwise seen from outside.
 pub const UPPER: [usize; 4] = [2, 6, 7, 3];

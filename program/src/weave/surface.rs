@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 
 use super::model::Model;
-use crate::explicit::mutual_contact::outer_faces;
+use toron_explicit_host::mutual_contact::outer_faces;
 
 /// A side of an element that can be seen, where the nodes are now.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,7 +1,7 @@
 //! A meshed panel as ParaView reads it.
 
 use super::model::Model;
-use crate::common::vtk::{self, array, doubles};
+use toron_explicit_host::vtk::{self, array, doubles};
 
 /// The text of a VTU file, in double precision so that a scene reads the same mesh from it; each cell has the number of
 /// its yarn from 0, its family (0 warp, 1 weft) and its fibre direction.

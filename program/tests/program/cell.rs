@@ -18,6 +18,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+use toron_explicit_host::struck::run::Observer;
 use toron_program::cell::arrangement;
 use toron_program::cell::disc::Disc;
 use toron_program::cell::energies::Increment;
@@ -28,7 +29,6 @@ use toron_program::cell::report::largest_spring_share;
 use toron_program::cell::run::{self, Outcome};
 use toron_program::cell::scene::{Arrangement, BoxOf, Load, Packing, Scene};
 use toron_program::cell::solver::Job;
-use toron_program::struck::run::Observer;
 use toron_shared::error::Error;
 
 use crate::calculix_decks::SOLVER;

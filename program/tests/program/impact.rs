@@ -17,15 +17,15 @@ use std::path::{Path, PathBuf};
 
 use toron::Rotation;
 use toron::host::units::UnitSystem;
+use toron_explicit_host::judgement::{Finding, verdict};
+use toron_explicit_host::struck::run::Observer;
+use toron_explicit_host::struck::{self, checkpoint};
 use toron_materials::material::model::Law;
-use toron_program::explicit::judgement::{Finding, verdict};
 use toron_program::identify::parameter::Parameter;
 use toron_program::impact::judgement::{contact, hourglass, judge};
 use toron_program::impact::outcome::{End, OfYarn, Outcome, Sample};
 use toron_program::impact::run::{self, StruckYarn};
 use toron_program::impact::scene::{Case, Outputs, Scene, Striker, Zones};
-use toron_program::struck::run::Observer;
-use toron_program::struck::{self, checkpoint};
 use toron_shared::error::Error;
 
 fn folder() -> PathBuf {

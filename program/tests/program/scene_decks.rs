@@ -7,7 +7,7 @@ use std::process::Command;
 
 use nalgebra::{Matrix3, Vector3};
 
-use toron_program::explicit::judgement::warnings as warnings_of;
+use toron_explicit_host::judgement::warnings as warnings_of;
 use toron_program::fabric;
 
 use crate::library::{ROOT, folder, run};

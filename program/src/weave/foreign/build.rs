@@ -6,11 +6,11 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::orient::Corners;
 use super::raw::{Element, Raw};
-use crate::explicit::mutual_contact::outer_faces;
 use crate::weave::geometry::Family;
 use crate::weave::model::{Crossing, END, Face, Grid, LEFT, LOWER, Model, Piece, RIGHT, START, Side, UPPER, Yarn};
 use crate::weave::panel::Part;
 use crate::weave::torn;
+use toron_explicit_host::mutual_contact::outer_faces;
 
 /// Lengths smaller than this part of a yarn's width are rounding in the file.
 const ROUNDING: f64 = 1e-4;

@@ -5,11 +5,11 @@ use rayon::prelude::*;
 
 use super::bins::{Bins, around};
 use super::build::LongAxis;
-use crate::explicit::hexahedron::{Edges, solid_corners};
 use crate::weave::cut;
 use crate::weave::distance::{self, Quad};
 use crate::weave::geometry::Family;
 use crate::weave::model::{END, Model, START, Yarn};
+use toron_explicit_host::hexahedron::{Edges, solid_corners};
 use toron_shared::numbers::number;
 
 /// Stations along a yarn at which its height is measured; the middle one of the heights counts.

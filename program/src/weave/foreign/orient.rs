@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use crate::explicit::hexahedron::Edges;
+use toron_explicit_host::hexahedron::Edges;
 
 /// Corner c of an element stands on the upper side of axis i where bit i of c is set: solvers number them so.
 const CORNERS: [usize; 8] = [0, 1, 3, 2, 4, 5, 7, 6];

@@ -5,9 +5,9 @@
 use serde::{Deserialize, Serialize};
 
 use super::surface::{NONE, Surface};
-use crate::explicit::instructions::{Loops, run_widest};
-use crate::explicit::lanes::{LANES, Lanes, add, cross, dot, sub};
-use crate::explicit::vector::Vector;
+use crate::instructions::{Loops, run_widest};
+use crate::lanes::{LANES, Lanes, add, cross, dot, sub};
+use crate::vector::Vector;
 
 /// A place on a face, from −1 to 1 both ways.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -390,8 +390,8 @@ fn plus(a: Vectors, factor: Lanes<f64>, b: Vectors) -> Vectors {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::explicit::mesh::Mesh;
-    use crate::explicit::vector::{dot, minus};
+    use crate::mesh::Mesh;
+    use crate::vector::{dot, minus};
 
     fn surface(nodes: &[[f64; 3]], faces: &[[u32; 4]]) -> Surface {
         let mesh = Mesh {

@@ -5,11 +5,11 @@ use std::collections::HashMap;
 use serde::{Deserialize, Serialize};
 
 use super::bounds::Bounds;
-use crate::explicit::body::Body;
-use crate::explicit::lanes::Number;
-use crate::explicit::mesh::Mesh;
-use crate::explicit::tie::Tie;
-use crate::explicit::vector::minus;
+use crate::body::Body;
+use crate::lanes::Number;
+use crate::mesh::Mesh;
+use crate::tie::Tie;
+use crate::vector::minus;
 
 /// No face.
 pub const NONE: u32 = u32::MAX;

@@ -3,11 +3,11 @@
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use crate::explicit::body::Body;
-use crate::explicit::energies::Energies;
-use crate::explicit::lanes::{Number, largest};
-use crate::explicit::medium::Medium;
-use crate::explicit::solver::Solver;
+use crate::body::Body;
+use crate::energies::Energies;
+use crate::lanes::{Number, largest};
+use crate::medium::Medium;
+use crate::solver::Solver;
 
 /// Energies and the force are those of the whole, also where a part of it is computed; what is counted is counted in
 /// that part.
@@ -19,7 +19,7 @@ pub struct Sample<E> {
     pub travel: f64,
     pub force: f64,
     pub energies: Energies,
-    /// The internal energy by mode, as [`ENERGY_NAMES`](crate::explicit::medium::ENERGY_NAMES) has them, and the
+    /// The internal energy by mode, as [`ENERGY_NAMES`](crate::medium::ENERGY_NAMES) has them, and the
     /// largest densities and the largest failure index of intact elements.
     pub parts: [f64; 5],
     pub largest: [f64; 5],

@@ -4,7 +4,7 @@ use super::body::Body;
 use super::lanes::Number;
 use super::medium::ENERGY_NAMES;
 use super::solver::Solver;
-use crate::common::vtk::{self, array, components, vectors};
+use crate::vtk::{self, array, components, vectors};
 use toron::law::state::{FAILURE_INDEX, HYPERELASTIC, INVARIANTS};
 use toron::law::status;
 use toron_shared::error::Error;

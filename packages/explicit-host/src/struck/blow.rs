@@ -2,8 +2,8 @@
 
 use std::ops::RangeInclusive;
 
-use crate::explicit::contact::Rigid;
-use crate::explicit::judgement::Finding;
+use crate::contact::Rigid;
+use crate::judgement::Finding;
 use toron::host::units::UnitSystem;
 use toron_materials::units::{CONTACT_STIFFNESS, LENGTH, SPEED, unit};
 use toron_shared::numbers::number;

@@ -194,7 +194,6 @@ impl<T: Number> Body<T> {
     }
 
     /// Deletes elements as if they had failed.
-    #[cfg(test)]
     pub fn delete(&mut self, elements: &[usize]) {
         for &element in elements {
             let place = self.blocks.partition_point(|block| block.first <= element) - 1;

@@ -62,7 +62,7 @@ mod tests {
     use nalgebra::{Matrix3, Vector3};
 
     use super::*;
-    use crate::explicit::element::{Measures, Shapes};
+    use crate::element::{Measures, Shapes};
     use toron::law::parameters;
     use toron::{Criterion, Rotation};
     use toron_materials::material::model::Origin;

@@ -6,8 +6,8 @@ use super::Parameters;
 use super::face::{Place, Query};
 use super::motion::Motion;
 use super::surface::Surface;
-use crate::explicit::friction::rub;
-use crate::explicit::vector::{Vector, add, dot};
+use crate::friction::rub;
+use crate::vector::{Vector, add, dot};
 
 /// A node near a face of another body.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]

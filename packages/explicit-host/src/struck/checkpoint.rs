@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::plan::Plan;
 use super::run::{End, OutcomeOf, ROUNDING, Struck};
-use crate::explicit::archive::Archive;
+use crate::archive::Archive;
 use toron_shared::build;
 use toron_shared::error::Error;
 use toron_shared::numbers::number;

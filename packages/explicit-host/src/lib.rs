@@ -3,7 +3,8 @@
 //!
 //! It calls the laws as a solver does, through their C entries: blocks of component-major arrays, history in place,
 //! deletion by the latch. The energies of its balance are those that the laws report, so that the balance tells whether
-//! stress and energy belong together and whether the step is short enough.
+//! stress and energy belong together and whether the step is short enough. [`struck`] runs a scene on it, from the first
+//! step to the last.
 
 pub mod archive;
 pub mod block;
@@ -26,8 +27,10 @@ pub mod snapshot;
 pub mod solid;
 pub mod solver;
 pub mod stress;
+pub mod struck;
 pub mod tie;
 pub mod vector;
 pub mod viscosity;
+pub mod vtk;
 pub mod vtu;
 pub mod wave_bounds;

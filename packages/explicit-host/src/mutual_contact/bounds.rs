@@ -1,6 +1,6 @@
 //! Boxes around vectors.
 
-use crate::explicit::vector::{Vector, dot, minus};
+use crate::vector::{Vector, dot, minus};
 
 /// A box that contains vectors.
 #[derive(Clone, Copy, Debug)]

@@ -1,7 +1,7 @@
 //! Which faces are near a point: columns of a grid over the two directions in which the bodies are largest.
 
 use super::surface::Surface;
-use crate::explicit::vector::{add, dot, minus, times};
+use crate::vector::{add, dot, minus, times};
 
 /// The faces' centres, sorted into columns.
 pub struct Grid {

@@ -1,9 +1,9 @@
 use super::*;
-use crate::explicit::body::Support;
-use crate::explicit::contact::{Contact, Rigid, Shape};
-use crate::explicit::lanes::largest;
-use crate::explicit::medium::Control;
-use crate::explicit::mesh::{Section, Yarn};
+use crate::body::Support;
+use crate::contact::{Contact, Rigid, Shape};
+use crate::lanes::largest;
+use crate::medium::Control;
+use crate::mesh::{Section, Yarn};
 use toron::law::parameters;
 use toron::{Criterion, Rotation};
 use toron_materials::material::model::{Law, Material, Origin};

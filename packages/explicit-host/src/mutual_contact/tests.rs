@@ -1,10 +1,10 @@
 use nalgebra::{Rotation3, Vector3};
 
 use super::*;
-use crate::explicit::body::Support;
-use crate::explicit::medium::{Control, Medium};
-use crate::explicit::mesh::{Mesh, Section, Yarn};
-use crate::explicit::solver::{Ramp, Solver};
+use crate::body::Support;
+use crate::medium::{Control, Medium};
+use crate::mesh::{Mesh, Section, Yarn};
+use crate::solver::{Ramp, Solver};
 use toron::law::parameters;
 use toron::{Criterion, Rotation};
 use toron_materials::material::model::{Law, Material, Origin};

@@ -376,8 +376,8 @@ impl<T: Number> Measures<T> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::explicit::stress::{Points, nominal_stress};
-    use crate::explicit::viscosity::Viscosity;
+    use crate::stress::{Points, nominal_stress};
+    use crate::viscosity::Viscosity;
 
     const MODULUS: f64 = 0.6;
     /// A skewed brick, and a prism whose upper rear edge has shrunk to nothing.

@@ -144,8 +144,8 @@ mod tests {
     use nalgebra::Matrix3;
 
     use super::*;
-    use crate::explicit::medium::Control;
-    use crate::explicit::stress::first_piola_kirchhoff;
+    use crate::medium::Control;
+    use crate::stress::first_piola_kirchhoff;
     use toron::law::parameters;
     use toron::{Criterion, Rotation};
     use toron_materials::material::model::{Law, Material, Origin};
