@@ -12,7 +12,7 @@ use serde_json::Value;
 type Arrows = (&'static str, &'static [&'static str], &'static [&'static str]);
 
 /// From the ground up.
-const ARROWS: [Arrows; 21] = [
+const ARROWS: [Arrows; 22] = [
     ("toron", &[], &[]),
     ("toron-shared", &[], &[]),
     ("toron-build-number", &[], &[]),
@@ -28,6 +28,7 @@ const ARROWS: [Arrows; 21] = [
     ("toron-c", &["toron"], &["toron-solvers"]),
     ("toron-materials", &["toron", "toron-build-number", "toron-pictures", "toron-shared", "toron-solvers"], &[]),
     ("toron-explicit-host", &["toron", "toron-materials", "toron-shared"], &[]),
+    ("toron-strikes", &["toron", "toron-explicit-host", "toron-materials", "toron-pictures", "toron-shared"], &[]),
     (
         "toron-program",
         &[
@@ -37,6 +38,7 @@ const ARROWS: [Arrows; 21] = [
             "toron-materials",
             "toron-pictures",
             "toron-shared",
+            "toron-strikes",
             "umat-check",
         ],
         &["toron-build-number"],

@@ -8,10 +8,11 @@ use clap_complete::Shell;
 use toron_materials::eval::command::Entry;
 use toron_materials::material::laws::Laws;
 use toron_materials::{bench, deck, eval, load_path, params};
-use toron_program::{cell, compare, fabric, fibres, identify, impact, init, scene_deck, v50};
+use toron_program::{cell, fibres, identify, init};
 use toron_shared::console::print;
 use toron_shared::error::Error;
 use toron_shared::{build, command_line};
+use toron_strikes::{compare, fabric, impact, scene_deck, v50};
 
 /// A user-material library for yarns and dry fabrics: load paths on one element, struck yarns and panels, property tables, decks.
 #[derive(Parser)]

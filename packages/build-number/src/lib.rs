@@ -14,8 +14,14 @@ pub const OF_MATERIALS: [&str; 7] = [
     "src",
 ];
 /// Those that the program toron has besides.
-pub const OF_PROGRAM: [&str; 4] =
-    ["packages/explicit-host/src", "packages/umat-check/src", "program/assets", "program/src"];
+pub const OF_PROGRAM: [&str; 6] = [
+    "packages/explicit-host/src",
+    "packages/strikes/assets",
+    "packages/strikes/src",
+    "packages/umat-check/src",
+    "program/assets",
+    "program/src",
+];
 /// What else the compiler is told.
 const OPTIONS: [&str; 2] = ["CARGO_ENCODED_RUSTFLAGS", "CARGO_CFG_TARGET_FEATURE"];
 

@@ -14,13 +14,13 @@ use super::reader::COMMON;
 use super::run::Folder;
 use super::scene::{Case, Scene};
 use super::{picture, plot, pressed, report, summary};
-use crate::impact::summary::write_strains;
 use toron_shared::console::{print, print_error, print_note};
 use toron_shared::error::Error;
 use toron_shared::file_names::{FIBRES, STRAIN, STRAINS};
 use toron_shared::kept_file;
 use toron_shared::progress::{self, Lines};
 use toron_shared::run_directory::{RunDirectory, Writes};
+use toron_strikes::impact::summary::write_strains;
 
 const SUMMARY: &str = "summary.csv";
 /// The file for the identification.

@@ -3,11 +3,11 @@
 use super::pressed::middle::Middle;
 use super::scene::{Case, MASS, Striker, Walls, contact_dimension};
 use super::section::Section;
-use crate::impact::outcome::STATIONS;
 use toron::host::units::UnitSystem;
 use toron::law::parameters::{DENSITY, Dimension, STRESS};
 use toron_materials::units::{LENGTH, SPEED, TIME};
 use toron_shared::error::Error;
+use toron_strikes::impact::outcome::STATIONS;
 
 /// LAMMPS's units of mass, length and time in SI.
 const PICOGRAM: f64 = 1e-15;

@@ -6,11 +6,11 @@ use super::history::{self, Line, Station};
 use super::model::{Model, Striking, micro};
 use super::run::Raw;
 use super::scene::{Case, Striker};
-use crate::impact::run::{FRONT, PLATEAU, front};
 use toron::host::units::UnitSystem;
 use toron_explicit_host::lanes::largest;
 use toron_materials::material::smith::{Smith, Tension};
 use toron_materials::units::{ENERGY, FORCE, LENGTH, SPEED, TIME};
+use toron_strikes::impact::run::{FRONT, PLATEAU, front};
 
 /// The part of the half length over which the speeds of fronts are fitted.
 const FITTED: [f64; 2] = [0.4, 0.85];

@@ -9,7 +9,6 @@ use super::frame::Frame;
 use super::model::{Model, Striking, micro};
 use super::outcome::Outcome;
 use super::scene::{Case, Scene};
-use crate::impact::outcome::STATIONS;
 use toron_materials::units::{LENGTH, TIME, time};
 use toron_pictures::colour_scale::{Colours, Scale};
 use toron_pictures::page::{self, Area, Drawn};
@@ -17,6 +16,7 @@ use toron_pictures::ruler;
 use toron_pictures::style::{GREY, INK, TEXT, TITLE, fine, stroke, text};
 use toron_pictures::view::View;
 use toron_shared::error::Error;
+use toron_strikes::impact::outcome::STATIONS;
 
 const WIDTH: i32 = 1280;
 /// Air beside all that is drawn.

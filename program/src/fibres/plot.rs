@@ -7,13 +7,13 @@ use super::frame::Frame;
 use super::model::{Striking, micro};
 use super::outcome::{Outcome, Sample};
 use super::scene::{Case, Scene};
-use crate::impact::outcome::STATIONS;
 use toron::host::units::UnitSystem;
 use toron_materials::units::{ENERGY, LENGTH, SPEED, TIME, time, unit};
 use toron_pictures::history::{self, Samples};
 use toron_pictures::panel::{self, Panel, Series, tidy};
 use toron_pictures::style::INK;
 use toron_shared::error::Error;
+use toron_strikes::impact::outcome::STATIONS;
 
 /// Speed, energies, strain and widths of a case over time, as far as they change.
 ///

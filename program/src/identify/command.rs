@@ -6,11 +6,11 @@ use std::path::{Path, PathBuf};
 use super::file::Job;
 use super::strength::file::StrengthJob;
 use super::{output, plot, region, report, strength, worth};
-use crate::impact::scene::Scene;
 use toron_shared::console::print;
 use toron_shared::error::Error;
 use toron_shared::kept_file;
 use toron_shared::run_directory::{Locked, RunDirectory, Writes};
+use toron_strikes::impact::scene::Scene;
 
 /// Fits the parameters to the data of a file and writes what came of it to the directory `output`; with a scene, also what it
 /// makes of them.

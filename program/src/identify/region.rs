@@ -10,7 +10,7 @@ use super::data::DataSet;
 use super::fit::{Fit, Group, Problem};
 use super::least_squares::{Weighted, search};
 use super::parameter::{Parameter, Values};
-use crate::common::confidence::LEVEL;
+use toron_strikes::confidence::LEVEL;
 
 /// So many points of the border.
 const POINTS: usize = 40;

@@ -12,7 +12,7 @@ use statrs::distribution::{ContinuousCDF, Normal, StudentsT};
 
 use super::least_squares::Solution;
 use super::parameter::{ALL, PARAMETERS, Parameter, Values};
-use crate::common::confidence::LEVEL;
+use toron_strikes::confidence::LEVEL;
 
 /// A parameter and its 95 % interval.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -13,14 +13,14 @@ use super::notes::STRONG;
 use super::parameter::{ALL, PARAMETERS, Parameter};
 use super::report::{digits, line, table};
 use super::uncertainty::Estimate;
-use crate::impact::run;
-use crate::impact::scene::{Case, Scene, Zones};
 use toron::law::parameters::{DENSITY, ENERGY_DENSITY};
 use toron_explicit_host::struck::plan::Plan;
 use toron_materials::material::model::{Law, Material};
 use toron_materials::units::{SPEED, unit};
 use toron_shared::error::Error;
 use toron_shared::numbers::number;
+use toron_strikes::impact::run;
+use toron_strikes::impact::scene::{Case, Scene, Zones};
 
 /// A run of a case.
 #[derive(Clone, Debug)]

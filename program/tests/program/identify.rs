@@ -16,7 +16,7 @@ use toron_program::identify::fit::{Fit, Problem};
 use toron_program::identify::parameter::{PARAMETERS, Parameter, Values};
 use toron_program::identify::response::{Measured, Quantity};
 use toron_program::identify::{notes, output, report, worth};
-use toron_program::impact::{self, scene::Scene};
+use toron_strikes::impact::{self, scene::Scene};
 
 /// Table 4.3, in GPa.
 const TRUE: Values = [82.341, 1.055, 2.2, 0.64974, 0.0, 0.0458, 1.8, 0.0];

@@ -19,8 +19,15 @@ const LIBRARIES: [&str; 7] = [
     "toron-openradioss-sp",
 ];
 /// What the program is made of besides.
-const PACKAGES: [&str; 6] =
-    ["toron-build-number", "toron-explicit-host", "toron-materials", "toron-pictures", "toron-shared", "umat-check"];
+const PACKAGES: [&str; 7] = [
+    "toron-build-number",
+    "toron-explicit-host",
+    "toron-materials",
+    "toron-pictures",
+    "toron-shared",
+    "toron-strikes",
+    "umat-check",
+];
 const TARGET: &str = "x86_64-unknown-linux-gnu";
 const PROGRAM: [&str; 1] = ["toron-program"];
 /// Licences with an Apache-2.0 among them need no text of their own: it is this repository's.

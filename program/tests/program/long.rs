@@ -9,7 +9,7 @@ use serde_json::Value;
 
 use crate::library::{BUILD, LIBRARY, ROOT, SYSTEM, folder, run};
 use toron_materials::bench::scene::Scene;
-use toron_program::fabric::scene::Scene as Panel;
+use toron_strikes::fabric::scene::Scene as Panel;
 
 /// The program as users build it: with the tests' dependencies some of its code would be another.
 static PROGRAM: LazyLock<PathBuf> = LazyLock::new(|| {

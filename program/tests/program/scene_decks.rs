@@ -8,7 +8,7 @@ use std::process::Command;
 use nalgebra::{Matrix3, Vector3};
 
 use toron_explicit_host::judgement::warnings as warnings_of;
-use toron_program::fabric;
+use toron_strikes::fabric;
 
 use crate::library::{ROOT, folder, run};
 use crate::python;

@@ -8,14 +8,14 @@ use toml::Spanned;
 
 use crate::identify::file::FitFile;
 use crate::identify::reader::plain_name;
-use crate::strength::fit::{self, Fit, Test};
-use crate::strength::scales::{self, ScaleFit};
 use toron::host::units::UnitSystem;
 use toron::law::parameters::{Dimension, NUMBER, STRESS};
 use toron_materials::data_table::{Cell, DataTable};
 use toron_materials::units::{self, LENGTH};
 use toron_shared::error::Error;
 use toron_shared::toml_file::{self, Source};
+use toron_strikes::strength::fit::{self, Fit, Test};
+use toron_strikes::strength::scales::{self, ScaleFit};
 
 /// A table `[[strength]]`.
 #[derive(Deserialize)]

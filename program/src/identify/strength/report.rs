@@ -2,11 +2,11 @@
 
 use super::file::{Found, Set, StrengthJob};
 use crate::identify::report::{digits, line};
-use crate::strength::fit::{Estimate, Fit, Test, probability_of_one_law};
-use crate::strength::scales::{ScaleFit, contradiction};
 use toron::host::units::UnitSystem;
 use toron::law::parameters::NUMBER;
 use toron_materials::units::{LENGTH, unit};
+use toron_strikes::strength::fit::{Estimate, Fit, Test, probability_of_one_law};
+use toron_strikes::strength::scales::{ScaleFit, contradiction};
 
 /// A law that tests contradict by chance in fewer cases is in doubt.
 const DOUBT: f64 = 0.05;

@@ -113,7 +113,7 @@ fn a_yarn_is_pulled_out_of_a_patch_against_more_than_a_rope_s_friction() {
 
 #[test]
 fn every_example_is_valid() {
-    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../examples/fabric_impact");
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples/fabric_impact");
     let mut cases = 0;
     for file in std::fs::read_dir(folder).expect("there are scenes") {
         let path = file.expect("the folder can be read").path();

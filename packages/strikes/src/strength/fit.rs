@@ -7,8 +7,8 @@
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 use super::weibull::Weibull;
-use crate::common::confidence::{crossing, refusal};
-use crate::common::root::root;
+use crate::confidence::{crossing, refusal};
+use crate::root::root;
 
 /// A modulus beyond this is not told from no scatter.
 const LARGEST: f64 = 1e6;

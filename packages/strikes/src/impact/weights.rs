@@ -87,7 +87,7 @@ mod tests {
     use crate::impact::judgement::before;
     use crate::impact::scene::Scene;
 
-    const YARN: &str = include_str!("../../assets/init/yarn.toml");
+    const YARN: &str = include_str!("../../../../program/assets/init/yarn.toml");
 
     fn parse(text: &str) -> Scene {
         Scene::parse("yarn.toml", text).expect("a scene")
@@ -137,7 +137,7 @@ mod tests {
 
     #[test]
     fn the_examples_are_as_they_are_meant() {
-        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/yarn_impact");
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples/yarn_impact");
         let files = std::fs::read_dir(folder).expect("a folder").map(|file| file.expect("a file").path());
         let mut scenes: Vec<Scene> = files.map(|file| Scene::read(&file).expect("a scene")).collect();
         assert!(scenes.len() > 10, "{}", scenes.len());

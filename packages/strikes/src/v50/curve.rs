@@ -7,7 +7,7 @@
 
 use super::likelihood::{Likelihood, SLOPES};
 use super::link::Link;
-use crate::common::confidence::{crossing, refusal};
+use crate::confidence::{crossing, refusal};
 
 /// The chances whose speeds are reported: V5, V50 and V95.
 pub const CHANCES: [f64; 3] = [0.05, 0.5, 0.95];

@@ -6,7 +6,7 @@
 use statrs::distribution::{ChiSquared, ContinuousCDF, StudentsT};
 
 use super::fit::Estimate;
-use crate::common::confidence::LEVEL;
+use crate::confidence::LEVEL;
 
 /// n times the variance of ln m of samples of n tests, in large samples: 6/π².
 const VARIANCE: f64 = 0.607_927_101_854_026_6;

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use super::curve::{CHANCES, Curve, Fate, Mix};
 use super::designs::{Design, Fired, scattered};
 use super::link::Link;
-use crate::common::chance::uniform;
+use crate::chance::uniform;
 
 /// How shots are fired.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -6,7 +6,7 @@
 //! would have one in the middle, under the blow.
 
 use super::weibull::Weibull;
-use crate::common::chance::uniform;
+use crate::chance::uniform;
 
 /// Which yarn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

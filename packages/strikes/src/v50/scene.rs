@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::designs::{Design, scattered};
-use crate::common::chance::uniform;
+use crate::chance::uniform;
 use crate::impact::scene::Striker;
 use crate::strength::scatter::Strength;
 use crate::struck::shots::{AimName, DesignName, Shots};
