@@ -12,7 +12,7 @@ use serde_json::Value;
 type Arrows = (&'static str, &'static [&'static str], &'static [&'static str]);
 
 /// From the ground up.
-const ARROWS: [Arrows; 22] = [
+const ARROWS: [Arrows; 23] = [
     ("toron", &[], &[]),
     ("toron-shared", &[], &[]),
     ("toron-build-number", &[], &[]),
@@ -30,18 +30,22 @@ const ARROWS: [Arrows; 22] = [
     ("toron-explicit-host", &["toron", "toron-materials", "toron-shared"], &[]),
     ("toron-strikes", &["toron", "toron-explicit-host", "toron-materials", "toron-pictures", "toron-shared"], &[]),
     (
+        "toron-parameters",
+        &["toron", "toron-explicit-host", "toron-materials", "toron-pictures", "toron-shared", "toron-strikes"],
+        &[],
+    ),
+    (
         "toron-program",
         &[
             "toron",
             "toron-build-number",
-            "toron-explicit-host",
             "toron-materials",
-            "toron-pictures",
+            "toron-parameters",
             "toron-shared",
             "toron-strikes",
             "umat-check",
         ],
-        &["toron-build-number"],
+        &["toron-build-number", "toron-explicit-host", "toron-pictures"],
     ),
     ("toron-benches", &[], &["toron", "toron-materials", "toron-pictures"]),
     // `examples/own_law`.

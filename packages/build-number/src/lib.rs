@@ -14,8 +14,9 @@ pub const OF_MATERIALS: [&str; 7] = [
     "src",
 ];
 /// Those that the program toron has besides.
-pub const OF_PROGRAM: [&str; 6] = [
+pub const OF_PROGRAM: [&str; 7] = [
     "packages/explicit-host/src",
+    "packages/parameters/src",
     "packages/strikes/assets",
     "packages/strikes/src",
     "packages/umat-check/src",

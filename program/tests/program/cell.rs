@@ -19,16 +19,16 @@ use std::process::Command;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use toron_explicit_host::struck::run::Observer;
-use toron_program::cell::arrangement;
-use toron_program::cell::disc::Disc;
-use toron_program::cell::energies::Increment;
-use toron_program::cell::explicit_run::{self, OfSection};
-use toron_program::cell::model::Model;
-use toron_program::cell::output;
-use toron_program::cell::report::largest_spring_share;
-use toron_program::cell::run::{self, Outcome};
-use toron_program::cell::scene::{Arrangement, BoxOf, Load, Packing, Scene};
-use toron_program::cell::solver::Job;
+use toron_parameters::cell::arrangement;
+use toron_parameters::cell::disc::Disc;
+use toron_parameters::cell::energies::Increment;
+use toron_parameters::cell::explicit_run::{self, OfSection};
+use toron_parameters::cell::model::Model;
+use toron_parameters::cell::output;
+use toron_parameters::cell::report::largest_spring_share;
+use toron_parameters::cell::run::{self, Outcome};
+use toron_parameters::cell::scene::{Arrangement, BoxOf, Load, Packing, Scene};
+use toron_parameters::cell::solver::Job;
 use toron_shared::error::Error;
 
 use crate::calculix_decks::SOLVER;

@@ -10,12 +10,12 @@ use crate::library::ROOT;
 use toron::host::units::UnitSystem;
 use toron_materials::load_path::path::LoadPath;
 use toron_materials::material::laws::Laws;
-use toron_program::identify::data::{Axis, DataSet, Loading};
-use toron_program::identify::file::Job;
-use toron_program::identify::fit::{Fit, Problem};
-use toron_program::identify::parameter::{PARAMETERS, Parameter, Values};
-use toron_program::identify::response::{Measured, Quantity};
-use toron_program::identify::{notes, output, report, worth};
+use toron_parameters::identify::data::{Axis, DataSet, Loading};
+use toron_parameters::identify::file::Job;
+use toron_parameters::identify::fit::{Fit, Problem};
+use toron_parameters::identify::parameter::{PARAMETERS, Parameter, Values};
+use toron_parameters::identify::response::{Measured, Quantity};
+use toron_parameters::identify::{notes, output, report, worth};
 use toron_strikes::impact::{self, scene::Scene};
 
 /// Table 4.3, in GPa.

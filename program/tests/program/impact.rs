@@ -21,7 +21,7 @@ use toron_explicit_host::judgement::{Finding, verdict};
 use toron_explicit_host::struck::run::Observer;
 use toron_explicit_host::struck::{self, checkpoint};
 use toron_materials::material::model::Law;
-use toron_program::identify::parameter::Parameter;
+use toron_parameters::identify::parameter::Parameter;
 use toron_shared::error::Error;
 use toron_strikes::impact::judgement::{contact, hourglass, judge};
 use toron_strikes::impact::outcome::{End, OfYarn, Outcome, Sample};

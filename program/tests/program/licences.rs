@@ -19,10 +19,11 @@ const LIBRARIES: [&str; 7] = [
     "toron-openradioss-sp",
 ];
 /// What the program is made of besides.
-const PACKAGES: [&str; 7] = [
+const PACKAGES: [&str; 8] = [
     "toron-build-number",
     "toron-explicit-host",
     "toron-materials",
+    "toron-parameters",
     "toron-pictures",
     "toron-shared",
     "toron-strikes",
