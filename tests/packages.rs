@@ -12,12 +12,13 @@ use serde_json::Value;
 type Arrows = (&'static str, &'static [&'static str], &'static [&'static str]);
 
 /// From the ground up.
-const ARROWS: [Arrows; 23] = [
-    ("toron", &[], &[]),
+const ARROWS: [Arrows; 25] = [
+    ("toron", &[], &["reinforced-solid", "toron-test-support"]),
+    ("toron-test-support", &["toron"], &[]),
     ("toron-shared", &[], &[]),
     ("toron-build-number", &[], &[]),
     ("toron-pictures", &["toron-shared"], &[]),
-    ("umat-check", &["toron-shared"], &[]),
+    ("umat-check", &["toron-shared"], &["toron-test-support"]),
     ("toron-solvers", &["toron"], &[]),
     ("toron-abaqus", &["toron", "toron-solvers"], &[]),
     ("toron-abaqus-sp", &["toron", "toron-solvers"], &[]),
@@ -25,8 +26,12 @@ const ARROWS: [Arrows; 23] = [
     ("toron-mgis", &["toron", "toron-solvers"], &[]),
     ("toron-openradioss", &["toron", "toron-solvers"], &[]),
     ("toron-openradioss-sp", &["toron", "toron-solvers"], &[]),
-    ("toron-c", &["toron"], &["toron-solvers"]),
-    ("toron-materials", &["toron", "toron-build-number", "toron-pictures", "toron-shared", "toron-solvers"], &[]),
+    ("toron-c", &["toron"], &["reinforced-solid", "toron-solvers", "toron-test-support"]),
+    (
+        "toron-materials",
+        &["toron", "toron-build-number", "toron-pictures", "toron-shared", "toron-solvers"],
+        &["reinforced-solid", "toron-test-support"],
+    ),
     ("toron-explicit-host", &["toron", "toron-materials", "toron-shared"], &[]),
     ("toron-strikes", &["toron", "toron-explicit-host", "toron-materials", "toron-pictures", "toron-shared"], &[]),
     (
@@ -45,9 +50,10 @@ const ARROWS: [Arrows; 23] = [
             "toron-strikes",
             "umat-check",
         ],
-        &["toron-build-number", "toron-explicit-host", "toron-pictures"],
+        &["toron-build-number", "toron-explicit-host", "toron-pictures", "toron-test-support"],
     ),
-    ("toron-benches", &[], &["toron", "toron-materials", "toron-pictures"]),
+    ("toron-benches", &[], &["toron", "toron-materials", "toron-pictures", "toron-test-support"]),
+    ("xtask", &[], &[]),
     // `examples/own_law`.
     ("reinforced-solid", &["toron"], &[]),
     ("own-law-double", &["reinforced-solid", "toron-solvers"], &[]),

@@ -1,9 +1,5 @@
 //! A program for a law of one's own: its load paths against the closed form, its tables, messages and cards.
 
-// The example's law, whose package is in a workspace of its own.
-#[path = "../../../examples/own_law/law/src/lib.rs"]
-mod reinforced_solid;
-
 use std::path::{Path, PathBuf};
 
 use clap::Parser;

@@ -5,7 +5,7 @@ use std::process::Command;
 
 use toron_build_number::{OF_MATERIALS, OF_PROGRAM, checksum};
 
-use crate::library::{ROOT, folder, run};
+use toron_test_support::library::{ROOT, folder, run};
 
 #[test]
 fn a_checksum_is_of_the_sources_and_not_of_their_place() {

@@ -1,7 +1,7 @@
 //! The documents say what the library says. What stands in them between `<!-- generated: NAME -->` and `<!-- end -->` is the
-//! library's own words, or what the program prints where NAME is a command; `TORON_WRITE_DOCS=1 cargo test -p toron-program
-//! documents` writes it anew. The programs shown there compile and print what is shown behind them, links lead to a file and to a
-//! heading in it, and the code names of the symbols exist.
+//! library's own words, or what the program prints where NAME is a command; `cargo xtask update documents` writes it
+//! anew. The programs shown there compile and print what is shown behind them, links lead to a file and to a heading in
+//! it, and the code names of the symbols exist.
 
 use std::collections::BTreeSet;
 use std::ffi::c_char;
@@ -11,7 +11,6 @@ use std::ptr::{null, null_mut};
 
 use toron_build_number::{OF_MATERIALS, OF_PROGRAM};
 
-use crate::library::{LIBRARY, ROOT, SYSTEM, folder, run};
 use nalgebra::{Matrix3, Vector3};
 use toron::host::abaqus::{StandardLaw, Umat};
 use toron::host::c::TORON_MESSAGE_CAPACITY;
@@ -22,6 +21,8 @@ use toron::law::state::{self, ENERGIES, FAILED, HYPERELASTIC_STATE, INVARIANTS, 
 use toron::law::status;
 use toron::{Criterion, LinearElastic, Rotation};
 use toron::{Hyperelastic, Point, Request};
+use toron_test_support::library::{LIBRARY, ROOT, SYSTEM, folder, run};
+use toron_test_support::update::is_asked;
 
 const DOCUMENTS: [&str; 14] = [
     "../README.md",
@@ -214,7 +215,7 @@ fn fit(example: &str, output: &Path) -> String {
 fn fit_of_energies() -> String {
     let output = folder("fit-of-energies");
     let report = fit("energies", &output);
-    if std::env::var_os("TORON_WRITE_PICTURES").is_some() {
+    if is_asked("pictures") {
         std::fs::copy(output.join("fit.png"), document("images/fit.png")).expect("docs/images/fit.png");
     }
     report
@@ -335,13 +336,10 @@ fn generated_parts_are_current() {
     let mut count = 0;
     for name in DOCUMENTS {
         let (text, parts) = regenerated(&read(name));
-        if std::env::var_os("TORON_WRITE_DOCS").is_some() {
+        if is_asked("documents") {
             std::fs::write(document(name), &text).expect("docs are writable");
         }
-        assert!(
-            read(name) == text,
-            "docs/{name} is not current: TORON_WRITE_DOCS=1 cargo test -p toron-program documents"
-        );
+        assert!(read(name) == text, "docs/{name} is not current: cargo xtask update documents");
         count += parts;
     }
     assert_eq!(count, 22, "a part has got lost");

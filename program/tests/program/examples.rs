@@ -25,7 +25,7 @@ const TOLERANCE: f64 = 1e-11;
 const NEWTON: f64 = 1e-9;
 
 fn load(name: &str) -> LoadPath {
-    LoadPath::read(Laws::Toron, &Path::new(crate::library::ROOT).join("examples").join(name))
+    LoadPath::read(Laws::Toron, &Path::new(toron_test_support::library::ROOT).join("examples").join(name))
         .expect("the example is valid")
 }
 

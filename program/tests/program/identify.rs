@@ -6,7 +6,6 @@ use std::process::Command;
 use approx::{assert_abs_diff_eq, assert_relative_eq};
 use nalgebra::Matrix3;
 
-use crate::library::ROOT;
 use toron::host::units::UnitSystem;
 use toron_materials::load_path::path::LoadPath;
 use toron_materials::material::laws::Laws;
@@ -17,6 +16,7 @@ use toron_parameters::identify::parameter::{PARAMETERS, Parameter, Values};
 use toron_parameters::identify::response::{Measured, Quantity};
 use toron_parameters::identify::{notes, output, report, worth};
 use toron_strikes::impact::{self, scene::Scene};
+use toron_test_support::library::ROOT;
 
 /// Table 4.3, in GPa.
 const TRUE: Values = [82.341, 1.055, 2.2, 0.64974, 0.0, 0.0458, 1.8, 0.0];

@@ -29,7 +29,7 @@ use toron_strikes::impact::run::{self, StruckYarn};
 use toron_strikes::impact::scene::{Case, Outputs, Scene, Striker, Zones};
 
 fn folder() -> PathBuf {
-    Path::new(crate::library::ROOT).join("examples/yarn_impact")
+    Path::new(toron_test_support::library::ROOT).join("examples/yarn_impact")
 }
 
 /// A case of one of the scenes.

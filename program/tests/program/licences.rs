@@ -1,5 +1,5 @@
-//! THIRD-PARTY.md lists what is linked into the libraries and the program today, with the licences. `TORON_WRITE_LICENCES=1 cargo test
-//! -p toron-program licences` writes it anew. Every package, and the installed library, has the licence texts.
+//! THIRD-PARTY.md lists what is linked into the libraries and the program today, with the licences; `cargo xtask update
+//! licences` writes it anew. Every package, and the installed library, has the licence texts.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -7,7 +7,8 @@ use std::process::Command;
 
 use serde_json::Value;
 
-use crate::library::{INSTALLED, ROOT, run};
+use toron_test_support::library::{INSTALLED, ROOT, run};
+use toron_test_support::update::is_asked;
 
 const LIBRARIES: [&str; 7] = [
     "toron-abaqus",
@@ -120,11 +121,11 @@ fn generated() -> String {
 #[test]
 fn the_list_of_what_is_linked_is_current() {
     let (path, generated) = (Path::new(ROOT).join("THIRD-PARTY.md"), generated());
-    if std::env::var_os("TORON_WRITE_LICENCES").is_some() {
+    if is_asked("licences") {
         std::fs::write(&path, &generated).expect("THIRD-PARTY.md is writable");
     }
     let committed = std::fs::read_to_string(&path).unwrap_or_default();
-    let hint = "THIRD-PARTY.md is not current: run TORON_WRITE_LICENCES=1 cargo test -p toron-program licences";
+    let hint = "THIRD-PARTY.md is not current: cargo xtask update licences";
     assert!(committed == generated, "{hint}");
 }
 

@@ -1,13 +1,5 @@
 //! The program and the yarn under impact; CalculiX and Akantu, whose answers are held against them.
 
-#[path = "../../../tests/common/mod.rs"]
-mod common;
-#[path = "../../../tests/common/library.rs"]
-mod library;
-#[allow(dead_code)]
-#[path = "../../../tests/common/python.rs"]
-mod python;
-
 mod akantu;
 mod build;
 mod calculix;

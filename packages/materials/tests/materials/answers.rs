@@ -1,7 +1,6 @@
 //! What `toron eval` answers to the truth's cases through every entry, bit for bit: `answers/sums.txt` has a number for
-//! each entry and category, `answers/samples.jsonl` some answers as they are written. `TORON_WRITE_ANSWERS=1 cargo test
-//! -p toron-materials answers` writes both anew. What every exported entry answers to much else is recorded by
-//! `c/tests/c/answers.rs`.
+//! each entry and category, `answers/samples.jsonl` some answers as they are written. `cargo xtask update
+//! answers` writes both anew. What every exported entry answers to much else is recorded by `c/tests/c/answers.rs`.
 //!
 //! Numbers of AVX2 and AVX-512, which give the same bits; a processor with neither has nothing to compare.
 
@@ -14,6 +13,7 @@ use clap::ValueEnum;
 use serde_json::Value;
 use toron::Level;
 use toron_materials::eval::command::{Entry, evaluate};
+use toron_test_support::update::is_asked;
 
 const TRUTH: [&str; 2] =
     [include_str!("../../../../tests/truth/points.jsonl"), include_str!("../../../../tests/truth/far.jsonl")];
@@ -71,7 +71,7 @@ fn every_entry_answers_as_recorded() {
     let mut wrong = Vec::new();
     for (name, found) in ["sums.txt", "samples.jsonl"].into_iter().zip(recorded_today()) {
         let path = folder.join(name);
-        if std::env::var_os("TORON_WRITE_ANSWERS").is_some() {
+        if is_asked("answers") {
             std::fs::write(&path, &found).expect("the file is writable");
         }
         let recorded = std::fs::read_to_string(&path).expect(name);
@@ -79,6 +79,6 @@ fn every_entry_answers_as_recorded() {
         let pairs = found.lines().zip(recorded.lines());
         wrong.extend(pairs.filter(|(found, recorded)| found != recorded).map(|(a, b)| format!("{a}\nrecorded:\n{b}")));
     }
-    let write = "where that is meant: TORON_WRITE_ANSWERS=1 cargo test -p toron-materials answers";
+    let write = "where that is meant: cargo xtask update answers";
     assert!(wrong.is_empty(), "{}\n{write}", wrong.join("\n"));
 }

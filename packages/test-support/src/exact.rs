@@ -1,9 +1,4 @@
-//! What the test files share: exact numbers, the truth table's measure, random deformations.
-#![allow(dead_code)] // each test file uses its own part of this one
-
-pub mod block;
-pub mod deformations;
-pub mod truth;
+//! Exact numbers.
 
 use std::str::FromStr;
 

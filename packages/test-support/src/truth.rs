@@ -18,7 +18,7 @@ use toron::Point;
 use toron::law::parameters::HYPERELASTIC_PROPERTIES;
 use toron::law::state::{ENERGIES, FAILED, FAILURE_INDEX, INVARIANTS};
 
-use super::{Exact, decimal, exact, rounded};
+use super::exact::{Exact, decimal, exact, rounded};
 
 /// A true value, written with some twenty digits.
 #[derive(Deserialize)]
@@ -139,13 +139,13 @@ impl Case {
 
 /// Every case of the table of 320 points.
 pub fn cases() -> Vec<Case> {
-    read(include_str!("../truth/points.jsonl"))
+    read(include_str!("../../../tests/truth/points.jsonl"))
 }
 
 /// 176 points far from what a yarn does, where sums over F cancel: fibres that have slipped up to 10⁸ times the section's size,
 /// oblique fibres that are short beside F, pressed or with their section blown up, fibre directions next to a coordinate axis.
 pub fn far_cases() -> Vec<Case> {
-    read(include_str!("../truth/far.jsonl"))
+    read(include_str!("../../../tests/truth/far.jsonl"))
 }
 
 fn read(table: &str) -> Vec<Case> {

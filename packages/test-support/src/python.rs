@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::{LazyLock, Mutex};
 
-use crate::library::{LIBRARY, ROOT, folder, run};
+use super::library::{LIBRARY, ROOT, folder, run};
 
 /// The Python of an environment with what `requirements.txt` in this folder lists. It is made if it is not there.
 pub fn environment(requirements: &Path) -> PathBuf {

@@ -5,8 +5,13 @@ use std::process::{Command, Output};
 use std::sync::LazyLock;
 
 /// The repository.
-pub const ROOT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/..");
-pub const BUILD: &str = env!("CARGO_TARGET_TMPDIR");
+pub const ROOT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
+/// Where tests may write: CARGO_TARGET_TMPDIR, which Cargo tells tests and no package that they are built on.
+pub static BUILD: LazyLock<PathBuf> = LazyLock::new(|| {
+    // A test runs as TARGET/PROFILE/deps/NAME.
+    let test = std::env::current_exe().expect("a test has a file");
+    test.ancestors().nth(3).expect("Cargo's folder for what it builds").join("tmp")
+});
 
 /// What the static library needs of the system.
 pub const SYSTEM: [&str; 3] = ["-lpthread", "-ldl", "-lm"];
@@ -20,10 +25,10 @@ pub fn flags() -> String {
 /// The library as a user installs it, from today's source, but for the names of functions inside; the libraries that solvers load
 /// by themselves are with it.
 pub static INSTALLED: LazyLock<PathBuf> = LazyLock::new(|| {
-    let installed = Path::new(BUILD).join("installed");
+    let installed = BUILD.join("installed");
     let environment = |command: &mut Command| {
         command.env("RUSTFLAGS", flags()).env_remove("CARGO_ENCODED_RUSTFLAGS");
-        command.env("CARGO_TARGET_DIR", BUILD).env("CARGO_NET_OFFLINE", "true");
+        command.env("CARGO_TARGET_DIR", &*BUILD).env("CARGO_NET_OFFLINE", "true");
     };
     let mut install = Command::new(Path::new(ROOT).join("install.sh"));
     environment(&mut install);
@@ -42,8 +47,7 @@ pub static INSTALLED: LazyLock<PathBuf> = LazyLock::new(|| {
     run(cargo.args(packages.map(|package| format!("--package={package}"))), "cargo");
     for package in packages {
         let library = format!("lib{}.so", package.replace('-', "_"));
-        std::fs::copy(Path::new(BUILD).join("release").join(&library), installed.join("lib").join(&library))
-            .expect("a copy");
+        std::fs::copy(BUILD.join("release").join(&library), installed.join("lib").join(&library)).expect("a copy");
     }
     installed
 });
@@ -52,14 +56,13 @@ pub static INSTALLED: LazyLock<PathBuf> = LazyLock::new(|| {
 pub static LIBRARY: LazyLock<PathBuf> = LazyLock::new(|| INSTALLED.join("lib"));
 
 /// The law of `examples/own_law` as solvers load it: `own_law_double` and `own_law_single`, shared and static.
-#[allow(dead_code)] // not every test file needs it
 pub static OWN_LAW: LazyLock<PathBuf> = LazyLock::new(|| {
     let mut cargo = Command::new(env!("CARGO"));
     cargo
         .args(["build", "--release", "--locked", "--manifest-path"])
         .arg(Path::new(ROOT).join("examples/own_law/Cargo.toml"));
-    run(cargo.env("CARGO_TARGET_DIR", BUILD).env("CARGO_NET_OFFLINE", "true"), "cargo");
-    Path::new(BUILD).join("release")
+    run(cargo.env("CARGO_TARGET_DIR", &*BUILD).env("CARGO_NET_OFFLINE", "true"), "cargo");
+    BUILD.join("release")
 });
 
 /// Runs a command to its end, which must be a good one; `package` is where a user gets it.
@@ -74,7 +77,7 @@ pub fn run(command: &mut Command, package: &str) -> Output {
 
 /// A new folder, named after the program in it.
 pub fn folder(name: &str) -> PathBuf {
-    let folder = Path::new(BUILD).join(name);
+    let folder = BUILD.join(name);
     std::fs::create_dir_all(&folder).expect("a folder");
     folder
 }
