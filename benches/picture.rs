@@ -1,16 +1,17 @@
 //! The picture of the speed report, drawn from the report that lies in `benches/results`.
-//! `TORON_WRITE_PICTURES=1` writes it anew there: no bench is needed.
+//! `cargo xtask update pictures` writes it anew there: no bench is needed.
 
 #[path = "report/plot.rs"]
 mod plot;
 
 use std::path::Path;
+use toron_test_support::update::is_asked;
 
 #[test]
 fn the_speed_report_has_its_picture() {
     let results = Path::new(env!("CARGO_MANIFEST_DIR")).join("results");
     let report = std::fs::read_to_string(results.join("speed.json")).expect("the report, which `cargo bench` writes");
-    let writes = std::env::var_os("TORON_WRITE_PICTURES").is_some();
+    let writes = is_asked("pictures");
     let folder = if writes { results.clone() } else { Path::new(env!("CARGO_TARGET_TMPDIR")).to_path_buf() };
     plot::write(&report, &folder).expect("a picture");
     let drawn = std::fs::read_to_string(folder.join("speed.svg")).expect("an SVG");

@@ -3,15 +3,12 @@
 //! `cargo bench` measures, prints a table and writes `benches/results/`; docs/results/speed.md says how to read it.
 
 mod baselines;
-#[path = "../tests/common/mod.rs"]
-mod common;
 mod report;
 
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use baselines::{eigen, fortran, literal};
-use common::truth::{Case, cases};
 use criterion::Criterion;
 use nalgebra::{Matrix3, Scalar};
 use report::{Accuracy, Family, Machine, Quartiles, Report, Row};
@@ -21,9 +18,10 @@ use toron::Level;
 use toron::law::block::Precision;
 use toron::law::state::HYPERELASTIC_STATE;
 use toron::law::thesis::Yarn;
-use toron_program::bench::command::{SIZES, processor, properties};
-use toron_program::bench::entries::{Answer, Entry, each_point};
-use toron_program::bench::scene::Scene;
+use toron_materials::bench::command::{SIZES, processor, properties};
+use toron_materials::bench::entries::{Answer, Entry, each_point};
+use toron_materials::bench::scene::Scene;
+use toron_test_support::truth::{Case, cases};
 
 /// Every row is measured this often, in turn with the others, so that what disturbs one moment disturbs all.
 const ROUNDS: usize = 6;

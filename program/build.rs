@@ -1,57 +1,7 @@
-//! The checksum of the sources that the program is made of, and of the compiler's options that Cargo does not count to
-//! a package.
+//! What the number of this build is made of.
 
-use std::path::{Path, PathBuf};
-
-/// The workspace's folders that the program is compiled from.
-const SOURCES: [&str; 7] = [
-    "src",
-    "c/functions/src",
-    "solvers/src",
-    "packages/shared/src",
-    "packages/umat-check/src",
-    "program/src",
-    "program/assets",
-];
-/// What else the compiler is told.
-const OPTIONS: [&str; 2] = ["CARGO_ENCODED_RUSTFLAGS", "CARGO_CFG_TARGET_FEATURE"];
+use toron_build_number::{OF_MATERIALS, OF_PROGRAM, set_sources};
 
 fn main() {
-    let root = Path::new("..");
-    for folder in SOURCES.iter().map(|folder| root.join(folder)).filter(|folder| folder.is_dir()) {
-        println!("cargo::rerun-if-changed={}", folder.display());
-    }
-    println!("cargo::rerun-if-env-changed=RUSTFLAGS");
-    let options: Vec<String> = OPTIONS.iter().map(|option| std::env::var(option).unwrap_or_default()).collect();
-    println!("cargo::rustc-env=TORON_SOURCES={:08x}", checksum(root, &options));
-}
-
-/// Of the sources below `root`, wherever that is, by their names and contents.
-pub fn checksum(root: &Path, options: &[String]) -> u32 {
-    let mut files: Vec<PathBuf> = SOURCES.iter().flat_map(|folder| files(&root.join(folder))).collect();
-    // A folder has no order of its own.
-    files.sort();
-    let mut sum = crc32fast::Hasher::new();
-    let mut add = |bytes: &[u8]| {
-        sum.update(&bytes.len().to_le_bytes());
-        sum.update(bytes);
-    };
-    for file in files {
-        let name = file.strip_prefix(root).unwrap_or(&file);
-        add(name.to_string_lossy().as_bytes());
-        add(&std::fs::read(&file).unwrap_or_else(|error| panic!("{}: {error}", file.display())));
-    }
-    options.iter().for_each(|option| add(option.as_bytes()));
-    sum.finalize()
-}
-
-/// The files of a folder and of those in it; none of one that is not there, as where packages were taken apart from
-/// each other.
-fn files(folder: &Path) -> Vec<PathBuf> {
-    if !folder.is_dir() {
-        return Vec::new();
-    }
-    let entries = std::fs::read_dir(folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
-    let paths = entries.map(|entry| entry.unwrap_or_else(|error| panic!("{}: {error}", folder.display())).path());
-    paths.flat_map(|path| if path.is_dir() { files(&path) } else { vec![path] }).collect()
+    set_sources("..", &[&OF_MATERIALS[..], &OF_PROGRAM].concat());
 }

@@ -18,8 +18,6 @@ use toron::user::vector::{dot, transposed};
 use toron::user::{Real, Response, UserMaterial};
 use toron::{Criterion, Hyperelastic, LinearElastic, Measure, Request, Rotation};
 
-#[path = "../examples/own_law/law/src/lib.rs"]
-mod reinforced_solid;
 use reinforced_solid::ReinforcedSolid;
 
 /// Rows and columns of the components, of tensors and of symmetric ones; in the plane the first five and the first four.

@@ -12,10 +12,13 @@ use serde_json::Value;
 type Arrows = (&'static str, &'static [&'static str], &'static [&'static str]);
 
 /// From the ground up.
-const ARROWS: [Arrows; 18] = [
-    ("toron", &[], &[]),
+const ARROWS: [Arrows; 26] = [
+    ("toron", &[], &["reinforced-solid", "toron-test-support"]),
+    ("toron-test-support", &["toron"], &[]),
     ("toron-shared", &[], &[]),
-    ("umat-check", &["toron-shared"], &[]),
+    ("toron-build-number", &[], &[]),
+    ("toron-pictures", &["toron-shared"], &[]),
+    ("umat-check", &["toron-shared"], &["toron-test-support"]),
     ("toron-solvers", &["toron"], &[]),
     ("toron-abaqus", &["toron", "toron-solvers"], &[]),
     ("toron-abaqus-sp", &["toron", "toron-solvers"], &[]),
@@ -24,14 +27,39 @@ const ARROWS: [Arrows; 18] = [
     ("toron-openradioss", &["toron", "toron-solvers"], &[]),
     ("toron-openradioss-sp", &["toron", "toron-solvers"], &[]),
     ("toron-c-functions", &["toron"], &[]),
-    ("toron-c", &["toron-c-functions"], &["toron", "toron-solvers"]),
-    ("toron-program", &["toron", "toron-c-functions", "toron-shared", "toron-solvers", "umat-check"], &[]),
-    ("toron-benches", &[], &["toron", "toron-program"]),
+    ("toron-c", &["toron-c-functions"], &["reinforced-solid", "toron", "toron-solvers", "toron-test-support"]),
+    (
+        "toron-materials",
+        &["toron", "toron-build-number", "toron-c-functions", "toron-pictures", "toron-shared", "toron-solvers"],
+        &["reinforced-solid", "toron-test-support"],
+    ),
+    ("toron-explicit-host", &["toron", "toron-c-functions", "toron-materials", "toron-shared"], &[]),
+    ("toron-strikes", &["toron", "toron-explicit-host", "toron-materials", "toron-pictures", "toron-shared"], &[]),
+    (
+        "toron-parameters",
+        &["toron", "toron-explicit-host", "toron-materials", "toron-pictures", "toron-shared", "toron-strikes"],
+        &[],
+    ),
+    (
+        "toron-program",
+        &[
+            "toron",
+            "toron-build-number",
+            "toron-materials",
+            "toron-parameters",
+            "toron-shared",
+            "toron-strikes",
+            "umat-check",
+        ],
+        &["toron-build-number", "toron-explicit-host", "toron-pictures", "toron-test-support"],
+    ),
+    ("toron-benches", &[], &["toron", "toron-materials", "toron-pictures", "toron-test-support"]),
+    ("xtask", &[], &[]),
     // `examples/own_law`.
     ("reinforced-solid", &["toron"], &[]),
     ("own-law-double", &["reinforced-solid", "toron-solvers"], &[]),
     ("own-law-single", &["reinforced-solid", "toron-solvers"], &[]),
-    ("own-law-program", &["reinforced-solid", "toron-program"], &[]),
+    ("own-law-program", &["reinforced-solid", "toron-materials"], &[]),
 ];
 
 /// The packages of a workspace, each with what it needs of this repository: to be built, and for its tests.

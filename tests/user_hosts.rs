@@ -20,8 +20,6 @@ use toron::user::state::{ALIVE, FAILED, StateVariable, variable};
 use toron::user::vector::{dot, transposed};
 use toron::user::{Description, Real, Response, Step, User, UserMaterial};
 
-#[path = "../examples/own_law/law/src/lib.rs"]
-mod reinforced_solid;
 use reinforced_solid::ReinforcedSolid;
 
 /// A compressible neo-Hookean solid: σ = μ (b − 1)/J + μ ln J/J. No fibre, no state of its own, no energy, no failure.

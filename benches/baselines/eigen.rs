@@ -5,7 +5,7 @@ use nalgebra::{Matrix3, Matrix3x2, SymmetricEigen, Vector3};
 use toron::law::state::{FAILED, HYPERELASTIC_STATE};
 use toron::law::status;
 use toron::law::thesis::Yarn;
-use toron_program::bench::entries::Answer;
+use toron_materials::bench::entries::Answer;
 
 use super::components;
 

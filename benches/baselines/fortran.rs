@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use libloading::Library;
-use toron_program::bench::scene::Scene;
-use toron_program::entries::hosts::OnePoint;
+use toron_materials::bench::scene::Scene;
+use toron_materials::entries::hosts::OnePoint;
 
 const SOURCES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/baselines");
 const BUILD: &str = env!("CARGO_TARGET_TMPDIR");

@@ -7,8 +7,8 @@ use std::path::Path;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 use serde::{Deserialize, Serialize};
-use toron_program::picture::page::{self, Area, Drawn};
-use toron_program::picture::style::{COLOURS, GREY, INK, RULE, TEXT, TITLE, fine, stroke, superscript, text};
+use toron_pictures::page::{self, Area, Drawn};
+use toron_pictures::style::{COLOURS, GREY, INK, RULE, TEXT, TITLE, fine, stroke, superscript, text};
 
 /// Points a call of the times that are drawn: a batch in the cache.
 pub const CACHED: usize = 4096;

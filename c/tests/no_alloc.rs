@@ -36,8 +36,6 @@ const LINEAR: [[f64; L]; 3] = [
 /// The same for a law of one's own, the second one without a shear modulus.
 const REINFORCED: [[f64; 7]; 3] = [[0.8, 1.2, 20.0, 0.0, 1.0, 0.0, 0.0], [0.0; 7], [f64::NAN; 7]];
 
-#[path = "../../examples/own_law/law/src/lib.rs"]
-mod reinforced_solid;
 type OwnLaw = toron::law::user::User<reinforced_solid::ReinforcedSolid, f64>;
 
 /// Stretched; inverted; not finite.

@@ -5,15 +5,15 @@ use std::process::ExitCode;
 
 use clap::{CommandFactory, Parser, Subcommand};
 use clap_complete::Shell;
-use toron_program::eval::command::Entry;
-use toron_program::material::laws::Laws;
-use toron_program::{
-    WITH_TABLES, bench, cell, compare, deck, eval, fabric, fibres, identify, impact, init, load_path, params,
-    scene_deck, v50,
-};
-use toron_shared::command_line;
+use toron_materials::eval::command::Entry;
+use toron_materials::material::laws::Laws;
+use toron_materials::{bench, deck, eval, load_path, params};
+use toron_parameters::{cell, fibres, identify};
+use toron_program::init;
 use toron_shared::console::print;
 use toron_shared::error::Error;
+use toron_shared::{build, command_line};
+use toron_strikes::{compare, fabric, impact, scene_deck, v50};
 
 /// A user-material library for yarns and dry fabrics: load paths on one element, struck yarns and panels, property tables, decks.
 #[derive(Parser)]
@@ -132,6 +132,10 @@ enum Command {
     },
 }
 
+/// The commands whose output is tables, which they can print as JSON too.
+const WITH_TABLES: [&str; 12] =
+    ["init", "fit", "run", "weave", "fabric", "impact", "v50", "fibres", "cell", "params", "compare", "bench"];
+
 /// Made in memory first: the generator panics where it cannot write, and a reader that has gone is no error.
 fn completions(shell: Shell) {
     let mut script = Vec::new();
@@ -145,6 +149,7 @@ fn completions(shell: Shell) {
 }
 
 fn main() -> ExitCode {
+    build::declare::<Arguments>(env!("TORON_SOURCES"));
     command_line::run(Arguments::command(), &WITH_TABLES, |arguments: Arguments| run(arguments.command))
 }
 

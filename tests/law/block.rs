@@ -6,9 +6,6 @@
 use std::ops::Range;
 use std::ptr::null_mut;
 
-use crate::common::block::{Asked, Call, Input, Number, Old, Output, VALUES, levels, run};
-use crate::common::deformations::{Ranges, Sample, deformation, samples};
-use crate::common::truth::{Answer, Bounds, Case, DOUBLE, FAR_DOUBLE, FAR_SINGLE, SINGLE, Score, cases, far_cases};
 use nalgebra::Matrix3;
 use proptest::prelude::*;
 use toron::Arrays;
@@ -25,6 +22,11 @@ use toron::law::prepared::{Given, PreparedHyperelastic};
 use toron::law::state::{FAILED, FAILURE_INDEX, HYPERELASTIC_STATE};
 use toron::law::status;
 use toron::{Hyperelastic, Request};
+use toron_test_support::block::{Asked, Call, Input, Number, Old, Output, VALUES, levels, run};
+use toron_test_support::deformations::{Ranges, Sample, deformation, samples};
+use toron_test_support::truth::{
+    Answer, Bounds, Case, DOUBLE, FAR_DOUBLE, FAR_SINGLE, SINGLE, Score, cases, far_cases,
+};
 
 /// Where the groups of an output stand, see `common/block.rs`.
 const STRESS: Range<usize> = 0..6;

@@ -4,14 +4,14 @@
 //! acosh x and of I5/I4² − 1 do no harm, and differentiated by central differences of step 2^-80, whose own error is far below
 //! a double's. The thesis's own stress, Eq. 4.14, is held against the same differences.
 
-use crate::common::deformations::{Ranges, Sample, deformation, direction, samples};
-use crate::common::{Exact, exact, rounded};
 use nalgebra::{Matrix3, Vector3};
 use proptest::prelude::*;
 use toron::law::state::{ENERGIES, HYPERELASTIC_STATE, INVARIANTS};
 use toron::law::status;
 use toron::law::thesis::{Functions, Yarn, determinant};
 use toron::{Hyperelastic, Properties, Request};
+use toron_test_support::deformations::{Ranges, Sample, deformation, direction, samples};
+use toron_test_support::exact::{Exact, exact, rounded};
 
 /// The six components of the library: 11 22 33 12 23 31.
 const COMPONENTS: [(usize, usize); 6] = [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (2, 0)];

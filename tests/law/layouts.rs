@@ -1,8 +1,6 @@
 //! Blocks in other layouts than component-major arrays of one leading dimension: points in rows, as NumPy keeps them, and a leading
 //! dimension for each group; and which points are active.
 
-use crate::common::block::levels;
-use crate::common::deformations::{Ranges, deformation, samples};
 use nalgebra::Matrix3;
 use toron::host::blocks::{self, Block};
 use toron::law::block::{Points, Strides, components, components_mut};
@@ -11,6 +9,8 @@ use toron::law::prepared::Given;
 use toron::law::state::{FAILED, HYPERELASTIC_STATE};
 use toron::law::status;
 use toron::{Arrays, Hyperelastic, Level, Measure};
+use toron_test_support::block::levels;
+use toron_test_support::deformations::{Ranges, deformation, samples};
 
 /// More than are copied at a time, with a few left over.
 const POINTS: usize = 70;

@@ -2,8 +2,6 @@
 
 use std::ptr::{null, null_mut};
 
-use crate::common::block::levels;
-use crate::common::deformations::{Ranges, deformation, samples};
 use nalgebra::Matrix3;
 use toron::host::arguments::Layout;
 use toron::host::blocks::{self, Block};
@@ -16,6 +14,8 @@ use toron::law::prepared::Given;
 use toron::law::state::{FAILED, FAILURE_INDEX, HYPERELASTIC_STATE};
 use toron::law::status;
 use toron::{Arrays, Hyperelastic, Level, LinearElastic, Measure, Request};
+use toron_test_support::block::levels;
+use toron_test_support::deformations::{Ranges, deformation, samples};
 
 const PROPERTIES: [f64; 11] = [82341.0, 1055.0, 2.2, 649.74, 0.0, 0.0458, 1.8, 0.1, 1.0, 0.0, 0.0];
 /// 0 is that of the properties.

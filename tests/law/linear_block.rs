@@ -4,8 +4,6 @@
 //! The baseline gives the point's bits. AVX2 and AVX-512 fuse multiplications with additions and stay within a few roundings;
 //! at one level, no result depends on where its point stands nor on its neighbours.
 
-use crate::common::block::{Number, levels};
-use crate::common::deformations::samples;
 use nalgebra::Matrix3;
 use proptest::prelude::*;
 use toron::Error;
@@ -18,6 +16,8 @@ use toron::law::state::{
     LINEAR_ALIVE, LINEAR_ELASTIC_STATE, LINEAR_FAILED, LINEAR_LARGEST, LINEAR_STRESS, LINEAR_WORK,
 };
 use toron::law::status;
+use toron_test_support::block::{Number, levels};
+use toron_test_support::deformations::samples;
 
 /// Tab. 4.4, in GPa; a fibre along no axis.
 const YARN: [f64; 10] = [79.414, 0.794, 0.126, 3.637, 1.0, 0.4, -0.3, 0.1, 1.0, 0.5];

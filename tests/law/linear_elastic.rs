@@ -2,7 +2,6 @@
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
-use crate::common::deformations::{rotation, samples};
 use approx::assert_relative_eq;
 use nalgebra::{Matrix3, Rotation3, SymmetricEigen, Vector3};
 use proptest::prelude::*;
@@ -13,6 +12,7 @@ use toron::law::state::{
 use toron::law::status;
 use toron::law::stress::{components, matrix, pulled_back};
 use toron::{Criterion, LinearElastic, LinearPoint, LinearTangent, Rotation};
+use toron_test_support::deformations::{rotation, samples};
 
 /// Tab. 4.4, in GPa.
 const E1: f64 = 79.414;

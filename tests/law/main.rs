@@ -1,8 +1,5 @@
 //! The laws against exact arithmetic, derivatives, invariances and each other, as Rust calls them.
 
-#[path = "../common/mod.rs"]
-mod common;
-
 mod block;
 mod energy;
 mod layouts;

@@ -2,7 +2,6 @@
 
 use std::f64::consts::TAU;
 
-use crate::common::deformations::{Ranges, Sample, deformation, rotation};
 use nalgebra::{Matrix3, Rotation3, Unit, Vector3};
 use proptest::prelude::*;
 use toron::law::linear_elastic::{Criterion, LinearElastic, LinearPoint, Rotation};
@@ -13,6 +12,7 @@ use toron::law::state::{
 use toron::law::status;
 use toron::law::stress::{components, first_piola_kirchhoff, matrix};
 use toron::{Hyperelastic, Point, Request};
+use toron_test_support::deformations::{Ranges, Sample, deformation, rotation};
 
 const START: [f64; HYPERELASTIC_STATE] = [0.0; HYPERELASTIC_STATE];
 
@@ -133,7 +133,7 @@ proptest! {
 
     /// A rotated body at rest carries the rounding of its rotation matrix, a strain of some 10^-15, and no more.
     #[test]
-    fn no_stress_at_rest(m in crate::common::deformations::direction(), material in material(), q in rotation()) {
+    fn no_stress_at_rest(m in toron_test_support::deformations::direction(), material in material(), q in rotation()) {
         let strain = 4e-15;
         let [k_el, k_tc, p, k_td, k_ld, ..] = material;
         let allowed = (k_el + k_td + k_ld) * strain + p * k_tc * strain.powf(p - 1.0);

@@ -3,9 +3,6 @@
 
 use std::collections::BTreeMap;
 
-use crate::common::block::Number;
-use crate::common::deformations::{Ranges, Sample, deformation, samples};
-use crate::common::truth::cases;
 use nalgebra::{Matrix3, Matrix6, SMatrix, Vector3, Vector6};
 use proptest::prelude::*;
 use toron::Measure;
@@ -17,6 +14,9 @@ use toron::law::voigt::PAIRS;
 use toron::user::Dual;
 use toron::{Arrays, Level};
 use toron::{Hyperelastic, Point, Request};
+use toron_test_support::block::Number;
+use toron_test_support::deformations::{Ranges, Sample, deformation, samples};
+use toron_test_support::truth::cases;
 
 const FRESH: [f64; HYPERELASTIC_STATE] = [0.0; HYPERELASTIC_STATE];
 const SIX: [Measure; 3] = [Measure::Material, Measure::Truesdell, Measure::Jaumann];

@@ -4,11 +4,11 @@
 
 use nalgebra::Matrix3;
 
-use crate::common::truth::{Answer, DOUBLE, FAR_DOUBLE, FAR_SINGLE, SINGLE, Score, cases, far_cases};
-use crate::common::{exact, rounded};
 use toron::law::state::{HYPERELASTIC_STATE, INVARIANTS};
 use toron::law::status;
 use toron::{Hyperelastic, Request};
+use toron_test_support::exact::{exact, rounded};
+use toron_test_support::truth::{Answer, DOUBLE, FAR_DOUBLE, FAR_SINGLE, SINGLE, Score, cases, far_cases};
 
 #[test]
 fn double_precision() {

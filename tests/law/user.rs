@@ -3,8 +3,6 @@
 
 use std::array;
 
-use crate::common::block::levels;
-use crate::common::{Exact, exact, rounded};
 use fastrand::Rng;
 use nalgebra::{Matrix3, Vector3};
 use toron::law::block::Precision;
@@ -18,9 +16,9 @@ use toron::user::state::{ALIVE, ENERGY_DENSITY, FAILED, StateVariable, variable}
 use toron::user::vector::{dot, transposed};
 use toron::user::{Description, Dual, Real, Response, Step, UserMaterial};
 use toron::{Error, Level, Measure, Value};
+use toron_test_support::block::levels;
+use toron_test_support::exact::{Exact, exact, rounded};
 
-#[path = "../../examples/own_law/law/src/lib.rs"]
-mod reinforced_solid;
 use reinforced_solid::ReinforcedSolid;
 
 type F = [[f64; 3]; 3];

@@ -4,7 +4,6 @@
 //! direction n and polarisation u has ρ0 v² = c : (n⊗u)(n⊗u) + n·τn. The modulus is written as full fourth-order
 //! tensors from F alone, checked against differences of the library's stress, and then searched for its fastest wave.
 
-use crate::common::deformations::{Ranges, Sample, deformation, direction, samples};
 use approx::assert_relative_eq;
 use nalgebra::{Matrix3, SymmetricEigen, Vector3};
 use proptest::prelude::*;
@@ -13,6 +12,7 @@ use toron::law::state::HYPERELASTIC_STATE;
 use toron::law::status;
 use toron::law::stress::{matrix, principal_axes};
 use toron::{Hyperelastic, Request};
+use toron_test_support::deformations::{Ranges, Sample, deformation, direction, samples};
 
 const EXPONENTS: [f64; 6] = [1.2, 1.5, 2.0, 2.2, 3.0, 5.0];
 
@@ -329,7 +329,7 @@ fn climbed(acoustic: &Acoustic, starts: &[Vector3<f64>], turns: usize) -> f64 {
 /// The bound over all cases of the truth and many random states; `TORON_STATES` says how many.
 #[test]
 fn the_bound_is_never_below_the_acoustic_tensor() {
-    for case in crate::common::truth::cases() {
+    for case in toron_test_support::truth::cases() {
         let law = Hyperelastic::<f64>::new(&case.properties()).expect("valid properties");
         let f = case.deformation_gradient();
         let bound = law.point(&f, &[0.0; HYPERELASTIC_STATE], Request::ALL).wave_modulus;

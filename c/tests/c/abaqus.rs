@@ -4,7 +4,7 @@ use std::path::Path;
 use std::process::Command;
 
 use crate::c_programs::PRECISIONS;
-use crate::library::{LIBRARY, OWN_LAW, ROOT, folder, run};
+use toron_test_support::library::{LIBRARY, OWN_LAW, ROOT, folder, run};
 
 /// The library of each precision.
 const SHARED: [&str; 2] = ["libtoron_abaqus.so", "libtoron_abaqus_sp.so"];

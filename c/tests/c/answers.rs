@@ -1,8 +1,8 @@
 //! What every exported entry gives back, bit for bit: `ffi-tests/c/environment.c` calls each on points of every kind,
 //! at every level, from every old state, with and without each output, with what is refused, and prints one number for
-//! all that it returned. `answers.txt` holds these numbers; `TORON_WRITE_ANSWERS=1 cargo test -p toron-c answers`
-//! writes them anew. `toron eval` has such a file of the truth's cases, with samples that can be read:
-//! `program/tests/program/answers.rs`.
+//! all that it returned. `answers.txt` holds these numbers; `cargo xtask update answers` writes them
+//! anew. `toron eval` has such a file of the truth's cases, with samples that can be read:
+//! `packages/materials/tests/materials/answers.rs`.
 //!
 //! To find the calls that differ, build the program with either library and compare what `--sums --trace ENTRY` prints.
 #![cfg(all(target_arch = "x86_64", target_os = "linux"))]
@@ -11,7 +11,8 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use crate::environment::{PROGRAMS, exported, run_with};
-use crate::library::{LIBRARY, ROOT, run};
+use toron_test_support::library::{LIBRARY, ROOT, run};
+use toron_test_support::update::is_asked;
 
 /// By entry and level: how many calls, and the sum.
 fn sums(text: &str) -> BTreeMap<(String, String), (u32, String)> {
@@ -31,7 +32,7 @@ fn every_entry_answers_as_recorded() {
     found =
         found.lines().collect::<std::collections::BTreeSet<_>>().into_iter().map(|line| format!("{line}\n")).collect();
     let path = Path::new(ROOT).join("c/tests/c/answers.txt");
-    if std::env::var_os("TORON_WRITE_ANSWERS").is_some() {
+    if is_asked("answers") {
         std::fs::write(&path, &found).expect("answers.txt is writable");
     }
     let recorded = sums(&std::fs::read_to_string(&path).expect("answers.txt"));
@@ -52,6 +53,6 @@ fn every_entry_answers_as_recorded() {
             )
         })
         .collect();
-    let write = "where that is meant: TORON_WRITE_ANSWERS=1 cargo test -p toron-c answers";
+    let write = "where that is meant: cargo xtask update answers";
     assert!(wrong.is_empty(), "{}\n{write}", wrong.join("\n"));
 }

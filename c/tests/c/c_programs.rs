@@ -8,7 +8,7 @@ use std::sync::LazyLock;
 
 use serde_json::Value;
 
-use crate::library::{BUILD, LIBRARY, ROOT, SYSTEM, folder, run};
+use toron_test_support::library::{BUILD, LIBRARY, ROOT, SYSTEM, folder, run};
 
 /// Options for double and for single precision.
 pub const PRECISIONS: [&[&str]; 2] = [&[], &["-DSINGLE"]];
@@ -20,7 +20,7 @@ pub static CASES: LazyLock<PathBuf> = LazyLock::new(|| {
     let table = std::fs::read_to_string(Path::new(ROOT).join("tests/truth/points.jsonl")).expect("points.jsonl");
     let cases = table.lines().map(|line| serde_json::from_str(line).expect("JSON"));
     let lines: String = cases.filter(|line: &Value| line["category"] != "flattened").map(|line| case(&line)).collect();
-    let path = Path::new(BUILD).join("cases.txt");
+    let path = BUILD.join("cases.txt");
     std::fs::write(&path, lines).expect("cases.txt is writable");
     path
 });

@@ -8,8 +8,8 @@ use std::process::{Command, Output};
 use std::sync::LazyLock;
 
 use crate::c_programs::{PRECISIONS, compile};
-use crate::library::{LIBRARY, folder, run};
 use crate::symbols::functions;
+use toron_test_support::library::{LIBRARY, folder, run};
 
 /// The program in double and in single precision, with the shared library, wherever the system finds it.
 pub static PROGRAMS: LazyLock<[PathBuf; 2]> = LazyLock::new(|| {

@@ -2,7 +2,7 @@
 //! `ffi-tests/felupe/yarn.py`.
 
 use crate::newton::{assert_quadratic, numbers};
-use crate::python;
+use toron_test_support::python;
 
 #[test]
 fn residuals_fall_quadratically_under_a_rigid_plate() {

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use crate::c_programs::{CASES, PRECISIONS, compile};
-use crate::library::{INSTALLED, LIBRARY, OWN_LAW, ROOT, SYSTEM, folder, run};
+use toron_test_support::library::{INSTALLED, LIBRARY, OWN_LAW, ROOT, SYSTEM, folder, run};
 
 /// Compiles and runs a program of `ffi-tests/c`.
 fn c_program<S: AsRef<OsStr>>(name: &str, options: &[&str], libraries: &[S], reads_cases: bool) {

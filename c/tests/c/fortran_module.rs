@@ -1,4 +1,5 @@
-//! The committed Fortran module is what the C header says today. `TORON_WRITE_HEADER=1 cargo test` writes it anew.
+//! The committed Fortran module is what the C header says today. `cargo xtask update headers` writes it
+//! anew.
 
 use std::fmt::Write;
 use std::path::Path;
@@ -6,7 +7,8 @@ use std::process::Command;
 
 use toron::law::status;
 
-use crate::library::{LIBRARY, ROOT, SYSTEM, folder, run};
+use toron_test_support::library::{LIBRARY, ROOT, SYSTEM, folder, run};
+use toron_test_support::update::is_asked;
 
 const PREFACE: &str = "\
 ! toron: the interface of toron.h for Fortran 2018. Generated from that header: do not edit.
@@ -384,12 +386,12 @@ fn generated() -> String {
 fn the_committed_module_is_current() {
     let path = Path::new(ROOT).join("include/toron.f90");
     let generated = generated();
-    if std::env::var_os("TORON_WRITE_HEADER").is_some() {
+    if is_asked("headers") {
         std::fs::write(&path, &generated).expect("include/toron.f90 is writable");
     }
     assert!(
         std::fs::read_to_string(&path).expect("include/toron.f90") == generated,
-        "include/toron.f90 is not current: run TORON_WRITE_HEADER=1 cargo test -p toron-c fortran_module"
+        "include/toron.f90 is not current: cargo xtask update headers"
     );
     let long = generated.lines().find(|line| line.len() > 120);
     assert_eq!(long, None, "too long a line");

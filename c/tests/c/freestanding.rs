@@ -4,7 +4,7 @@
 use std::path::Path;
 use std::process::{Command, Output};
 
-use crate::library::{BUILD, ROOT, flags, folder, run};
+use toron_test_support::library::{BUILD, ROOT, flags, folder, run};
 
 /// Builds the package with these options, with the versions of the crates that the library itself has.
 fn build(options: &[&str]) -> Output {
@@ -14,7 +14,7 @@ fn build(options: &[&str]) -> Output {
     Command::new(env!("CARGO"))
         .args(["rustc", "--release", "--offline", "--crate-type=cdylib", "--manifest-path"])
         .arg(package.join("Cargo.toml"))
-        .args(["--target-dir", BUILD])
+        .args(["--target-dir".as_ref(), BUILD.as_os_str()])
         .args(options)
         // The standard library's part of unwinding, which is never called.
         .args(["--", "-C", "link-arg=-Wl,--no-undefined", "-C", "link-arg=-Wl,--defsym=rust_eh_personality=0"])

@@ -1,9 +1,9 @@
-//! The committed C header is what cbindgen makes of the source today. `TORON_WRITE_HEADER=1 cargo test -p toron-c header`
-//! writes it anew.
+//! The committed C header is what cbindgen makes of the source today. `cargo xtask update headers` writes it anew.
 
 use std::path::Path;
 
-use crate::library::ROOT;
+use toron_test_support::library::ROOT;
+use toron_test_support::update::is_asked;
 
 use toron::law::status;
 
@@ -48,14 +48,11 @@ fn generated() -> String {
 fn the_committed_header_is_current() {
     let path = Path::new(ROOT).join("include/toron.h");
     let generated = generated();
-    if std::env::var_os("TORON_WRITE_HEADER").is_some() {
+    if is_asked("headers") {
         std::fs::write(&path, &generated).expect("include/toron.h is writable");
     }
     let committed = std::fs::read_to_string(&path).expect("include/toron.h");
-    assert!(
-        committed == generated,
-        "include/toron.h is not current: run TORON_WRITE_HEADER=1 cargo test -p toron-c header"
-    );
+    assert!(committed == generated, "include/toron.h is not current: cargo xtask update headers");
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::library::{INSTALLED, ROOT, folder, run};
+use toron_test_support::library::{INSTALLED, ROOT, folder, run};
 
 /// A copy of a project, and the installed tree moved to where nothing was installed.
 fn project(name: &str) -> (PathBuf, PathBuf) {

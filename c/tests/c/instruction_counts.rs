@@ -1,9 +1,8 @@
 //! Instructions a point, counted by valgrind: the same on every run, unlike times.
 //!
 //! `instruction_counts.txt` holds what they were; growth by more than 5 % fails. A change that is meant to cost, or
-//! that gains, is recorded by `TORON_RECORD_COUNTS=1 cargo test -p toron-c instruction`, and the file committed with
-//! it. Counts belong to a compiler too: record them anew with a new one. Valgrind knows no AVX-512, so that the block
-//! runs at AVX2.
+//! that gains, is recorded by `cargo xtask update counts`, and the file committed with it. Counts belong to a compiler
+//! too: record them anew with a new one. Valgrind knows no AVX-512, so that the block runs at AVX2.
 //!
 //! `umat` and `point` are one point a call, in fused arithmetic; both prepare the law at every call, `point-prepared`
 //! and `point-tangent` do not. Here the change of the floating-point environment is counted too. `linear` is the linear
@@ -14,7 +13,8 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::library::{BUILD, LIBRARY, ROOT, SYSTEM, run};
+use toron_test_support::library::{BUILD, LIBRARY, ROOT, SYSTEM, run};
+use toron_test_support::update::is_asked;
 
 /// How many points the program evaluates.
 const POINTS: f64 = 1024.0;
@@ -67,7 +67,7 @@ const GROWTH: f64 = 1.05;
 
 /// `instruction_counts.c` with the library.
 fn program() -> PathBuf {
-    let program = Path::new(BUILD).join("instruction_counts");
+    let program = BUILD.join("instruction_counts");
     let mut gcc = Command::new("gcc");
     gcc.args(["-std=c11", "-Wall", "-Wextra", "-Wpedantic", "-Werror", "-O1"]).arg(format!("-I{ROOT}/include"));
     gcc.arg(format!("{ROOT}/c/tests/c/instruction_counts.c")).arg(LIBRARY.join("libtoron.a"));
@@ -79,7 +79,7 @@ fn program() -> PathBuf {
 
 /// Instructions a point within `function`.
 fn count(program: &Path, entry: &str, function: &str, lanes: bool) -> f64 {
-    let profile = Path::new(BUILD).join(format!("callgrind.{entry}"));
+    let profile = BUILD.join(format!("callgrind.{entry}"));
     let mut valgrind = Command::new("valgrind");
     valgrind.args(["--tool=callgrind", &format!("--toggle-collect={function}")]);
     valgrind.arg(format!("--callgrind-out-file={}", profile.display())).arg(program).arg(entry);
@@ -109,12 +109,12 @@ fn instructions_do_not_grow() {
         writeln!(counts, "{entry:<30}{count:>8.1}").expect("a string");
         // A loop over so few instructions would not be the law.
         assert!(count > 50.0, "{entry}: {count} instructions a point");
-        if std::env::var_os("TORON_RECORD_COUNTS").is_none() && count > GROWTH * bound(entry) {
+        if !is_asked("counts") && count > GROWTH * bound(entry) {
             grown.push(format!("{entry}: {count:.1} instructions a point, recorded {}", bound(entry)));
         }
     }
     print!("{counts}");
-    if std::env::var_os("TORON_RECORD_COUNTS").is_some() {
+    if is_asked("counts") {
         std::fs::write(&file, counts).expect("instruction_counts.txt is writable");
     }
     assert!(grown.is_empty(), "{}", grown.join("\n"));

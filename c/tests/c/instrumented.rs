@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use crate::c_programs::{CASES, PRECISIONS, compile};
-use crate::library::{LIBRARY, run};
+use toron_test_support::library::{LIBRARY, run};
 
 /// A program of `ffi-tests/c`, for one precision, and its arguments.
 struct Program {

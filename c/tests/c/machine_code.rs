@@ -8,7 +8,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 use std::process::Command;
 
-use crate::library::{LIBRARY, OWN_LAW, run};
+use toron_test_support::library::{LIBRARY, OWN_LAW, run};
 
 /// One instruction: its address, its name and what it is applied to.
 struct Instruction {

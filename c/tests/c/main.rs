@@ -1,10 +1,5 @@
 //! libtoron as C, Fortran and Python load it: answers, floating-point environments, sanitizers, machine code.
 
-#[path = "../../../tests/common/library.rs"]
-mod library;
-#[path = "../../../tests/common/python.rs"]
-mod python;
-
 mod abaqus;
 mod answers;
 mod c_programs;

@@ -10,9 +10,9 @@ use std::sync::LazyLock;
 use libloading::Library;
 
 use crate::c_programs::CASES;
-use crate::library::{LIBRARY, OWN_LAW, ROOT, SYSTEM, folder, run};
 use crate::symbols::defined;
 use toron::host::mgis::{BehaviourDataView, INTEGRATED, StateView};
+use toron_test_support::library::{LIBRARY, OWN_LAW, ROOT, SYSTEM, folder, run};
 
 /// A program of `ffi-tests/mgis`; libtoron gives it the tables.
 fn compile(name: &str) -> PathBuf {

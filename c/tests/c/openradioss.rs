@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use crate::c_programs::PRECISIONS;
-use crate::library::{LIBRARY, ROOT, SYSTEM, folder, run};
+use toron_test_support::library::{LIBRARY, ROOT, SYSTEM, folder, run};
 
 /// The self-loading library of each precision.
 const SHARED: [&str; 2] = ["libtoron_openradioss.so", "libtoron_openradioss_sp.so"];

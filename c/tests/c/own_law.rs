@@ -14,10 +14,9 @@ use toron::law::interface::{Law, Points};
 use toron::user::User;
 
 use crate::c_programs::PRECISIONS;
-use crate::library::{OWN_LAW, ROOT, SYSTEM, folder, run};
+use toron_test_support::library::{OWN_LAW, ROOT, SYSTEM, folder, run};
+use toron_test_support::update::is_asked;
 
-#[path = "../../../examples/own_law/law/src/lib.rs"]
-mod reinforced_solid;
 use reinforced_solid::ReinforcedSolid;
 
 const HEADER: &str = "examples/own_law/reinforced.h";
@@ -27,11 +26,11 @@ const LIBRARIES: [&str; 2] = ["own_law_double", "own_law_single"];
 fn the_committed_header_is_current() {
     let path = Path::new(ROOT).join(HEADER);
     let generated = toron_solvers::c_header::<ReinforcedSolid>("REINFORCED");
-    if std::env::var_os("TORON_WRITE_HEADER").is_some() {
+    if is_asked("headers") {
         std::fs::write(&path, &generated).expect("the header is writable");
     }
     let committed = std::fs::read_to_string(&path).expect(HEADER);
-    assert!(committed == generated, "{HEADER} is not current: run TORON_WRITE_HEADER=1 cargo test -p toron-c own_law");
+    assert!(committed == generated, "{HEADER} is not current: cargo xtask update headers");
 }
 
 #[test]

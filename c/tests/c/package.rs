@@ -3,8 +3,8 @@
 use std::path::Path;
 use std::process::Command;
 
-use crate::library::{ROOT, run};
-use crate::python::{PACKAGE, environment};
+use toron_test_support::library::{ROOT, run};
+use toron_test_support::python::{PACKAGE, environment};
 
 #[test]
 fn the_package_passes_its_tests() {

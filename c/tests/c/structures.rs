@@ -12,7 +12,7 @@ use toron_c::{
     Block, HyperelasticLaw, Layout, LinearBlock, LinearElasticLaw, LinearIncrement, LinearPoint, Point, TableRow,
 };
 
-use crate::library::{ROOT, folder, run};
+use toron_test_support::library::{ROOT, folder, run};
 
 /// What C has to agree to, and the names of the structures.
 struct Assertions {

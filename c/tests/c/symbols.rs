@@ -1,6 +1,5 @@
 //! What each library that solvers and programs load gives to the outside, symbol by symbol, as `symbols/` lists it: a
-//! symbol that goes or comes changes what loads. `TORON_WRITE_SYMBOLS=1 cargo test -p toron-c symbols` writes the lists
-//! anew.
+//! symbol that goes or comes changes what loads. `cargo xtask update symbols` writes the lists anew.
 //!
 //! Each shared library is bound when it is loaded: it needs nothing but versioned symbols of the C library and of the
 //! compiler's.
@@ -11,7 +10,8 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::library::{LIBRARY, OWN_LAW, ROOT, run};
+use toron_test_support::library::{LIBRARY, OWN_LAW, ROOT, run};
+use toron_test_support::update::is_asked;
 
 /// The shared libraries: of the installation, of solvers, of a law of one's own. The static ones beside some of them
 /// have the same symbols.
@@ -69,7 +69,7 @@ fn symbols_are_those_of_the_lists() {
         let name = library.file_stem().expect("a file").to_string_lossy().into_owned();
         let committed = Path::new(ROOT).join(format!("c/tests/c/symbols/{name}.txt"));
         let found = list(&library);
-        if std::env::var_os("TORON_WRITE_SYMBOLS").is_some() {
+        if is_asked("symbols") {
             std::fs::write(&committed, &found).expect("the list is writable");
         }
         let wanted = std::fs::read_to_string(&committed).unwrap_or_else(|error| panic!("{name}.txt: {error}"));
@@ -78,7 +78,7 @@ fn symbols_are_those_of_the_lists() {
         wrong.extend(found.difference(&wanted).map(|line| format!("{name} has {line}, which its list lacks")));
         wrong.extend(wanted.difference(&found).map(|line| format!("{name} lacks {line}, which its list has")));
     }
-    let write = "where that is meant: TORON_WRITE_SYMBOLS=1 cargo test -p toron-c symbols";
+    let write = "where that is meant: cargo xtask update symbols";
     assert!(wrong.is_empty(), "{}\n{write}", wrong.join("\n"));
 }
 

@@ -1,12 +1,14 @@
 //! What all programs share; no law, no host and no unit is known here.
 //!
-//! - what a user is told: [`error`] with its exit codes, [`console`], [`progress`], [`text_table`], [`short_number`], [`nearest`] names;
+//! - what a user is told: [`error`] with its exit codes, [`console`], [`progress`], [`text_table`], [`numbers`], [`short_number`],
+//!   [`nearest`] names;
 //! - arguments and the end of a program: [`command_line`];
 //! - files in TOML, with the places of what stands in them: [`toml_file`], [`toml_error`]; keyword files of solvers: [`keyword_file`];
 //! - where a program writes: [`run_directory`], [`kept_file`], [`file_names`], [`folder`];
-//! - what runs beside it: [`interrupt`], [`bound_child`], the [`shell`]'s words.
+//! - which program it is: the [`mod@build`]; what runs beside it: [`interrupt`], [`bound_child`], the [`shell`]'s words.
 
 pub mod bound_child;
+pub mod build;
 pub mod command_line;
 pub mod console;
 pub mod error;
@@ -16,6 +18,7 @@ pub mod interrupt;
 pub mod kept_file;
 pub mod keyword_file;
 pub mod nearest;
+pub mod numbers;
 pub mod progress;
 pub mod run_directory;
 pub mod shell;

@@ -7,6 +7,7 @@ use std::process::Command;
 use fastrand::Rng;
 use serde::Deserialize;
 use serde_json::Value;
+use toron_test_support::update::is_asked;
 
 /// The lines that depend on the properties, and take little time.
 const OF_PROPERTIES: &str = "--only=rest,tangent,objectivity,isotropy,steps,energy,cycles,dissipation";
@@ -239,13 +240,10 @@ fn found_and_named(path: &str, first: usize, mark: &str) {
     let (before, rest) = text.split_once(marks[0]).expect("the table begins");
     let (_, after) = rest.split_once(marks[1]).expect("the table ends");
     let current = [before, marks[0], &table, marks[1], after].concat();
-    if std::env::var_os("TORON_WRITE_DOCS").is_some() {
+    if is_asked("documents") {
         std::fs::write(&document, &current).expect("docs are writable");
     } else {
-        assert!(
-            text == current,
-            "{DOCUMENT} is not current: TORON_WRITE_DOCS=1 cargo test -p umat-check faults -- --test-threads=1"
-        );
+        assert!(text == current, "{DOCUMENT} is not current: cargo xtask update documents");
     }
 }
 

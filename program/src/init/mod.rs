@@ -4,10 +4,10 @@ use std::collections::BTreeMap;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use crate::common::units::unit;
-use crate::material::preset::Preset;
 use toron::host::units::UnitSystem;
 use toron::law::parameters::{DENSITY, FIBRE, HYPERELASTIC};
+use toron_materials::material::preset::Preset;
+use toron_materials::units::unit;
 use toron_shared::console::print;
 use toron_shared::error::Error;
 use toron_shared::text_table::plain_table;

@@ -3,10 +3,10 @@
 
 use std::path::Path;
 
-use crate::library::ROOT;
-use crate::python;
-use toron_program::impact::run;
-use toron_program::impact::scene::Scene;
+use toron_strikes::impact::run;
+use toron_strikes::impact::scene::Scene;
+use toron_test_support::library::ROOT;
+use toron_test_support::python;
 
 /// Layers, rows, columns and the step.
 const COARSE: [&str; 4] = ["50", "2", "4", "6e-6"];

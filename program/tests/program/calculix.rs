@@ -13,8 +13,8 @@ use nalgebra::{Matrix3, Rotation3, Unit, Vector3};
 use toron::law::state::{FAILED, FAILURE_INDEX, HYPERELASTIC_STATE, INVARIANTS};
 use toron::law::stress::{first_piola_kirchhoff, matrix};
 use toron::{Hyperelastic, Point, Request};
-use toron_program::load_path::newton::{self, Prescribed};
-use toron_program::material::model::NominalTangent;
+use toron_materials::load_path::newton::{self, Prescribed};
+use toron_materials::material::model::NominalTangent;
 
 const PRINTED: f64 = 1e-6;
 const DIFFERENCED: f64 = 5e-6;

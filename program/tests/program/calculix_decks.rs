@@ -6,7 +6,7 @@ use std::sync::LazyLock;
 
 use nalgebra::Vector3;
 
-use crate::library::{LIBRARY, OWN_LAW, ROOT, folder, run};
+use toron_test_support::library::{LIBRARY, OWN_LAW, ROOT, folder, run};
 
 /// Which material a deck runs with.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -18,17 +18,17 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use toron_program::cell::arrangement;
-use toron_program::cell::disc::Disc;
-use toron_program::cell::energies::Increment;
-use toron_program::cell::explicit_run::{self, OfSection};
-use toron_program::cell::model::Model;
-use toron_program::cell::output;
-use toron_program::cell::report::largest_spring_share;
-use toron_program::cell::run::{self, Outcome};
-use toron_program::cell::scene::{Arrangement, BoxOf, Load, Packing, Scene};
-use toron_program::cell::solver::Job;
-use toron_program::struck::run::Observer;
+use toron_explicit_host::struck::run::Observer;
+use toron_parameters::cell::arrangement;
+use toron_parameters::cell::disc::Disc;
+use toron_parameters::cell::energies::Increment;
+use toron_parameters::cell::explicit_run::{self, OfSection};
+use toron_parameters::cell::model::Model;
+use toron_parameters::cell::output;
+use toron_parameters::cell::report::largest_spring_share;
+use toron_parameters::cell::run::{self, Outcome};
+use toron_parameters::cell::scene::{Arrangement, BoxOf, Load, Packing, Scene};
+use toron_parameters::cell::solver::Job;
 use toron_shared::error::Error;
 
 use crate::calculix_decks::SOLVER;
@@ -38,7 +38,7 @@ const K_TC: f64 = 1055.0;
 const K_TD: f64 = 649.74;
 
 fn example(name: &str) -> PathBuf {
-    Path::new(crate::library::ROOT).join("examples/identification").join(name)
+    Path::new(toron_test_support::library::ROOT).join("examples/identification").join(name)
 }
 
 fn scene() -> Scene {
@@ -53,7 +53,7 @@ fn outcome(scene: &Scene, load: Load) -> Outcome {
 fn on_model(scene: &Scene, model: &Model, load: Load) -> Outcome {
     static NUMBER: AtomicUsize = AtomicUsize::new(0);
     let task = run::task(scene, model, load);
-    let output = crate::library::folder(&format!("cell-{}", NUMBER.fetch_add(1, Ordering::Relaxed)));
+    let output = toron_test_support::library::folder(&format!("cell-{}", NUMBER.fetch_add(1, Ordering::Relaxed)));
     let job = Job { program: &SOLVER, output: &output, name: load.name(), threads: 1 };
     let outcome = run::run(&job, task, &mut |_| {}).expect("CalculiX runs");
     assert_eq!(outcome.failure, None);
@@ -185,8 +185,8 @@ fn fibres_at_random_are_pressed() {
     assert_within(energy, expected, 0.01);
     assert_eq!(outcome.shape.patches.len(), 8 * 48);
     // The guide knows the columns, of this table and of those that other sections have.
-    let guide =
-        std::fs::read_to_string(Path::new(crate::library::ROOT).join("docs/guides/cell.md")).expect("the guide");
+    let guide = std::fs::read_to_string(Path::new(toron_test_support::library::ROOT).join("docs/guides/cell.md"))
+        .expect("the guide");
     let boxed = Scene::read(&example("box.toml")).expect("the scene is valid");
     let mut columns = 0;
     for scene in [&scene, &Scene { explicit: true, ..boxed.clone() }, &Scene { explicit: false, ..boxed }] {
@@ -202,7 +202,7 @@ fn fibres_at_random_are_pressed() {
 /// The files of a random packing, for which no CalculiX is needed.
 #[test]
 fn a_random_packing_needs_no_calculix() {
-    let folder = crate::library::folder("cell-random");
+    let folder = toron_test_support::library::folder("cell-random");
     let text = std::fs::read_to_string(example("random.toml")).expect("the example");
     let small = text.replacen("fibres = 25", "fibres = 8", 1).replacen("elements = 3", "elements = 1", 1);
     let small = small.replacen("increments = 24", "increments = 6\nkinds = [\"compaction\"]", 1);
@@ -223,7 +223,7 @@ fn a_random_packing_needs_no_calculix() {
 /// With 12 increments CalculiX takes for an equilibrium of this mesh what stores more than the walls' work; with 24 it does not.
 #[test]
 fn a_load_that_needs_more_increments_gets_them() {
-    let folder = crate::library::folder("cell-refined");
+    let folder = toron_test_support::library::folder("cell-refined");
     let _ = std::fs::remove_dir_all(folder.join("out"));
     let text = std::fs::read_to_string(example("cell.toml")).expect("the example");
     let coarse = text.replace("elements = 8", "elements = 3").replace("increments = 24", "increments = 12");
@@ -288,7 +288,7 @@ fn two_cylinders_touch_as_hertz_says() {
 /// The command's files, and that the increments of a load that fails are kept.
 #[test]
 fn the_command_writes_its_files() {
-    let folder = crate::library::folder("cell");
+    let folder = toron_test_support::library::folder("cell");
     let _ = std::fs::remove_dir_all(folder.join("out"));
     let text = std::fs::read_to_string(example("cell.toml")).expect("the example");
     let coarse = text.replace("elements = 8", "elements = 2").replace("increments = 24", "increments = 6");
@@ -318,7 +318,7 @@ fn the_command_writes_its_files() {
 /// A program in the place of CalculiX that prints nothing and fails.
 #[test]
 fn a_solver_that_fails_is_named_with_the_load() {
-    let folder = crate::library::folder("cell-failures");
+    let folder = toron_test_support::library::folder("cell-failures");
     let scene = example("cell.toml");
     let arguments = ["cell", scene.to_str().expect("UTF-8"), "-o", "out", "--ccx"];
     let message = |program: &str| {
@@ -361,7 +361,7 @@ fn the_solver_ends_with_toron() {
         }
     }
 
-    let folder = crate::library::folder("cell-killed");
+    let folder = toron_test_support::library::folder("cell-killed");
     let [scene, program, number] = ["one.toml", "waits", "number"].map(|name| folder.join(name));
     let _ = std::fs::remove_file(&number);
     let text = std::fs::read_to_string(example("cell.toml")).expect("the example");

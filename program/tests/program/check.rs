@@ -5,7 +5,7 @@ use std::process::Command;
 
 use serde_json::Value;
 
-use crate::library::{LIBRARY, ROOT};
+use toron_test_support::library::{LIBRARY, ROOT};
 
 /// Checks a library with a scene of `ffi-tests/check`, which must be right: the names of the lines that are right, and of those that are
 /// neither right nor left out.

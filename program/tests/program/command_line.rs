@@ -65,7 +65,7 @@ fn without_a_file_the_demonstration_runs() {
 #[test]
 fn every_point_gets_its_files_and_its_columns() {
     let directory = scratch("points");
-    let example = Path::new(crate::library::ROOT).join("examples/laws.toml");
+    let example = Path::new(toron_test_support::library::ROOT).join("examples/laws.toml");
     let output = toron(&directory, &["run", example.to_str().expect("a path in UTF-8"), "-o", "out"]);
     assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
     for name in ["multiaxial", "uniaxial", "linear"] {

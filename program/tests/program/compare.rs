@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
-use crate::library::{ROOT, folder, run};
 use crate::weave::Picture;
+use toron_test_support::library::{ROOT, folder, run};
 
 const FILES: [&str; 4] = ["toron/scene.csv", "openradioss/sceneT01.csv", "ls-dyna", "abaqus/scene-history.csv"];
 

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::library::{ROOT, folder};
+use toron_test_support::library::{ROOT, folder};
 
 const STEP: &str = "units = \"si\"\n[material]\npreset = \"kevlar-km2-600\"\n[[step]]\nF = { 11 = 1.01 }\n";
 const SHEET: &str = "units = \"mm-tonne-s\"\n[yarn]\npreset = \"kevlar-km2-600\"\n[fibre]\nmodulus = 90000.0\nvolume_fraction = 0.9\n\

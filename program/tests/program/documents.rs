@@ -1,7 +1,7 @@
 //! The documents say what the library says. What stands in them between `<!-- generated: NAME -->` and `<!-- end -->` is the
-//! library's own words, or what the program prints where NAME is a command; `TORON_WRITE_DOCS=1 cargo test -p toron-program
-//! documents` writes it anew. The programs shown there compile and print what is shown behind them, links lead to a file and to a
-//! heading in it, and the code names of the symbols exist.
+//! library's own words, or what the program prints where NAME is a command; `cargo xtask update documents` writes it
+//! anew. The programs shown there compile and print what is shown behind them, links lead to a file and to a heading in
+//! it, and the code names of the symbols exist.
 
 use std::collections::BTreeSet;
 use std::ffi::c_char;
@@ -9,7 +9,8 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::ptr::{null, null_mut};
 
-use crate::library::{LIBRARY, ROOT, SYSTEM, folder, run};
+use toron_build_number::{OF_MATERIALS, OF_PROGRAM};
+
 use nalgebra::{Matrix3, Vector3};
 use toron::host::abaqus::{StandardLaw, Umat};
 use toron::host::constants::TORON_MESSAGE_CAPACITY;
@@ -20,6 +21,8 @@ use toron::law::state::{self, ENERGIES, FAILED, HYPERELASTIC_STATE, INVARIANTS, 
 use toron::law::status;
 use toron::{Criterion, LinearElastic, Rotation};
 use toron::{Hyperelastic, Point, Request};
+use toron_test_support::library::{LIBRARY, ROOT, SYSTEM, folder, run};
+use toron_test_support::update::is_asked;
 
 const DOCUMENTS: [&str; 14] = [
     "../README.md",
@@ -212,7 +215,7 @@ fn fit(example: &str, output: &Path) -> String {
 fn fit_of_energies() -> String {
     let output = folder("fit-of-energies");
     let report = fit("energies", &output);
-    if std::env::var_os("TORON_WRITE_PICTURES").is_some() {
+    if is_asked("pictures") {
         std::fs::copy(output.join("fit.png"), document("images/fit.png")).expect("docs/images/fit.png");
     }
     report
@@ -333,13 +336,10 @@ fn generated_parts_are_current() {
     let mut count = 0;
     for name in DOCUMENTS {
         let (text, parts) = regenerated(&read(name));
-        if std::env::var_os("TORON_WRITE_DOCS").is_some() {
+        if is_asked("documents") {
             std::fs::write(document(name), &text).expect("docs are writable");
         }
-        assert!(
-            read(name) == text,
-            "docs/{name} is not current: TORON_WRITE_DOCS=1 cargo test -p toron-program documents"
-        );
+        assert!(read(name) == text, "docs/{name} is not current: cargo xtask update documents");
         count += parts;
     }
     assert_eq!(count, 22, "a part has got lost");
@@ -458,7 +458,8 @@ fn links_lead_somewhere() {
 /// An installation has no folder docs: what the program says, and what it writes into decks, names no file there.
 #[test]
 fn no_message_points_at_a_file_of_the_sources() {
-    let mut folders = vec![Path::new(ROOT).join("program/src")];
+    let sources = OF_MATERIALS.iter().chain(&OF_PROGRAM);
+    let mut folders: Vec<_> = sources.map(|folder| Path::new(ROOT).join(folder)).collect();
     let mut lines = 0;
     while let Some(folder) = folders.pop() {
         for entry in std::fs::read_dir(folder).expect("a folder").flatten() {

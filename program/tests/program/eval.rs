@@ -4,12 +4,12 @@
 use std::io::Write;
 use std::process::{Command, Stdio};
 
-use crate::common::truth::{self, Answer, Score, cases};
 use nalgebra::Matrix3;
 use serde_json::Value;
 use toron::law::state::{ENERGIES, HYPERELASTIC_STATE, INVARIANTS};
 use toron::law::status;
 use toron::{Hyperelastic, Request};
+use toron_test_support::truth::{self, Answer, Score, cases};
 
 const ENTRIES: [&str; 14] = [
     "law",

@@ -3,10 +3,10 @@
 use std::path::Path;
 
 use toron::law::state::{ENERGIES, INVARIANTS};
-use toron_program::load_path::path::LoadPath;
-use toron_program::load_path::run::{self, End, History, Increment};
-use toron_program::material::laws::Laws;
-use toron_program::material::model::Law;
+use toron_materials::load_path::path::LoadPath;
+use toron_materials::load_path::run::{self, End, History, Increment};
+use toron_materials::material::laws::Laws;
+use toron_materials::material::model::Law;
 
 /// Kevlar KM2 600 in MPa: Tab. 4.3 and 4.5.
 const K_EL: f64 = 82341.0;
@@ -25,7 +25,7 @@ const TOLERANCE: f64 = 1e-11;
 const NEWTON: f64 = 1e-9;
 
 fn load(name: &str) -> LoadPath {
-    LoadPath::read(Laws::Toron, &Path::new(crate::library::ROOT).join("examples").join(name))
+    LoadPath::read(Laws::Toron, &Path::new(toron_test_support::library::ROOT).join("examples").join(name))
         .expect("the example is valid")
 }
 

@@ -5,8 +5,8 @@ use std::process::{Command, Output};
 use std::thread::sleep;
 use std::time::Duration;
 
-use crate::library::{ROOT, folder};
 use crate::weave::Picture;
+use toron_test_support::library::{ROOT, folder};
 
 /// A quarter of a disc of five by five yarns, struck for this many microseconds; further keys go into the scene's table.
 fn scene(end: f64, keys: &str) -> String {

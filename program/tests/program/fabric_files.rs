@@ -4,7 +4,7 @@ use std::path::Path;
 use std::process::{Command, Output};
 
 use crate::documents::code_words;
-use crate::library::{ROOT, folder};
+use toron_test_support::library::{ROOT, folder};
 
 /// Of a quarter, a warp yarn on the axis and the two weft yarns that it crosses, struck for a microsecond.
 const SCENE: &str = r#"title = "Two crossings"

@@ -16,14 +16,14 @@ use std::process::{Command, Output, Stdio};
 use std::sync::LazyLock;
 use std::time::{Duration, Instant};
 
-use crate::library::{ROOT, folder};
-use crate::python::environment;
-use toron_program::fibres::lammps::Lammps;
-use toron_program::fibres::model::Model;
-use toron_program::fibres::outcome::{Outcome, Sample};
-use toron_program::fibres::pressed::outcome::Pressed;
-use toron_program::fibres::run::Folder;
-use toron_program::fibres::scene::{Case, Scene};
+use toron_parameters::fibres::lammps::Lammps;
+use toron_parameters::fibres::model::Model;
+use toron_parameters::fibres::outcome::{Outcome, Sample};
+use toron_parameters::fibres::pressed::outcome::Pressed;
+use toron_parameters::fibres::run::Folder;
+use toron_parameters::fibres::scene::{Case, Scene};
+use toron_test_support::library::{ROOT, folder};
+use toron_test_support::python::environment;
 
 /// The program of LAMMPS that the requirements' environment has.
 static LAMMPS: LazyLock<PathBuf> = LazyLock::new(|| {

@@ -6,17 +6,17 @@ use std::process::Command;
 use approx::{assert_abs_diff_eq, assert_relative_eq};
 use nalgebra::Matrix3;
 
-use crate::library::ROOT;
 use toron::host::units::UnitSystem;
-use toron_program::identify::data::{Axis, DataSet, Loading};
-use toron_program::identify::file::Job;
-use toron_program::identify::fit::{Fit, Problem};
-use toron_program::identify::parameter::{PARAMETERS, Parameter, Values};
-use toron_program::identify::response::{Measured, Quantity};
-use toron_program::identify::{notes, output, report, worth};
-use toron_program::impact::{self, scene::Scene};
-use toron_program::load_path::path::LoadPath;
-use toron_program::material::laws::Laws;
+use toron_materials::load_path::path::LoadPath;
+use toron_materials::material::laws::Laws;
+use toron_parameters::identify::data::{Axis, DataSet, Loading};
+use toron_parameters::identify::file::Job;
+use toron_parameters::identify::fit::{Fit, Problem};
+use toron_parameters::identify::parameter::{PARAMETERS, Parameter, Values};
+use toron_parameters::identify::response::{Measured, Quantity};
+use toron_parameters::identify::{notes, output, report, worth};
+use toron_strikes::impact::{self, scene::Scene};
+use toron_test_support::library::ROOT;
 
 /// Table 4.3, in GPa.
 const TRUE: Values = [82.341, 1.055, 2.2, 0.64974, 0.0, 0.0458, 1.8, 0.0];

@@ -17,19 +17,19 @@ use std::path::{Path, PathBuf};
 
 use toron::Rotation;
 use toron::host::units::UnitSystem;
-use toron_program::explicit::judgement::{Finding, verdict};
-use toron_program::identify::parameter::Parameter;
-use toron_program::impact::judgement::{contact, hourglass, judge};
-use toron_program::impact::outcome::{End, OfYarn, Outcome, Sample};
-use toron_program::impact::run::{self, StruckYarn};
-use toron_program::impact::scene::{Case, Outputs, Scene, Striker, Zones};
-use toron_program::material::model::Law;
-use toron_program::struck::run::Observer;
-use toron_program::struck::{self, checkpoint};
+use toron_explicit_host::judgement::{Finding, verdict};
+use toron_explicit_host::struck::run::Observer;
+use toron_explicit_host::struck::{self, checkpoint};
+use toron_materials::material::model::Law;
+use toron_parameters::identify::parameter::Parameter;
 use toron_shared::error::Error;
+use toron_strikes::impact::judgement::{contact, hourglass, judge};
+use toron_strikes::impact::outcome::{End, OfYarn, Outcome, Sample};
+use toron_strikes::impact::run::{self, StruckYarn};
+use toron_strikes::impact::scene::{Case, Outputs, Scene, Striker, Zones};
 
 fn folder() -> PathBuf {
-    Path::new(crate::library::ROOT).join("examples/yarn_impact")
+    Path::new(toron_test_support::library::ROOT).join("examples/yarn_impact")
 }
 
 /// A case of one of the scenes.
@@ -330,7 +330,7 @@ fn an_interrupted_run_has_no_other_verdict() {
     assert_eq!(result.end, End::Interrupted);
     let units = UnitSystem::parse("mm-g-ms").expect("a system");
     assert_eq!(verdict(&judge(&units, &case, &result)), "interrupted: go on with --restart");
-    let line = toron_program::impact::summary::line(&units, &case, &result);
+    let line = toron_strikes::impact::summary::line(&units, &case, &result);
     assert!(line.contains(&("verdict".to_string(), "interrupted: go on with --restart".to_string())), "{line:?}");
 }
 

@@ -8,7 +8,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use serde_json::Value;
 
-use crate::library::ROOT;
+use toron_test_support::library::ROOT;
 
 /// A directory of this test's own, empty.
 fn folder(name: &str) -> PathBuf {

@@ -1,5 +1,5 @@
-//! THIRD-PARTY.md lists what is linked into the libraries and the program today, with the licences. `TORON_WRITE_LICENCES=1 cargo test
-//! -p toron-program licences` writes it anew. Every package, and the installed library, has the licence texts.
+//! THIRD-PARTY.md lists what is linked into the libraries and the program today, with the licences; `cargo xtask update
+//! licences` writes it anew. Every package, and the installed library, has the licence texts.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -7,7 +7,8 @@ use std::process::Command;
 
 use serde_json::Value;
 
-use crate::library::{INSTALLED, ROOT, run};
+use toron_test_support::library::{INSTALLED, ROOT, run};
+use toron_test_support::update::is_asked;
 
 const LIBRARIES: [&str; 8] = [
     "toron-abaqus",
@@ -18,6 +19,17 @@ const LIBRARIES: [&str; 8] = [
     "toron-mgis",
     "toron-openradioss",
     "toron-openradioss-sp",
+];
+/// What the program is made of besides.
+const PACKAGES: [&str; 8] = [
+    "toron-build-number",
+    "toron-explicit-host",
+    "toron-materials",
+    "toron-parameters",
+    "toron-pictures",
+    "toron-shared",
+    "toron-strikes",
+    "umat-check",
 ];
 const TARGET: &str = "x86_64-unknown-linux-gnu";
 const PROGRAM: [&str; 1] = ["toron-program"];
@@ -99,7 +111,7 @@ fn generated() -> String {
     sections.sort();
     sections.push((
         "DejaVu Sans, the program's font".to_string(),
-        lines(&Path::new(ROOT).join("program/assets/DejaVuSans-LICENSE.txt")),
+        lines(&Path::new(ROOT).join("packages/pictures/assets/DejaVuSans-LICENSE.txt")),
     ));
     for (names, licence) in sections {
         text += &format!("\n## {names}\n\n```text\n{licence}\n```\n");
@@ -110,17 +122,17 @@ fn generated() -> String {
 #[test]
 fn the_list_of_what_is_linked_is_current() {
     let (path, generated) = (Path::new(ROOT).join("THIRD-PARTY.md"), generated());
-    if std::env::var_os("TORON_WRITE_LICENCES").is_some() {
+    if is_asked("licences") {
         std::fs::write(&path, &generated).expect("THIRD-PARTY.md is writable");
     }
     let committed = std::fs::read_to_string(&path).unwrap_or_default();
-    let hint = "THIRD-PARTY.md is not current: run TORON_WRITE_LICENCES=1 cargo test -p toron-program licences";
+    let hint = "THIRD-PARTY.md is not current: cargo xtask update licences";
     assert!(committed == generated, "{hint}");
 }
 
 #[test]
 fn every_package_has_the_licences() {
-    for package in ["toron"].iter().chain(&LIBRARIES).chain(&PROGRAM) {
+    for package in ["toron"].iter().chain(&LIBRARIES).chain(&PROGRAM).chain(&PACKAGES) {
         let files = cargo(&["package", "--list", "--allow-dirty", "-p", package]);
         for file in ["LICENSE-MIT", "LICENSE-APACHE"] {
             assert!(files.lines().any(|line| line == file), "{package}: {file}");

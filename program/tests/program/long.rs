@@ -7,13 +7,13 @@ use std::sync::LazyLock;
 
 use serde_json::Value;
 
-use crate::library::{BUILD, LIBRARY, ROOT, SYSTEM, folder, run};
-use toron_program::bench::scene::Scene;
-use toron_program::fabric::scene::Scene as Panel;
+use toron_materials::bench::scene::Scene;
+use toron_strikes::fabric::scene::Scene as Panel;
+use toron_test_support::library::{BUILD, LIBRARY, ROOT, SYSTEM, folder, run};
 
 /// The program as users build it: with the tests' dependencies some of its code would be another.
 static PROGRAM: LazyLock<PathBuf> = LazyLock::new(|| {
-    let build = Path::new(BUILD).join("program");
+    let build = BUILD.join("program");
     let mut cargo = Command::new(env!("CARGO"));
     cargo.env("CARGO_TARGET_DIR", &build).env("CARGO_NET_OFFLINE", "true").env_remove("CARGO_ENCODED_RUSTFLAGS");
     cargo.args(["build", "--release", "--locked", "--package=toron-program", "--manifest-path"]);

@@ -1,15 +1,6 @@
-//! The program, the load paths and the yarn under impact; CalculiX and Akantu, whose answers are held against them.
-
-#[path = "../../../tests/common/mod.rs"]
-mod common;
-#[path = "../../../tests/common/library.rs"]
-mod library;
-#[allow(dead_code)]
-#[path = "../../../tests/common/python.rs"]
-mod python;
+//! The program and the yarn under impact; CalculiX and Akantu, whose answers are held against them.
 
 mod akantu;
-mod answers;
 mod build;
 mod calculix;
 #[allow(dead_code)] // each test uses its own part
@@ -31,12 +22,9 @@ mod identify;
 mod impact;
 mod interface;
 mod licences;
-mod load_paths;
 mod long;
 mod meshes;
-mod newton;
 mod one_element;
-mod parallel;
 mod presets;
 mod scene_decks;
 mod v50;

@@ -3,9 +3,9 @@
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
-use crate::library::{ROOT, folder, run};
-use crate::python;
 use crate::weave::Picture;
+use toron_test_support::library::{ROOT, folder, run};
+use toron_test_support::python;
 
 const PITCH: &str = "0.7470588";
 

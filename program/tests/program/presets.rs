@@ -4,10 +4,10 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 use toron::host::units::UnitSystem;
-use toron_program::impact::scene::{Scene, Zones};
-use toron_program::load_path::path::LoadPath;
-use toron_program::material::laws::Laws;
-use toron_program::material::model::Material;
+use toron_materials::load_path::path::LoadPath;
+use toron_materials::material::laws::Laws;
+use toron_materials::material::model::Material;
+use toron_strikes::impact::scene::{Scene, Zones};
 
 const YARN: &str = "name = \"my-yarn\"\nsource = \"lot 12\"\nunits = \"mm-tonne-s\"\ndensity = 1.1e-9\n[properties]\n\
                     k_el = 82445.3\nk_tc = 1012.7\np = 2.3\nk_td = 655.1\neps_lim = 0.046\n";

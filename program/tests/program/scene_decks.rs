@@ -7,11 +7,12 @@ use std::process::Command;
 
 use nalgebra::{Matrix3, Vector3};
 
-use toron_program::explicit::judgement::warnings as warnings_of;
-use toron_program::fabric;
+use toron_explicit_host::judgement::warnings as warnings_of;
+use toron_strikes::fabric;
 
-use crate::library::{ROOT, folder, run};
-use crate::python;
+use toron_test_support::library::{ROOT, folder, run};
+use toron_test_support::python;
+use toron_test_support::update::is_asked;
 
 const SCENE: &str = "title = \"A small panel\"\nunits = \"mm-g-ms\"\n[weave]\npreset = \"kevlar-s706\"\nalong = 4\ncolumns = 4\n\
     [weave.panel]\nshape = \"circle\"\nradius = 4.0\npart = \"quarter\"\n[scene]\nspeed = 142.0\nmass = 0.692\nradius = 2.778\n\
@@ -232,11 +233,7 @@ fn the_patch_s_decks_are_current() {
     let scene = "examples/fabric_impact/patch.toml";
     for host in ["openradioss", "ls-dyna", "abaqus-explicit"] {
         let committed = Path::new(ROOT).join("examples/fabric_impact/patch").join(host);
-        let to = if std::env::var_os("TORON_WRITE_DECKS").is_some() {
-            committed.clone()
-        } else {
-            folder(&format!("scene-decks-patch-{host}"))
-        };
+        let to = if is_asked("decks") { committed.clone() } else { folder(&format!("scene-decks-patch-{host}")) };
         let names = |folder: &Path| -> BTreeSet<_> {
             std::fs::read_dir(folder).expect("a folder").map(|file| file.expect("a file").file_name()).collect()
         };
@@ -250,7 +247,7 @@ fn the_patch_s_decks_are_current() {
         assert_eq!(names(&committed), names(&to), "{host}");
         for name in names(&to) {
             let [old, new] = [&committed, &to].map(|folder| std::fs::read(folder.join(&name)).expect("a deck"));
-            assert!(old == new, "{host}: {name:?} is not current: run this test with TORON_WRITE_DECKS=1");
+            assert!(old == new, "{host}: {name:?} is not current: cargo xtask update decks");
         }
     }
 }

@@ -5,7 +5,7 @@ use std::process::{Command, Output};
 use std::thread::sleep;
 use std::time::Duration;
 
-use crate::library::{ROOT, folder};
+use toron_test_support::library::{ROOT, folder};
 
 /// A whole panel of a few yarns; further lines go into `[shots]`.
 fn panel(design: &str, number: usize, lines: &str) -> String {

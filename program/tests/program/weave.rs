@@ -5,7 +5,8 @@ use std::process::Command;
 
 use tiny_skia::Pixmap;
 
-use crate::library::{ROOT, folder, run};
+use toron_test_support::library::{ROOT, folder, run};
+use toron_test_support::update::is_asked;
 
 #[test]
 fn the_example_is_meshed_and_drawn() {
@@ -23,7 +24,7 @@ fn the_example_is_meshed_and_drawn() {
     let weft = picture.share(|[red, _, blue]| red > blue + 40);
     assert!((0.35..0.5).contains(&white), "{white}");
     assert!((0.24..0.33).contains(&warp) && (0.23..0.32).contains(&weft), "{warp} {weft}");
-    if std::env::var_os("TORON_WRITE_PICTURES").is_some() {
+    if is_asked("pictures") {
         std::fs::copy(output.join("weave.png"), Path::new(ROOT).join("docs/images/weave.png")).expect("a copy");
     }
 }

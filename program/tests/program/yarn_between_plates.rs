@@ -1,5 +1,5 @@
 //! A yarn of elliptical section pressed between rigid plates, in CalculiX with contact: `ffi-tests/calculix/contact.inp`.
-//! `TORON_WRITE_PICTURES=1` writes the picture of `docs/images` anew.
+//! `cargo xtask update pictures` writes the picture of `docs/images` anew.
 
 use std::fmt::Write;
 use std::path::Path;
@@ -11,8 +11,9 @@ use plotters::prelude::*;
 use toron::law::state::{ENERGIES, HYPERELASTIC_STATE, INVARIANTS};
 use toron::law::stress::first_piola_kirchhoff;
 use toron::{Hyperelastic, Request};
-use toron_program::picture::page::{self, Area, Drawn};
-use toron_program::picture::style::{COLOURS, GREY, INK, RULE, TEXT, TITLE, fine, stroke, text};
+use toron_pictures::page::{self, Area, Drawn};
+use toron_pictures::style::{COLOURS, GREY, INK, RULE, TEXT, TITLE, fine, stroke, text};
+use toron_test_support::update::is_asked;
 
 /// Half axes of the section and thickness of the slice, in µm.
 const AXES: [f64; 2] = [266.85, 57.5];
@@ -96,10 +97,10 @@ fn a_yarn_between_plates() {
     println!("  half width {} -> {:.1} um", AXES[0], widest(&last.displacements));
     assert!(widest(&last.displacements) > 1.02 * AXES[0]);
 
-    let folder = if std::env::var_os("TORON_WRITE_PICTURES").is_some() {
-        Path::new(crate::library::ROOT).join("docs/images")
+    let folder = if is_asked("pictures") {
+        Path::new(toron_test_support::library::ROOT).join("docs/images")
     } else {
-        crate::library::folder("pictures")
+        toron_test_support::library::folder("pictures")
     };
     let file = |extension: &str| folder.join(format!("yarn-between-plates.{extension}"));
     page::write(&file("svg"), &file("png"), SIZE, |root| draw(root, &mesh, &increments)).expect("a picture");

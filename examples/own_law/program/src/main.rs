@@ -1,5 +1,5 @@
 //! A program for the reinforced solid: `reinforced run`, `params`, `deck`, `eval`, `header` and `bench`.
 
 fn main() -> std::process::ExitCode {
-    toron_program::of_law::<reinforced_solid::ReinforcedSolid>("REINFORCED", 3)
+    toron_materials::of_law::<reinforced_solid::ReinforcedSolid>("REINFORCED", 3)
 }

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use nalgebra::Vector3;
-use toron_program::material::laws::LawName;
+use toron_materials::material::laws::LawName;
 
 use super::model::{Deck, Model, Table, columns, count, number};
 

@@ -1,7 +1,7 @@
 //! The decks of `examples/one-element`: read as their hosts read them, field by field, and held against the law.
 //!
-//! Two parts of each deck are written by this test, with `TORON_WRITE_DOCS=1 cargo test -p toron-program one_element`: the material's
-//! card, which is what the command in its heading prints, and the numbers to expect, which the law gives along the deck's own motion.
+//! Two parts of each deck are written by this test, with `cargo xtask update documents`: the material's card, which is
+//! what the command in its heading prints, and the numbers to expect, which the law gives along the deck's own motion.
 //! The decks of CalculiX are run.
 
 mod abaqus;
@@ -18,10 +18,11 @@ use nalgebra::{Matrix3, Rotation3, Vector3};
 
 use crate::calculix_decks::{Job, Tangent};
 use crate::eval::evaluated;
-use crate::library::{ROOT, run};
 use model::{Deck, ROWS, Row};
 use toron::law::parameters::FIBRE;
-use toron_program::material::laws::LawName;
+use toron_materials::material::laws::LawName;
+use toron_test_support::library::{ROOT, run};
+use toron_test_support::update::is_asked;
 
 /// A host: folder, ending of its decks, sign of a comment, how a deck is read, and the deck's time at the end.
 struct Host {
@@ -144,14 +145,10 @@ fn cards_and_numbers_are_current() {
             });
             assert_eq!(new.matches("[toron deck --host ").count(), deck.points.len(), "{}", path.display());
             assert!(new.contains("[expected]"), "{}", path.display());
-            if std::env::var_os("TORON_WRITE_DOCS").is_some() {
+            if is_asked("documents") {
                 std::fs::write(&path, &new).expect("examples are writable");
             }
-            assert!(
-                text(&path) == new,
-                "{} is not current: TORON_WRITE_DOCS=1 cargo test -p toron-program one_element",
-                path.display()
-            );
+            assert!(text(&path) == new, "{} is not current: cargo xtask update documents", path.display());
             decks += 1;
         }
     }

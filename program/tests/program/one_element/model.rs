@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 
 use nalgebra::{Matrix3, Vector3};
 use toron::{Criterion, Request, Rotation};
-use toron_program::material::laws::LawName;
-use toron_program::material::model::{Law, Material};
+use toron_materials::material::laws::LawName;
+use toron_materials::material::model::{Law, Material};
 
 use crate::hexahedra::Mesh;
 

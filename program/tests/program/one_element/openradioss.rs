@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use nalgebra::Vector3;
-use toron_program::material::laws::LawName;
+use toron_materials::material::laws::LawName;
 
 use super::model::{Deck, Model, Table, columns, count, number};
 
@@ -109,7 +109,7 @@ pub fn read(text: &str) -> Deck {
 
 /// The end of the run, from the engine's file.
 fn end(name: &str) -> f64 {
-    let path = format!("{}/examples/one-element/openradioss/{name}_0001.rad", crate::library::ROOT);
+    let path = format!("{}/examples/one-element/openradioss/{name}_0001.rad", toron_test_support::library::ROOT);
     let engine = std::fs::read_to_string(path).expect("the engine's file");
     assert!(engine.starts_with("#RADIOSS ENGINE\n"));
     let (_, run) = engine.split_once(&format!("/RUN/{name}/1\n")).expect("the run's name is the starter's");

@@ -1,0 +1,440 @@
+//! Blocks of elements of one law: the history arrays, and the call of the law through its C entry.
+
+use std::time::{Duration, Instant};
+
+use serde::{Deserialize, Serialize};
+
+use super::element::{Measures, Shapes};
+use super::instructions::{Loops, run_widest};
+use super::lanes::{LANES, Lanes, Number, largest};
+use super::medium::{Entry, Medium};
+use super::solid::{self, SOLID_VON_MISES, SOLID_WORK};
+use super::stress::{Points, nominal_stress};
+use super::viscosity::Viscosity;
+use super::wave_bounds::{Section, bounds_at};
+use toron::law::state::{FAILURE_INDEX, INVARIANTS, LINEAR_LARGEST, LINEAR_STRESS, LINEAR_WORK};
+use toron::law::status;
+use toron_c::{HyperelasticLaw, LinearElasticLaw, TORON_CRITERION_FIBRE};
+use toron_materials::entries::blocks::{LinearFrame, LinearSolverBlock, SolverBlock, linear_elastic_block};
+use toron_materials::entries::hosts::Given;
+
+/// Elements a block: large enough for the entry's preparation to cost nothing, small enough for its arrays to stay in
+/// the first cache (vector lengths of explicit solvers are of this order).
+pub const BLOCK: usize = 128;
+
+/// Working arrays for one block at a time; they carry nothing over to the next.
+#[derive(Debug)]
+pub struct Scratch<T> {
+    deformation_gradient: Vec<T>,
+    modal: Vec<T>,
+    stress: Vec<T>,
+    /// P by columns.
+    nominal: Vec<T>,
+    measures: Measures<T>,
+    wave_speed: Vec<T>,
+    /// 1 where an element's own step is too short.
+    collapsed: Vec<T>,
+    status: Vec<i32>,
+}
+
+impl<T: Number> Default for Scratch<T> {
+    fn default() -> Self {
+        let array = |components: usize| vec![T::default(); components * BLOCK];
+        Scratch {
+            deformation_gradient: array(9),
+            modal: array(12),
+            stress: array(6),
+            nominal: array(9),
+            measures: Measures::new(BLOCK),
+            wave_speed: array(1),
+            collapsed: array(1),
+            status: vec![0; BLOCK],
+        }
+    }
+}
+
+/// What is computed in a step beside the forces, and the lengths of steps.
+#[derive(Clone, Copy, Debug)]
+pub struct StepOptions {
+    /// Energies and invariants of the law.
+    pub law_outputs: bool,
+    /// The hourglass energy, which only the energy balance needs.
+    pub energy_balance: bool,
+    /// Length of the last step, and the stable step below which an element that may fail has collapsed.
+    pub step: f64,
+    pub shortest: f64,
+}
+
+/// Sums over the blocks in a step.
+#[derive(Clone, Debug, Default)]
+pub struct Sums {
+    /// Energy that viscosity has dissipated.
+    pub viscosity: f64,
+    /// Energy in hourglass modes, and the part of it that elements deleted in this step release.
+    pub hourglass: f64,
+    pub released: f64,
+    /// By Irons' theorem no less than the body's: the largest square of an element's frequency, and the largest rate at
+    /// which viscosity damps one.
+    pub stiffness: f64,
+    pub damping: f64,
+    /// Elements deleted in this step, and how many of them because they have collapsed or turned inside out.
+    pub deleted: Vec<usize>,
+    pub collapsed: usize,
+    /// The code of a law that has refused its call.
+    pub refused: Option<i32>,
+    /// Time spent inside the law's entries.
+    pub law: Duration,
+}
+
+/// Before the law is called: from displacements to deformation gradients and hourglass modes.
+struct Deform<'a, T> {
+    shapes: &'a Shapes<T>,
+    displacement: &'a [[T; 3]],
+    scratch: &'a mut Scratch<T>,
+}
+
+/// After it: from stresses to nodal forces.
+struct Forces<'a, T> {
+    block: &'a mut ElementBlock<T>,
+    medium: &'a Medium<T>,
+    scratch: &'a mut Scratch<T>,
+    options: StepOptions,
+    sums: &'a mut Sums,
+    forces: &'a mut [[T; 3]],
+}
+
+impl<T: Number> Loops for Deform<'_, T> {
+    #[inline(always)]
+    fn run(self) {
+        let Scratch { deformation_gradient, modal, .. } = self.scratch;
+        self.shapes.deform(self.displacement, deformation_gradient, modal);
+    }
+}
+
+impl<T: Number> Loops for Forces<'_, T> {
+    #[inline(always)]
+    fn run(self) {
+        let Forces { block, medium, scratch, options, sums, forces } = self;
+        block.shapes.measure(&scratch.deformation_gradient, &mut scratch.measures);
+        let StepOptions { step, shortest, .. } = options;
+        let ElementBlock { shapes, history, .. } = &mut *block;
+        sums.viscosity += history.viscosity.advance(medium, shapes, &mut scratch.measures, &history.intact, step);
+        block.bound_step(medium, scratch, shortest, sums);
+        let point = Points {
+            deformation_gradient: &scratch.deformation_gradient,
+            stress: &scratch.stress,
+            viscosity: &block.history.viscosity,
+        };
+        nominal_stress(block.shapes.stride, &point, &mut scratch.nominal);
+        block.shapes.forces(&scratch.nominal, &scratch.modal, &block.history.intact, forces);
+    }
+}
+
+/// Elements of one medium, with their history.
+#[derive(Clone, Debug)]
+pub struct ElementBlock<T> {
+    pub shapes: Shapes<T>,
+    /// The body's number of the first element, and the number of the medium.
+    pub first: usize,
+    pub medium: usize,
+    pub history: History<T>,
+    /// ln(1 + ε_lim), or the linear elastic law's strength, of each element where they have limits of their own; else
+    /// empty.
+    limit: Vec<T>,
+}
+
+/// What a block's elements remember from step to step.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct History<T> {
+    /// State variables, component-major.
+    state: Vec<T>,
+    /// 1, or 0 once the element is deleted.
+    pub intact: Vec<T>,
+    viscosity: Viscosity<T>,
+    /// The linear elastic law's deformation gradient at the start of the step.
+    f_old: Vec<T>,
+}
+
+impl<T: Number> ElementBlock<T> {
+    pub fn new(
+        elements: &[[u32; 8]],
+        fibre: &[[f64; 3]],
+        first: usize,
+        coordinates: &[[f64; 3]],
+        medium: usize,
+        of: &Medium<T>,
+    ) -> Self {
+        let shapes = Shapes::<T>::new(elements, fibre, coordinates, of.hourglass);
+        let (stride, one) = (shapes.stride, T::from_f64(1.0));
+        ElementBlock {
+            first,
+            medium,
+            history: History {
+                state: vec![T::default(); of.state().0 * stride],
+                intact: vec![one; stride],
+                viscosity: Viscosity::new(&shapes),
+                f_old: shapes.at_rest(),
+            },
+            limit: Vec::new(),
+            shapes,
+        }
+    }
+
+    /// Gives each element a failure limit of its own: ln(1 + ε_lim), or the linear elastic law's strength.
+    pub fn limit(&mut self, limits: &[f64]) {
+        self.limit = limits.iter().map(|&limit| T::from_f64(limit)).collect();
+    }
+
+    /// From the nodes' displacements to their forces; updates the history.
+    pub fn advance(
+        &mut self,
+        medium: &Medium<T>,
+        displacement: &[[T; 3]],
+        forces: &mut [[T; 3]],
+        scratch: &mut Scratch<T>,
+        options: StepOptions,
+        sums: &mut Sums,
+    ) {
+        run_widest(Deform { shapes: &self.shapes, displacement, scratch });
+        let start = Instant::now();
+        let code = self.call_law(medium, scratch, options);
+        sums.refused = sums.refused.or(refused(code));
+        sums.law += start.elapsed();
+        // Elements that cannot be evaluated are deleted before their forces are assembled; those that have failed or
+        // collapsed exert their last stress.
+        let others = sums.deleted.len();
+        self.delete(medium, scratch, sums, |block, scratch, i| scratch.status[i] != status::OK && block.is_intact(i));
+        sums.collapsed += sums.deleted.len() - others;
+        run_widest(Forces { block: self, medium, scratch, options, sums, forces });
+        let (latch, stride) = (medium.state().1, self.shapes.stride);
+        self.delete(medium, scratch, sums, |block, _, i| {
+            block.history.state[latch * stride + i] != T::default() && block.is_intact(i)
+        });
+        let failed = sums.deleted.len();
+        self.delete(medium, scratch, sums, |block, scratch, i| {
+            medium.fails && scratch.collapsed[i] != T::default() && block.is_intact(i)
+        });
+        sums.collapsed += sums.deleted.len() - failed;
+        if options.energy_balance {
+            let intact = (0..self.shapes.n).filter(|&i| self.is_intact(i));
+            sums.hourglass += intact.map(|i| self.shapes.hourglass_energy(i, &scratch.modal)).sum::<f64>();
+        }
+    }
+
+    /// From the deformation gradients to stresses and wave speeds; updates the history. Returns the entry's code.
+    fn call_law(&mut self, medium: &Medium<T>, scratch: &mut Scratch<T>, options: StepOptions) -> i32 {
+        match &medium.entry {
+            Entry::Hyperelastic(law) => self.call_hyperelastic(law, medium, scratch, options),
+            Entry::LinearElastic { law, frame, criterion, .. } => {
+                let code = self.call_linear_elastic(law, *frame, *criterion, scratch);
+                scratch.wave_speed.fill(T::from_f64(medium.wave_speed));
+                code
+            }
+            Entry::Solid(solid) => {
+                let Shapes { n, stride, .. } = self.shapes;
+                let Scratch { deformation_gradient, stress, wave_speed, status, .. } = scratch;
+                let to = solid::Block { stress, state: &mut self.history.state, wave_speed, status };
+                solid.evaluate_block(medium.density, deformation_gradient, n, stride, to);
+                status::OK
+            }
+        }
+    }
+
+    fn call_hyperelastic(
+        &mut self,
+        law: &HyperelasticLaw<T>,
+        medium: &Medium<T>,
+        scratch: &mut Scratch<T>,
+        options: StepOptions,
+    ) -> i32 {
+        let wave_speed = &mut scratch.wave_speed[..];
+        let arrays = SolverBlock {
+            n: self.shapes.n,
+            leading_dimension: self.shapes.stride,
+            deformation_gradient: &scratch.deformation_gradient,
+            state: &mut self.history.state,
+            state_old: None,
+            energies: options.law_outputs,
+            failure: medium.fails,
+            limit: (!self.limit.is_empty()).then_some(&self.limit),
+            stress: &mut scratch.stress,
+            wave_speed: Some((T::from_f64(medium.density), wave_speed)),
+            tangent: None,
+            status: &mut scratch.status,
+        };
+        arrays.arrays().call(Given::Prepared(law))
+    }
+
+    fn call_linear_elastic(
+        &mut self,
+        law: &LinearElasticLaw<T>,
+        frame: LinearFrame,
+        criterion: i32,
+        scratch: &mut Scratch<T>,
+    ) -> i32 {
+        let stride = self.shapes.stride;
+        let arrays = LinearSolverBlock {
+            n: self.shapes.n,
+            leading_dimension: stride,
+            f_old: &self.history.f_old,
+            f_new: &scratch.deformation_gradient,
+            state: &mut self.history.state,
+            limit: (!self.limit.is_empty()).then_some(&self.limit),
+            stress: &mut scratch.stress,
+            status: &mut scratch.status,
+        };
+        let code = linear_elastic_block(law, arrays, frame, criterion);
+        self.history.f_old.copy_from_slice(&scratch.deformation_gradient[..9 * stride]);
+        code
+    }
+
+    /// The largest square of a frequency, from the law's bound of the wave speed, and the largest rate of damping;
+    /// which elements have collapsed.
+    #[inline(always)]
+    fn bound_step(&self, medium: &Medium<T>, scratch: &mut Scratch<T>, shortest: f64, sums: &mut Sums) {
+        let (zero, one, four) = (Lanes::zero(), Lanes::constant(1.0), Lanes::constant(4.0));
+        // Hourglass modes and bulk share the nodes, and may add up in a skewed element.
+        let hourglass = Lanes::constant(self.shapes.hourglass_frequency / medium.density);
+        let section = Section {
+            volume_ratio: &scratch.measures.volume_ratio,
+            stretch_square: &scratch.measures.stretch_square,
+            metric: &scratch.measures.metric,
+        };
+        let per_density = Lanes::constant(1.0 / medium.density);
+        let (square, twice) = (Lanes::constant(shortest * shortest), Lanes::constant(2.0 * shortest));
+        // A largest number drops what is NaN, a sum does not.
+        let (mut stiffest, mut most_damped, mut sum) = (hourglass, zero, zero);
+        for group in 0..self.shapes.stride / LANES {
+            let first = group * LANES;
+            let active = scratch.measures.active(&self.history.intact, first);
+            let speed = Lanes::at(&scratch.wave_speed, first);
+            let spread = Lanes::at(&scratch.measures.spread, first);
+            let (f, stress) = (&scratch.deformation_gradient, &scratch.stress);
+            let bulk = match bounds_at(&medium.bounds, f, stress, &section, self.shapes.stride, first) {
+                None => speed * speed * spread,
+                Some([along, across]) => {
+                    (along * Lanes::at(&scratch.measures.spread_along, first) + across * spread) * per_density
+                }
+            };
+            let stiffness = (hourglass + bulk).only_where(active);
+            let damping = Lanes::at(&scratch.measures.damping, first).only_where(active);
+            (stiffest, most_damped) = (stiffest.max(stiffness), most_damped.max(damping));
+            sum = sum + stiffness + damping;
+            // As in the body's stable step.
+            let collapsed = one.only_where(square * stiffness + twice * damping - four);
+            collapsed.store(&mut scratch.collapsed, first);
+        }
+        sums.stiffness = largest(sums.stiffness, stiffest.largest());
+        sums.damping = largest(sums.damping, most_damped.largest());
+        if sum.sum().is_nan() {
+            sums.stiffness = f64::NAN;
+        }
+    }
+
+    /// Deletes the selected elements, and sets the latch where the law has not.
+    fn delete(
+        &mut self,
+        medium: &Medium<T>,
+        scratch: &Scratch<T>,
+        sums: &mut Sums,
+        selected: impl Fn(&Self, &Scratch<T>, usize) -> bool,
+    ) {
+        let latch = medium.state().1 * self.shapes.stride;
+        for i in 0..self.shapes.n {
+            if selected(self, scratch, i) {
+                self.history.intact[i] = T::default();
+                self.history.state[latch + i] = T::from_f64(1.0);
+                self.history.viscosity.remove(i);
+                sums.released += self.shapes.hourglass_energy(i, &scratch.modal);
+                sums.deleted.push(self.first + i);
+            }
+        }
+    }
+
+    pub fn is_intact(&self, i: usize) -> bool {
+        self.history.intact[i] != T::default()
+    }
+
+    fn variable(&self, row: usize, i: usize) -> f64 {
+        self.history.state[row * self.shapes.stride + i].into()
+    }
+
+    /// The law's Cauchy stress 11 22 33 12 23 31 of each element, without viscosity and hourglass control: evaluated
+    /// again where the nodes are now, since the host does not keep it. The history stays as it is.
+    ///
+    /// # Errors
+    /// The law's code where it refuses its call.
+    pub fn stress(&self, medium: &Medium<T>, displacement: &[[T; 3]]) -> Result<Vec<[f64; 6]>, i32> {
+        let mut scratch = Scratch::default();
+        run_widest(Deform { shapes: &self.shapes, displacement, scratch: &mut scratch });
+        let options = StepOptions { law_outputs: false, energy_balance: false, step: 0.0, shortest: 0.0 };
+        let code = self.clone().call_law(medium, &mut scratch, options);
+        let Shapes { n, stride, .. } = self.shapes;
+        let component = |row: usize, i: usize| -> f64 { scratch.stress[row * stride + i].into() };
+        let of = |i: usize| std::array::from_fn(|row| component(row, i));
+        refused(code).map_or_else(|| Ok((0..n).map(of).collect()), Err)
+    }
+
+    /// The hyperelastic law's invariants; other laws have none, and 0 here.
+    pub fn invariants(&self, medium: &Medium<T>, i: usize) -> [f64; 4] {
+        match medium.entry {
+            Entry::Hyperelastic(_) => std::array::from_fn(|mode| self.variable(INVARIANTS + mode, i)),
+            Entry::LinearElastic { .. } | Entry::Solid(_) => [0.0; 4],
+        }
+    }
+
+    /// Energy densities, as [`ENERGY_NAMES`](super::medium::ENERGY_NAMES) has them.
+    pub fn energies(&self, medium: &Medium<T>, i: usize) -> [f64; 5] {
+        match medium.entry {
+            Entry::Hyperelastic(_) => {
+                let [el, tc, td, ld] = std::array::from_fn(|mode| self.variable(mode, i));
+                [el, tc, td, ld, 0.0]
+            }
+            Entry::LinearElastic { .. } => [0.0, 0.0, 0.0, 0.0, self.variable(LINEAR_WORK, i)],
+            Entry::Solid(_) => [0.0, 0.0, 0.0, 0.0, self.variable(SOLID_WORK, i)],
+        }
+    }
+
+    /// 1 at the failure limit, 0 without one.
+    pub fn failure_index(&self, medium: &Medium<T>, i: usize) -> f64 {
+        match medium.entry {
+            Entry::Hyperelastic(_) => self.variable(FAILURE_INDEX, i),
+            Entry::LinearElastic { .. } if !medium.fails => 0.0,
+            Entry::Solid(_) => 0.0,
+            Entry::LinearElastic { criterion: TORON_CRITERION_FIBRE, .. } => {
+                self.variable(LINEAR_STRESS, i) / self.strength(medium, i)
+            }
+            Entry::LinearElastic { .. } => self.variable(LINEAR_LARGEST, i) / self.strength(medium, i),
+        }
+    }
+
+    /// The linear elastic law's strength of an element.
+    fn strength(&self, medium: &Medium<T>, i: usize) -> f64 {
+        self.own_limit(i).filter(|&limit| limit > 0.0).unwrap_or(medium.strength)
+    }
+
+    /// The failure limit that an element has of its own, 0 where it is the property's; none where no element has one.
+    pub fn own_limit(&self, i: usize) -> Option<f64> {
+        self.limit.get(i).map(|&limit| limit.into())
+    }
+
+    /// The von Mises stress of a solid; the laws do not keep theirs.
+    pub fn von_mises(&self, medium: &Medium<T>, i: usize) -> Option<f64> {
+        matches!(medium.entry, Entry::Solid(_)).then(|| self.variable(SOLID_VON_MISES, i))
+    }
+
+    /// Logarithmic strain along the fibre: the invariant, or the linear elastic law's stress along it over E1; a solid
+    /// does not keep it.
+    pub fn elongation(&self, medium: &Medium<T>, i: usize) -> f64 {
+        match &medium.entry {
+            Entry::Hyperelastic(_) => self.variable(INVARIANTS, i),
+            Entry::LinearElastic { modulus, .. } => self.variable(LINEAR_STRESS, i) / modulus,
+            Entry::Solid(_) => 0.0,
+        }
+    }
+}
+
+/// The code of a call that the law refuses, whatever the points: bad properties, counts, arguments.
+fn refused(code: i32) -> Option<i32> {
+    (code != status::OK && code > status::INVERTED).then_some(code)
+}

@@ -1,0 +1,353 @@
+//! One body: lumped masses, supports, the motion of its nodes, the forces of its elements.
+
+use serde::{Deserialize, Serialize};
+
+use super::archive::Archive;
+use super::block::{BLOCK, ElementBlock, Scratch, StepOptions, Sums};
+use super::lanes::{Number, largest};
+use super::medium::Medium;
+use super::mesh::Mesh;
+use super::tie::{self, Tie};
+
+/// The boundary condition of a node.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Support {
+    /// Which directions are free.
+    pub free: [bool; 3],
+    /// The velocity in the directions that are not, where the supports' speed is 1.
+    pub velocity: [f64; 3],
+}
+
+/// A body with its motion and its history.
+#[derive(Debug)]
+pub struct Body<T> {
+    pub mesh: Mesh,
+    pub blocks: Vec<ElementBlock<T>>,
+    pub state: BodyState<T>,
+    pub forces: Vec<[T; 3]>,
+    /// Reciprocal mass by direction, 0 where the direction is not free.
+    mobility: Vec<[T; 3]>,
+    pub mass: Vec<f64>,
+    supports: Vec<(usize, Support)>,
+    /// Nodes that move with others.
+    pub ties: Vec<Tie>,
+    /// Of the last step.
+    pub sums: Sums,
+}
+
+/// What a body remembers from step to step, besides the history of its blocks.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct BodyState<T> {
+    pub displacement: Vec<[T; 3]>,
+    pub velocity: Vec<[T; 3]>,
+    /// No node has moved farther in the last step.
+    pub farthest: f64,
+    /// The factor of the supports' velocities.
+    speed: f64,
+    /// Number of intact elements at each node.
+    intact_elements: Vec<u16>,
+    pub deleted: Vec<usize>,
+    /// How many of them because they had collapsed or turned inside out.
+    pub collapsed: usize,
+    /// Hourglass energy of deleted elements.
+    pub released: f64,
+}
+
+impl<T: Number> Body<T> {
+    /// A body at rest. `medium_of` gives the index of an element's medium.
+    pub fn new(mesh: Mesh, media: &[Medium<T>], medium_of: impl Fn(usize) -> usize) -> Self {
+        let count = mesh.nodes.len();
+        let mut body = Body {
+            blocks: Vec::new(),
+            state: BodyState {
+                displacement: vec![[T::default(); 3]; count],
+                velocity: vec![[T::default(); 3]; count],
+                farthest: 0.0,
+                speed: 1.0,
+                intact_elements: vec![0; count],
+                deleted: Vec::new(),
+                collapsed: 0,
+                released: 0.0,
+            },
+            forces: vec![[T::default(); 3]; count],
+            mobility: Vec::new(),
+            mass: vec![0.0; count],
+            supports: Vec::new(),
+            ties: Vec::new(),
+            sums: Sums::default(),
+            mesh,
+        };
+        body.build_blocks(media, medium_of);
+        body.lump_mass(media);
+        body
+    }
+
+    /// Groups consecutive elements of one medium into blocks.
+    fn build_blocks(&mut self, media: &[Medium<T>], medium_of: impl Fn(usize) -> usize) {
+        let Mesh { nodes, elements, fibre, .. } = &self.mesh;
+        let mut first = 0;
+        while first < elements.len() {
+            let medium = medium_of(first);
+            let alike = (first..elements.len().min(first + BLOCK)).take_while(|&i| medium_of(i) == medium).count();
+            let range = first..first + alike;
+            let fibre = if fibre.is_empty() { &[][..] } else { &fibre[range.clone()] };
+            self.blocks.push(ElementBlock::new(&elements[range], fibre, first, nodes, medium, &media[medium]));
+            first += alike;
+        }
+    }
+
+    /// Gives each element a failure limit of its own: ln(1 + ε_lim), or the linear elastic law's strength.
+    pub fn limit(&mut self, limits: &[f64]) {
+        for block in &mut self.blocks {
+            block.limit(&limits[block.first..block.first + block.shapes.n]);
+        }
+    }
+
+    /// Lumps an eighth of every element's mass at each corner.
+    fn lump_mass(&mut self, media: &[Medium<T>]) {
+        for block in &self.blocks {
+            for i in 0..block.shapes.n {
+                let mass = media[block.medium].density * block.shapes.corner_volume(i);
+                for node in block.shapes.nodes[i] {
+                    self.mass[node as usize] += mass;
+                    self.state.intact_elements[node as usize] += 1;
+                }
+            }
+        }
+        self.mobility = self.mass.iter().map(|mass| [T::from_f64(1.0 / mass); 3]).collect();
+    }
+
+    /// Ties nodes to others, before any support.
+    pub fn tie(&mut self, ties: Vec<Tie>) {
+        tie::hand_over(&ties, &mut self.mass);
+        for (mobility, &mass) in self.mobility.iter_mut().zip(&self.mass) {
+            *mobility = [if mass > 0.0 { T::from_f64(1.0 / mass) } else { T::default() }; 3];
+        }
+        self.ties = ties;
+    }
+
+    /// # Errors
+    /// The archive's.
+    pub fn archive(&mut self, archive: &mut Archive<'_>) -> Result<(), postcard::Error> {
+        archive.keep(&mut self.state)?;
+        self.blocks.iter_mut().try_for_each(|block| archive.keep(&mut block.history))
+    }
+
+    /// Fixes a node, or prescribes its velocity. Directions that another support holds stay held.
+    pub fn support(&mut self, node: usize, support: Support) {
+        for i in (0..3).filter(|&i| !support.free[i]) {
+            self.mobility[node][i] = T::default();
+            self.state.velocity[node][i] = T::from_f64(self.state.speed * support.velocity[i]);
+        }
+        if support.velocity != [0.0; 3] {
+            self.supports.push((node, support));
+        }
+    }
+
+    /// Moves the supports at this speed.
+    pub fn set_speed(&mut self, speed: f64) {
+        self.state.speed = speed;
+        for (node, support) in &self.supports {
+            for i in (0..3).filter(|&i| !support.free[i]) {
+                self.state.velocity[*node][i] = T::from_f64(speed * support.velocity[i]);
+            }
+        }
+    }
+
+    /// Brakes the free directions by a force of this many times the momentum; returns its power.
+    pub fn brake(&mut self, rate: f64) -> f64 {
+        let mut power = 0.0;
+        for (((v, f), mobility), &mass) in
+            self.state.velocity.iter().zip(&mut self.forces).zip(&self.mobility).zip(&self.mass)
+        {
+            for i in (0..3).filter(|&i| mobility[i] != T::default()) {
+                let brake = rate * mass * v[i].into();
+                f[i] -= T::from_f64(brake);
+                power += brake * v[i].into();
+            }
+        }
+        power
+    }
+
+    /// The elements' forces at this instant; what they sum up to is in `sums`.
+    pub fn compute_forces(&mut self, media: &[Medium<T>], scratch: &mut Scratch<T>, options: StepOptions) {
+        self.forces.fill([T::default(); 3]);
+        self.sums = Sums::default();
+        for block in &mut self.blocks {
+            let medium = &media[block.medium];
+            block.advance(medium, &self.state.displacement, &mut self.forces, scratch, options, &mut self.sums);
+        }
+    }
+
+    /// Releases the nodes of the elements that this step has deleted; a node without elements keeps its mass. Returns
+    /// whether there are any.
+    pub fn release_nodes(&mut self) -> bool {
+        for &element in &self.sums.deleted {
+            for node in self.mesh.elements[element] {
+                self.state.intact_elements[node as usize] -= 1;
+            }
+        }
+        self.state.released += self.sums.released;
+        self.state.deleted.extend(&self.sums.deleted);
+        self.state.collapsed += self.sums.collapsed;
+        !self.sums.deleted.is_empty()
+    }
+
+    /// Deletes elements as if they had failed.
+    pub fn delete(&mut self, elements: &[usize]) {
+        for &element in elements {
+            let place = self.blocks.partition_point(|block| block.first <= element) - 1;
+            let first = self.blocks[place].first;
+            self.blocks[place].history.intact[element - first] = T::default();
+        }
+        self.sums.deleted = elements.to_vec();
+        self.release_nodes();
+    }
+
+    /// Whether no element is left at a node.
+    pub fn is_loose(&self, node: usize) -> bool {
+        self.state.intact_elements[node] == 0
+    }
+
+    /// Velocities after this interval; returns the kinetic energy if it is to be measured.
+    pub fn update_velocities(&mut self, interval: f64, measured: bool) -> f64 {
+        let dt = T::from_f64(interval);
+        let mut kinetic = 0.0;
+        for tie in &self.ties {
+            let force = std::mem::take(&mut self.forces[tie.node as usize]);
+            for (corner, share) in tie.parts() {
+                for (f, of_node) in self.forces[corner].iter_mut().zip(force) {
+                    *f += T::from_f64(share) * of_node;
+                }
+            }
+        }
+        for (((v, f), mobility), &mass) in
+            self.state.velocity.iter_mut().zip(&self.forces).zip(&self.mobility).zip(&self.mass)
+        {
+            let old = *v;
+            for i in 0..3 {
+                v[i] += dt * f[i] * mobility[i];
+            }
+            if measured {
+                // What central differences conserve is the product of the velocities before and after.
+                kinetic += 0.5 * mass * (0..3).map(|i| old[i].into() * v[i].into()).sum::<f64>();
+            }
+        }
+        for tie in &self.ties {
+            let mut velocity = [T::default(); 3];
+            for (corner, share) in tie.parts() {
+                for (v, of_corner) in velocity.iter_mut().zip(self.state.velocity[corner]) {
+                    *v += T::from_f64(share) * of_corner;
+                }
+            }
+            self.state.velocity[tie.node as usize] = velocity;
+        }
+        kinetic
+    }
+
+    /// The power of the reactions at prescribed velocities.
+    pub fn external_power(&self) -> f64 {
+        let mut power = 0.0;
+        for (node, support) in &self.supports {
+            let reaction = |i: usize| -> f64 { -self.forces[*node][i].into() * self.state.speed * support.velocity[i] };
+            power += (0..3).filter(|&i| !support.free[i]).map(reaction).sum::<f64>();
+        }
+        power
+    }
+
+    /// Displacements at the end of a step.
+    pub fn displace(&mut self, step: f64) {
+        let dt = T::from_f64(step);
+        let mut farthest = 0.0;
+        for (u, v) in self.state.displacement.iter_mut().zip(&self.state.velocity) {
+            let mut square = 0.0;
+            for i in 0..3 {
+                let before: f64 = u[i].into();
+                u[i] += dt * v[i];
+                let after: f64 = u[i].into(); // as rounded in f32
+                square += (after - before) * (after - before);
+            }
+            farthest = largest(farthest, square);
+        }
+        self.state.farthest = farthest.sqrt();
+    }
+
+    /// What the laws report.
+    pub fn internal_energy(&self, media: &[Medium<T>]) -> f64 {
+        let mut internal = 0.0;
+        for block in &self.blocks {
+            for i in 0..block.shapes.n {
+                let density: f64 = block.energies(&media[block.medium], i).iter().sum();
+                internal += density * block.shapes.volume(i);
+            }
+        }
+        internal
+    }
+
+    /// The current position of a node.
+    #[inline(always)]
+    pub fn position(&self, node: usize) -> [f64; 3] {
+        let ([x, y, z], [u, v, w]) = (self.mesh.nodes[node], self.state.displacement[node]);
+        [x + u.into(), y + v.into(), z + w.into()]
+    }
+
+    /// The block of an element, and its place there.
+    pub fn element(&self, number: usize) -> (&ElementBlock<T>, usize) {
+        let block = &self.blocks[self.blocks.partition_point(|block| block.first <= number) - 1];
+        (block, number - block.first)
+    }
+
+    /// Whether an element has not been deleted.
+    pub fn is_intact(&self, number: usize) -> bool {
+        let (block, i) = self.element(number);
+        block.is_intact(i)
+    }
+
+    /// Energy densities in an element, as [`ENERGY_NAMES`](super::medium::ENERGY_NAMES) has them.
+    pub fn energy_densities(&self, media: &[Medium<T>], number: usize) -> [f64; 5] {
+        let (block, i) = self.element(number);
+        block.energies(&media[block.medium], i)
+    }
+
+    /// Cauchy stress 11 22 33 12 23 31 of each element, as [`ElementBlock::stress`] has it.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn stress(&self, media: &[Medium<T>]) -> Result<Vec<[f64; 6]>, i32> {
+        let mut stress = Vec::with_capacity(self.mesh.elements.len());
+        for block in &self.blocks {
+            stress.extend(block.stress(&media[block.medium], &self.state.displacement)?);
+        }
+        Ok(stress)
+    }
+
+    /// The invariants of an element.
+    pub fn invariants(&self, media: &[Medium<T>], number: usize) -> [f64; 4] {
+        let (block, i) = self.element(number);
+        block.invariants(&media[block.medium], i)
+    }
+
+    /// Reference volume of an element.
+    pub fn volume(&self, number: usize) -> f64 {
+        let (block, i) = self.element(number);
+        block.shapes.volume(i)
+    }
+
+    /// How near an element is to failure, which is at 1.
+    pub fn failure_index(&self, media: &[Medium<T>], number: usize) -> f64 {
+        let (block, i) = self.element(number);
+        block.failure_index(&media[block.medium], i)
+    }
+
+    /// The failure limit that an element has of its own, 0 where it is the property's; none where no element has one.
+    pub fn own_limit(&self, number: usize) -> Option<f64> {
+        let (block, i) = self.element(number);
+        block.own_limit(i)
+    }
+
+    /// Logarithmic strain along the fibre of an element.
+    pub fn elongation(&self, media: &[Medium<T>], number: usize) -> f64 {
+        let (block, i) = self.element(number);
+        block.elongation(&media[block.medium], i)
+    }
+}

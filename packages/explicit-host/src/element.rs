@@ -1,0 +1,511 @@
+//! The one-point hexahedron, many side by side: deformation gradient, nodal forces, hourglass control.
+//!
+//! Everything refers to the reference placement, so that nothing is computed anew in a step but what depends on the
+//! displacement. At an element's centre the gradient of a field is the sum of its nodal values, with the signs of ξ, η
+//! and ζ, times the inverse Jacobian. For the prisms that yarns are meshed with that is the mean over the element,
+//! which is what Flanagan and Belytschko take (Int. J. Numer. Meth. Eng. 17, 1981). Their four hourglass modes are the
+//! sums with the signs of ξη, ηζ, ζξ and ξηζ, less what a linear field has in them; the elastic force against them is
+//! theirs, with reference shapes: it vanishes in every rigid motion and uniform deformation, and has an energy.
+
+#![expect(clippy::needless_range_loop, reason = "what is inlined for certain: see Lanes")]
+
+use std::ops::{Add, Sub};
+
+use super::lanes::{LANES, Lanes, Number, cross, dot, load};
+use super::rows::Rows;
+
+/// The modes that are sums with the signs of one coordinate.
+const LINEAR: [usize; 3] = [1, 2, 4];
+/// Those with the signs of a product: ξη, ηζ, ζξ, ξηζ.
+const HOURGLASS: [usize; 4] = [3, 6, 5, 7];
+/// The lower corners of the four edges along each coordinate.
+const EDGES: [(usize, [usize; 4]); 3] = [(1, [0, 2, 4, 6]), (2, [0, 1, 4, 5]), (4, [0, 1, 2, 3])];
+
+/// Sums over the corners: entry k has the product of the signs of the coordinates that are the bits of k.
+#[inline(always)]
+fn modes<V: Copy + Add<Output = V> + Sub<Output = V>>(mut values: [V; 8]) -> [V; 8] {
+    for axis in 0..3 {
+        let (bit, lower) = EDGES[axis];
+        for edge in 0..4 {
+            let corner = lower[edge];
+            let (low, high) = (values[corner], values[corner | bit]);
+            values[corner] = low + high;
+            values[corner | bit] = high - low;
+        }
+    }
+    values
+}
+
+/// The transpose of [`modes`]: what every corner gets.
+#[inline(always)]
+fn corners<V: Copy + Add<Output = V> + Sub<Output = V>>(mut values: [V; 8]) -> [V; 8] {
+    for axis in 0..3 {
+        let (bit, lower) = EDGES[axis];
+        for edge in 0..4 {
+            let corner = lower[edge];
+            let (even, odd) = (values[corner], values[corner | bit]);
+            values[corner] = even - odd;
+            values[corner | bit] = even + odd;
+        }
+    }
+    values
+}
+
+/// A component of the displacement at the corners of neighbouring elements.
+#[inline(always)]
+fn gather<T: Number>(nodes: &[[u32; 8]], displacement: &[[T; 3]], component: usize) -> [Lanes<T>; 8] {
+    let mut values = [Lanes::zero(); 8];
+    for corner in 0..8 {
+        for l in 0..LANES {
+            values[corner].0[l] = displacement[nodes[l][corner] as usize][component];
+        }
+    }
+    values
+}
+
+/// Rows of a block's constant data: ⅛ ∂ξ_k/∂X_j, entry k + 3j; mode α of X_j, entry α + 4j; reference volume; stiffness
+/// against the hourglass modes; 8 Σ over corners of ∂N/∂X_i ∂N/∂X_j, 11 22 33 12 23 31: what the stable step needs.
+const INVERSE: usize = 0;
+const HOURGLASS_OF_X: usize = INVERSE + 9;
+const VOLUME: usize = HOURGLASS_OF_X + 12;
+const STIFFNESS: usize = VOLUME + 1;
+const GRADIENTS: usize = STIFFNESS + 1;
+const ROWS: usize = GRADIENTS + 6;
+
+/// The constant data of a block of elements: nodes and reference shapes.
+#[derive(Clone, Debug)]
+pub struct Shapes<T> {
+    /// Elements, and the same rounded up to whole lanes; the surplus has no volume.
+    pub n: usize,
+    pub stride: usize,
+    pub nodes: Vec<[u32; 8]>,
+    constants: Rows<T>,
+    /// 9 components by columns, or none where they are those of the unit matrix in all elements: the axes that X refers
+    /// to, the fibre's first.
+    axes: Rows<T>,
+    /// The largest square of a frequency of the hourglass modes, times the density.
+    pub hourglass_frequency: f64,
+}
+
+/// Unit vectors at right angles, the fibre's direction first and then, as nearly as that allows, the third axis.
+fn axes_of(fibre: [f64; 3]) -> [[f64; 3]; 3] {
+    let m = nalgebra::Vector3::from(fibre).normalize();
+    // A fibre along the third axis has the second one beside it.
+    let up = nalgebra::Vector3::ith(if m.z.abs() < 0.9 { 2 } else { 1 }, 1.0);
+    let n = (up - up.dot(&m) * m).normalize();
+    [m.into(), n.into(), m.cross(&n).into()]
+}
+
+/// The reference shape of one element.
+struct Shape {
+    inverse: [[f64; 3]; 3],
+    hourglass: [[f64; 4]; 3],
+    volume: f64,
+    /// Σ over corners of ∂N/∂X_i ∂N/∂X_j.
+    gradients: [f64; 6],
+}
+
+impl Shape {
+    fn new(corners: [[f64; 3]; 8]) -> Shape {
+        let sums: [[f64; 8]; 3] = [0, 1, 2].map(|j| modes(corners.map(|corner| corner[j])));
+        let jacobian = nalgebra::Matrix3::from_fn(|j, k| sums[j][LINEAR[k]] / 8.0);
+        let inverse = jacobian.try_inverse().unwrap_or_default();
+        // Σ_a ξ_ka ξ_la = 8 δ_kl, and each gradient has a factor ⅛.
+        let product = inverse.transpose() * inverse / 8.0;
+        let pairs = [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (2, 0)];
+        Shape {
+            inverse: std::array::from_fn(|j| std::array::from_fn(|k| inverse[(k, j)] / 8.0)),
+            hourglass: sums.map(|sum| HOURGLASS.map(|mode| sum[mode])),
+            volume: 8.0 * jacobian.determinant(),
+            gradients: pairs.map(|pair| product[pair]),
+        }
+    }
+
+    /// A bound of Σ over the corners of a hourglass mode's squares: 8, and what it sheds of linear fields.
+    fn hourglass_square(&self) -> f64 {
+        let shed =
+            |mode: usize, k: usize| -> f64 { (0..3).map(|j| self.hourglass[j][mode] * self.inverse[j][k]).sum() };
+        8.0 + 8.0 * (0..4).flat_map(|mode| (0..3).map(move |k| shed(mode, k).powi(2))).sum::<f64>()
+    }
+}
+
+impl<T: Number> Shapes<T> {
+    /// A block of elements. `fibre` is its unit direction in each, or empty where that is axis 0 in all; `coordinates`
+    /// are the nodes in the reference placement, `modulus` is what hourglass modes are held by.
+    ///
+    /// X is taken in axes of each element, of which the first is the fibre's: F then has the fibre's image as its first
+    /// column, which is what the laws take for it, and differs from the usual one by a rotation of the reference
+    /// placement, which they do not see otherwise.
+    pub fn new(elements: &[[u32; 8]], fibre: &[[f64; 3]], coordinates: &[[f64; 3]], modulus: f64) -> Self {
+        let (n, stride) = (elements.len(), elements.len().next_multiple_of(LANES));
+        let mut block = Shapes {
+            n,
+            stride,
+            nodes: elements.to_vec(),
+            constants: Rows::new(ROWS, n),
+            axes: Rows::new(9, fibre.len()),
+            hourglass_frequency: 0.0,
+        };
+        block.nodes.resize(stride, elements.first().copied().unwrap_or_default());
+        for surplus in fibre.len()..block.axes.values.len() / 9 {
+            [0, 4, 8].into_iter().for_each(|diagonal| block.axes.set(diagonal, surplus, T::from_f64(1.0)));
+        }
+        for (i, element) in elements.iter().enumerate() {
+            let corners = element.map(|node| coordinates[node as usize]);
+            let shape = match fibre.get(i) {
+                Some(&fibre) => {
+                    let axes = axes_of(fibre);
+                    for (c, entry) in axes.as_flattened().iter().enumerate() {
+                        block.axes.set(c, i, T::from_f64(*entry));
+                    }
+                    let along = |x: [f64; 3], axis: [f64; 3]| x[0] * axis[0] + x[1] * axis[1] + x[2] * axis[2];
+                    Shape::new(corners.map(|x| axes.map(|axis| along(x, axis))))
+                }
+                None => Shape::new(corners),
+            };
+            for j in 0..3 {
+                for k in 0..3 {
+                    block.constants.set(INVERSE + k + 3 * j, i, T::from_f64(shape.inverse[j][k]));
+                }
+                for mode in 0..4 {
+                    block.constants.set(HOURGLASS_OF_X + mode + 4 * j, i, T::from_f64(shape.hourglass[j][mode]));
+                }
+            }
+            let trace: f64 = shape.gradients[..3].iter().sum();
+            block.constants.set(VOLUME, i, T::from_f64(shape.volume));
+            // Half the modulus times Σ|∇N|², as theirs; the modes are not normalised, hence the eighth.
+            let stiffness = 0.5 * modulus * trace * shape.volume / 8.0;
+            block.constants.set(STIFFNESS, i, T::from_f64(stiffness));
+            let frequency = stiffness * shape.hourglass_square() / (shape.volume / 8.0);
+            block.hourglass_frequency = block.hourglass_frequency.max(frequency);
+            for (c, sum) in shape.gradients.into_iter().enumerate() {
+                block.constants.set(GRADIENTS + c, i, T::from_f64(8.0 * sum));
+            }
+        }
+        block
+    }
+
+    /// F by columns before anything has moved, component-major.
+    pub fn at_rest(&self) -> Vec<T> {
+        let mut f = vec![T::default(); 9 * self.stride];
+        for i in 0..self.stride {
+            for c in 0..9 {
+                let unit = T::from_f64(if c % 4 == 0 { 1.0 } else { 0.0 });
+                f[c * self.stride + i] = if self.axes.is_empty() { unit } else { self.axes.number(c, i) };
+            }
+        }
+        f
+    }
+
+    /// Reference volume.
+    pub fn volume(&self, element: usize) -> f64 {
+        self.constants.number(VOLUME, element).into()
+    }
+
+    #[inline(always)]
+    pub fn volumes(&self, first: usize) -> Lanes<T> {
+        let [volume] = self.constants.at(VOLUME, first);
+        volume
+    }
+
+    /// Length of an element along axis 0: for a prism of this axis, 8 Σ(∂N/∂X)² is 4 over its square.
+    pub fn length(&self, element: usize) -> f64 {
+        2.0 / self.constants.number(GRADIENTS, element).into().sqrt()
+    }
+
+    /// An eighth of the element's mass rests on each corner.
+    pub fn corner_volume(&self, element: usize) -> f64 {
+        self.volume(element) / 8.0
+    }
+
+    /// F by columns and the hourglass modes of the displacement, all elements.
+    #[inline(always)]
+    pub fn deform(&self, displacement: &[[T; 3]], f: &mut [T], modal: &mut [T]) {
+        let stride = self.stride;
+        let (zero, one) = (Lanes::zero(), Lanes::constant(1.0));
+        for group in 0..stride / LANES {
+            let first = group * LANES;
+            let nodes = &self.nodes[first..first + LANES];
+            let b: [Lanes<T>; 9] = self.constants.at(INVERSE, first);
+            let r: [Lanes<T>; 12] = self.constants.at(HOURGLASS_OF_X, first);
+            let mut axes = [zero, zero, zero, zero, zero, zero, zero, zero, zero];
+            if self.axes.is_empty() {
+                (axes[0], axes[4], axes[8]) = (one, one, one);
+            } else {
+                axes = self.axes.at(0, first);
+            }
+            for i in 0..3 {
+                let m = modes(gather(nodes, displacement, i));
+                // The displacement's gradient, row i.
+                let mut h = [Lanes::zero(); 3];
+                for j in 0..3 {
+                    h[j] = m[LINEAR[0]] * b[3 * j] + m[LINEAR[1]] * b[3 * j + 1] + m[LINEAR[2]] * b[3 * j + 2];
+                    (axes[i + 3 * j] + h[j]).store(f, (i + 3 * j) * stride + first);
+                }
+                for mode in 0..4 {
+                    let linear = h[0] * r[mode] + h[1] * r[mode + 4] + h[2] * r[mode + 8];
+                    (m[HOURGLASS[mode]] - linear).store(modal, (mode + 4 * i) * stride + first);
+                }
+            }
+        }
+    }
+
+    /// Adds the elements' forces to the nodes', from P and the amplitudes of the hourglass modes, which only intact
+    /// elements (1, others 0) hold.
+    #[inline(always)]
+    pub fn forces(&self, nominal: &[T], modal: &[T], intact: &[T], forces: &mut [[T; 3]]) {
+        let stride = self.stride;
+        for group in 0..stride / LANES {
+            let first = group * LANES;
+            let p: [Lanes<T>; 9] = load(nominal, stride, first);
+            let b: [Lanes<T>; 9] = self.constants.at(INVERSE, first);
+            let r: [Lanes<T>; 12] = self.constants.at(HOURGLASS_OF_X, first);
+            let [volume, stiffness] = self.constants.at(VOLUME, first);
+            let [intact] = load(intact, stride, first);
+            let k = stiffness * intact;
+            let zero = Lanes::zero();
+            let mut nodal = [[zero; 8]; 3];
+            for i in 0..3 {
+                let mut hourglass = [zero; 4];
+                for mode in 0..4 {
+                    hourglass[mode] = k * Lanes::at(modal, (mode + 4 * i) * stride + first);
+                }
+                let mut force = [zero; 3];
+                for j in 0..3 {
+                    // Less the forces on the linear part of the hourglass modes, which they must not resist.
+                    let [xy, yz, zx, xyz] = hourglass;
+                    let linear = xy * r[4 * j] + yz * r[4 * j + 1] + zx * r[4 * j + 2] + xyz * r[4 * j + 3];
+                    let nominal = volume * p[i + 3 * j] - linear;
+                    for m in 0..3 {
+                        force[m] = force[m] + nominal * b[3 * j + m];
+                    }
+                }
+                let ([xy, yz, zx, xyz], [x, y, z]) = (hourglass, force);
+                nodal[i] = corners([zero, x, y, xy, z, zx, yz, xyz]);
+            }
+            self.scatter(&nodal, first, forces);
+        }
+    }
+
+    /// In the order of the elements, so that a run repeats bit by bit.
+    #[inline(always)]
+    fn scatter(&self, nodal: &[[Lanes<T>; 8]; 3], first: usize, forces: &mut [[T; 3]]) {
+        let last = if first + LANES < self.n { first + LANES } else { self.n };
+        let nodes = &self.nodes[first..last];
+        for l in 0..nodes.len() {
+            for corner in 0..8 {
+                let force = &mut forces[nodes[l][corner] as usize];
+                for i in 0..3 {
+                    force[i] -= nodal[i][corner].0[l];
+                }
+            }
+        }
+    }
+
+    /// The measures of F that the stable step and viscosity need, all elements.
+    #[inline(always)]
+    pub fn measure(&self, f: &[T], to: &mut Measures<T>) {
+        for group in 0..self.stride / LANES {
+            let first = group * LANES;
+            let [f0, f1, f2, f3, f4, f5, f6, f7, f8] = load(f, self.stride, first);
+            let [u, v, w] = [[f0, f1, f2], [f3, f4, f5], [f6, f7, f8]];
+            let [a, b, c] = [cross(v, w), cross(w, u), cross(u, v)];
+            let (ratio, square) = (dot(u, a), dot(u, u));
+            let [aa, bb, cc, ab, bc, ca] = self.constants.at(GRADIENTS, first);
+            let [second, third, both] = [dot(c, c), dot(b, b), dot(b, c)];
+            let (squares, products) =
+                (aa * dot(a, a) + bb * third + cc * second, ab * dot(a, b) + bc * both + ca * dot(c, a));
+            let per_square = Lanes::constant(1.0) / square;
+            ratio.store(&mut to.volume_ratio, first);
+            square.store(&mut to.stretch_square, first);
+            ((squares + products + products) / (ratio * ratio)).store(&mut to.spread, first);
+            (aa * per_square).store(&mut to.spread_along, first);
+            let metric = [second, third, Lanes::zero() - both];
+            for component in 0..3 {
+                (metric[component] * per_square).store(&mut to.metric, component * self.stride + first);
+            }
+        }
+    }
+
+    /// The energy in the hourglass modes of an element.
+    pub fn hourglass_energy(&self, element: usize, modal: &[T]) -> f64 {
+        let square = |c: usize| modal[c * self.stride + element].into().powi(2);
+        0.5 * self.constants.number(STIFFNESS, element).into() * (0..12).map(square).sum::<f64>()
+    }
+}
+
+/// Measures of F, one number per element unless stated otherwise.
+#[derive(Clone, Debug)]
+pub struct Measures<T> {
+    /// J, and the square of the stretch along axis 0, where the fibres are.
+    pub volume_ratio: Vec<T>,
+    pub stretch_square: Vec<T>,
+    /// The square of the highest frequency over that of the wave speed: the largest eigenvalue of 8 Σ ∇N ⊗ ∇N in the
+    /// current placement is no larger than its trace; ∇N = cof F ∂N/∂X / J. And the trace's part along the fibre, where
+    /// m·∇N = ∂N/∂X over the stretch.
+    pub spread: Vec<T>,
+    pub spread_along: Vec<T>,
+    /// 3: the section's metric, 22 33 23, the products of F's second and third column without their parts along the
+    /// first. The cofactors of C have them, times the square of the stretch.
+    pub metric: Vec<T>,
+    /// The rate at which viscosity damps the highest frequency.
+    pub damping: Vec<T>,
+}
+
+impl<T: Number> Measures<T> {
+    /// Of as many elements.
+    pub fn new(stride: usize) -> Self {
+        let array = |components: usize| vec![T::default(); components * stride];
+        Measures {
+            volume_ratio: array(1),
+            stretch_square: array(1),
+            spread: array(1),
+            spread_along: array(1),
+            metric: array(3),
+            damping: array(1),
+        }
+    }
+
+    /// J of the active elements, those intact and not inverted, 0 for the others.
+    #[inline(always)]
+    pub fn active(&self, intact: &[T], first: usize) -> Lanes<T> {
+        Lanes::at(&self.volume_ratio, first).max(Lanes::zero()).only_where(Lanes::at(intact, first))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::stress::{Points, nominal_stress};
+    use crate::viscosity::Viscosity;
+
+    const MODULUS: f64 = 0.6;
+    /// A skewed brick, and a prism whose upper rear edge has shrunk to nothing.
+    const NODES: [[f64; 3]; 8] = [
+        [0.0, 0.0, 0.0],
+        [2.0, 0.1, 0.0],
+        [0.1, 1.0, 0.1],
+        [2.1, 1.2, 0.0],
+        [0.0, 0.1, 1.5],
+        [2.0, 0.0, 1.4],
+        [0.2, 1.0, 1.5],
+        [2.0, 1.1, 1.6],
+    ];
+    const ELEMENTS: [[u32; 8]; 2] = [[0, 1, 2, 3, 4, 5, 6, 7], [0, 1, 2, 3, 4, 5, 4, 5]];
+
+    struct State {
+        f: Vec<f64>,
+        modal: Vec<f64>,
+    }
+
+    fn deform(shapes: &Shapes<f64>, displacement: &[[f64; 3]]) -> State {
+        let mut state = State { f: vec![0.0; 9 * shapes.stride], modal: vec![0.0; 12 * shapes.stride] };
+        shapes.deform(displacement, &mut state.f, &mut state.modal);
+        state
+    }
+
+    /// Displacements that are no linear field.
+    fn crooked() -> Vec<[f64; 3]> {
+        (0..8).map(|i| [0.1, 0.7, 1.3].map(|phase| 0.05 * (phase + 2.3 * f64::from(i)).sin())).collect()
+    }
+
+    fn forces(shapes: &Shapes<f64>, state: &State, stress: [f64; 6]) -> Vec<[f64; 3]> {
+        let stress: Vec<f64> = stress.iter().flat_map(|&s| vec![s; shapes.stride]).collect();
+        let intact = vec![1.0; shapes.stride];
+        let mut nominal = vec![0.0; 9 * shapes.stride];
+        let viscosity = Viscosity::new(shapes);
+        let point = Points { deformation_gradient: &state.f, stress: &stress, viscosity: &viscosity };
+        nominal_stress(shapes.stride, &point, &mut nominal);
+        let mut forces = vec![[0.0; 3]; NODES.len()];
+        shapes.forces(&nominal, &state.modal, &intact, &mut forces);
+        forces
+    }
+
+    #[test]
+    fn a_linear_field_has_its_gradient_and_no_hourglass() {
+        let shapes = Shapes::<f64>::new(&ELEMENTS, &[], &NODES, MODULUS);
+        let h = nalgebra::Matrix3::new(0.1, -0.3, 0.2, 0.4, 0.05, -0.1, -0.2, 0.3, -0.15);
+        let field: Vec<[f64; 3]> = NODES.iter().map(|&x| (h * nalgebra::Vector3::from(x)).into()).collect();
+        let state = deform(&shapes, &field);
+        for element in 0..shapes.n {
+            for (c, expected) in (h + nalgebra::Matrix3::identity()).iter().enumerate() {
+                assert!((state.f[c * shapes.stride + element] - expected).abs() < 1e-14);
+            }
+            assert!((0..12).all(|c| state.modal[c * shapes.stride + element].abs() < 1e-14));
+        }
+    }
+
+    #[test]
+    fn axes_of_its_own_turn_the_reference_placement_and_nothing_else() {
+        let fibre = [0.6, 0.0, 0.8];
+        let [plain, turned] =
+            [&[][..], &[fibre, fibre]].map(|fibre| Shapes::<f64>::new(&ELEMENTS, fibre, &NODES, MODULUS));
+        let [a, b] = [&plain, &turned].map(|shapes| deform(shapes, &crooked()));
+        let of = |shapes: &Shapes<f64>, values: &[f64], element: usize| {
+            nalgebra::Matrix3::from_fn(|i, j| values[(i + 3 * j) * shapes.stride + element])
+        };
+        let stress = [3.0, -1.0, 2.0, 0.5, -0.7, 0.2];
+        for element in 0..2 {
+            let axes = of(&turned, &turned.at_rest(), element);
+            assert!((axes.column(0) - nalgebra::Vector3::from(fibre)).norm() < 1e-15);
+            assert!((axes.determinant() - 1.0).abs() < 1e-15);
+            let difference = of(&turned, &b.f, element) - of(&plain, &a.f, element) * axes;
+            assert!(difference.norm() < 1e-14, "{difference}");
+            assert!((turned.volume(element) / plain.volume(element) - 1.0).abs() < 1e-14);
+        }
+        for (c, d) in a.modal.iter().zip(&b.modal) {
+            assert!((c - d).abs() < 1e-14);
+        }
+        for (c, d) in forces(&plain, &a, stress).as_flattened().iter().zip(forces(&turned, &b, stress).as_flattened()) {
+            assert!((c - d).abs() < 1e-13, "{c} {d}");
+        }
+    }
+
+    #[test]
+    fn forces_are_in_balance() {
+        let shapes = Shapes::<f64>::new(&ELEMENTS, &[], &NODES, MODULUS);
+        let displacement = crooked();
+        let state = deform(&shapes, &displacement);
+        let forces = forces(&shapes, &state, [3.0, -1.0, 2.0, 0.5, -0.7, 0.2]);
+        let sum = forces.iter().fold(nalgebra::Vector3::zeros(), |sum, &f| sum + nalgebra::Vector3::from(f));
+        assert!(sum.norm() < 1e-14, "{sum}");
+    }
+
+    #[test]
+    fn hourglass_forces_are_the_slope_of_their_energy() {
+        let shapes = Shapes::<f64>::new(&ELEMENTS[..1], &[], &NODES, MODULUS);
+        let mut displacement = crooked();
+        let state = deform(&shapes, &displacement);
+        let force = forces(&shapes, &state, [0.0; 6]);
+        assert!(force.iter().flatten().any(|f| f.abs() > 1e-4), "there is something to compare");
+        let step = 1e-6;
+        for (node, i) in [(0, 0), (3, 1), (6, 2), (7, 0)] {
+            let [low, high] = [-step, step].map(|change| {
+                displacement[node][i] += change;
+                let energy = shapes.hourglass_energy(0, &deform(&shapes, &displacement).modal);
+                displacement[node][i] -= change;
+                energy
+            });
+            let slope = (high - low) / (2.0 * step);
+            assert!((slope + force[node][i]).abs() < 1e-8, "{slope} {}", force[node][i]);
+        }
+    }
+
+    #[test]
+    fn nodal_forces_do_the_work_of_the_stress() {
+        // δW = V P:δF for a displacement that is a linear field; the hourglass does none.
+        let shapes = Shapes::<f64>::new(&ELEMENTS[..1], &[], &NODES, MODULUS);
+        let stress = [3.0, -1.0, 2.0, 0.5, -0.7, 0.2];
+        let state = deform(&shapes, &crooked());
+        let force = forces(&shapes, &state, stress);
+        let f = nalgebra::Matrix3::from_fn(|i, j| state.f[(i + 3 * j) * shapes.stride]);
+        let p = toron::law::stress::first_piola_kirchhoff(&stress, &f);
+        let h = nalgebra::Matrix3::new(0.1, -0.3, 0.2, 0.4, 0.05, -0.1, -0.2, 0.3, -0.15);
+        let work: f64 = NODES
+            .iter()
+            .zip(&force)
+            .map(|(&x, &f)| -(h * nalgebra::Vector3::from(x)).dot(&nalgebra::Vector3::from(f)))
+            .sum();
+        assert!((work - shapes.volume(0) * p.dot(&h)).abs() < 1e-13 * work.abs().max(1.0), "{work}");
+    }
+}

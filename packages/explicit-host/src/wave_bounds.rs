@@ -1,0 +1,165 @@
+//! The laws' bounds of wave speeds by direction, of neighbouring elements at once.
+
+use super::lanes::{Lanes, Number, load};
+use toron::law::wave_bounds::{Arithmetic, Deformed, WaveBounds};
+use toron_materials::material::model::{Law, Material};
+
+/// The measures of F that the bounds need, beside F: J, λ², and the section's metric.
+pub struct Section<'a, T> {
+    pub volume_ratio: &'a [T],
+    pub stretch_square: &'a [T],
+    pub metric: &'a [T],
+}
+
+/// By direction where that is known for a material.
+pub fn wave_bounds(material: &Material) -> WaveBounds {
+    match &material.law {
+        Law::Hyperelastic { properties, .. } => WaveBounds::hyperelastic(properties),
+        Law::LinearElastic { properties, frame, .. } => WaveBounds::linear_elastic(properties, *frame),
+        Law::Own(_) => WaveBounds::Isotropic,
+    }
+}
+
+/// A and B of elements from `first` on; `None` where there is one bound.
+#[inline(always)]
+pub fn bounds_at<T: Number>(
+    bounds: &WaveBounds,
+    f: &[T],
+    stress: &[T],
+    section: &Section<T>,
+    stride: usize,
+    first: usize,
+) -> Option<[Lanes<T>; 2]> {
+    if *bounds == WaveBounds::Isotropic {
+        return None;
+    }
+    let [f0, f1, f2, f3, f4, f5, f6, f7, f8] = load(f, stride, first);
+    let [c22, c33, _] = load(section.metric, stride, first);
+    bounds.at(&Deformed {
+        columns: [[f0, f1, f2], [f3, f4, f5], [f6, f7, f8]],
+        stress: load(stress, stride, first),
+        volume_ratio: Lanes::at(section.volume_ratio, first),
+        stretch_square: Lanes::at(section.stretch_square, first),
+        section: [c22, c33],
+    })
+}
+
+impl<T: Number> Arithmetic for Lanes<T> {
+    #[inline(always)]
+    fn constant(value: f64) -> Self {
+        Lanes::constant(value)
+    }
+
+    #[inline(always)]
+    fn larger(self, other: Self) -> Self {
+        self.max(other)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use fastrand::Rng;
+    use nalgebra::{Matrix3, Vector3};
+
+    use super::*;
+    use crate::element::{Measures, Shapes};
+    use toron::law::parameters;
+    use toron::{Criterion, Rotation};
+    use toron_materials::material::model::Origin;
+
+    fn material(preset: &str, k_ld: f64) -> Material {
+        turning(preset, k_ld, Rotation::Fibre)
+    }
+
+    fn turning(preset: &str, k_ld: f64, rotation: Rotation) -> Material {
+        let preset = parameters::preset(preset).expect("it exists");
+        let mut values = preset.values.to_vec();
+        for (value, property) in values.iter_mut().zip(preset.table()) {
+            match property.name {
+                "k_ld" => *value = k_ld,
+                "eps_lim" | "sigma_lim" | "alpha" | "beta" => *value = 0.0,
+                _ => {}
+            }
+        }
+        let law = Law::new(preset.law.into(), &values, rotation, Criterion::LargestPrincipal).expect("valid");
+        Material {
+            law,
+            density: Some(preset.density),
+            label: String::new(),
+            own: String::new(),
+            origin: Origin::default(),
+        }
+    }
+
+    /// A and B at a deformation gradient with this stress.
+    fn bounds(material: &Material, f: &Matrix3<f64>, stress: &[f64; 6]) -> [f64; 2] {
+        let nodes: Vec<[f64; 3]> = (0..8).map(|i| [i & 1, i >> 1 & 1, i >> 2].map(f64::from)).collect();
+        let shapes = Shapes::<f64>::new(&[std::array::from_fn(|i| i as u32)], &[], &nodes, 0.0);
+        let mut measures = Measures::new(shapes.stride);
+        let repeat = |values: &[f64]| values.iter().flat_map(|&value| vec![value; shapes.stride]).collect::<Vec<_>>();
+        let (f, stress) = (repeat(f.as_slice()), repeat(stress));
+        shapes.measure(&f, &mut measures);
+        let Measures { volume_ratio, stretch_square, metric, .. } = &measures;
+        let section = Section { volume_ratio, stretch_square, metric };
+        bounds_at(&wave_bounds(material), &f, &stress, &section, shapes.stride, 0)
+            .expect("by direction")
+            .map(|lanes| lanes.0[0])
+    }
+
+    /// No rate of deformation h, a wave's u ⊗ n or another one, meets more stiffness than A |h m|² + B |h|². Returns
+    /// how near one came.
+    fn check(material: &Material, spread: f64) -> f64 {
+        let mut random = Rng::with_seed(7);
+        let mut nearest: f64 = 0.0;
+        for _ in 0..2000 {
+            let mut number = |size: f64| size * (2.0 * random.f64() - 1.0);
+            let mut f = Matrix3::from_fn(|_, _| number(spread));
+            f += Matrix3::from_diagonal(&[1.0, 1.0 - 0.5 * spread, 1.0 - 0.5 * spread].into());
+            // Along the fibre yarns stretch by some percent.
+            let stretch = (1.0 + number(0.06)) / f.column(0).norm();
+            f.column_mut(0).scale_mut(stretch);
+            let Ok((stress, tangent)) = material.tangent(&f, &material.at_rest()) else { continue };
+            let [along, across] = bounds(material, &f, &stress);
+            let m = f.column(0).normalize();
+            for general in [true, false] {
+                let h = if general {
+                    Matrix3::from_fn(|_, _| number(1.0))
+                } else {
+                    let [u, n] = [0, 1].map(|_| Vector3::from_fn(|_, _| number(1.0)).normalize());
+                    u * n.transpose()
+                };
+                let step = nalgebra::SVector::<f64, 9>::from_column_slice((h * f).as_slice());
+                let stiffness = step.dot(&(tangent * step));
+                let bound = along * (h * m).norm_squared() + across * h.norm_squared();
+                assert!(stiffness < bound, "{stiffness:e} {bound:e} {f} {h}");
+                nearest = nearest.max(stiffness / bound);
+            }
+        }
+        nearest
+    }
+
+    #[test]
+    fn no_wave_of_the_hyperelastic_law_is_faster() {
+        for k_ld in [0.0, 126e6] {
+            for spread in [0.02, 0.3, 0.6] {
+                assert!(check(&material("kevlar-km2-600", k_ld), spread) > 0.5);
+            }
+        }
+    }
+
+    #[test]
+    fn no_wave_of_the_linear_elastic_law_is_faster() {
+        for spread in [0.02, 0.2] {
+            assert!(check(&material("kevlar-km2-600-linear", 0.0), spread) > 0.5);
+        }
+    }
+
+    #[test]
+    fn axes_that_leave_the_fibre_have_one_bound() {
+        let preset = "kevlar-km2-600-linear";
+        for rotation in [Rotation::Polar, Rotation::Spin] {
+            assert_eq!(wave_bounds(&turning(preset, 0.0, rotation)), WaveBounds::Isotropic);
+        }
+        assert_ne!(wave_bounds(&turning(preset, 0.0, Rotation::Fibre)), WaveBounds::Isotropic);
+    }
+}

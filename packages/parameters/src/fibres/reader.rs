@@ -1,0 +1,306 @@
+//! A scene from its TOML file. The format is described in `docs/guides/fibres.md`.
+
+use std::ops::Range;
+use std::path::Path;
+
+use toml::Spanned;
+
+use super::file::{CaseFile, FibreFile, PackingName, SceneFile, SectionName, StrikerName};
+use super::scene::{Case, Contact, Fibre, Outline, Packing, Scene, SectionLaw, Striker, Walls};
+use toron::host::units::UnitSystem;
+use toron_explicit_host::control_keys::zero_or_more;
+use toron_materials::material::laws::Laws;
+use toron_materials::material::preset::Preset;
+use toron_materials::units::{self, SPEED};
+use toron_shared::error::Error;
+use toron_shared::toml_file::{self, Source};
+
+/// A bead takes some 600 bytes in LAMMPS, and its identifiers have 31 bits.
+const MOST_BEADS: f64 = 1e9;
+const MOST_FIBRES: i64 = 100_000;
+/// Samples of a history where the file does not say otherwise.
+const SAMPLES: f64 = 200.0;
+/// The step as a part of the largest that is stable, where the file does not say otherwise.
+const STEP: f64 = 0.4;
+/// How the speed of a driven section comes in, in the time that the wave of elongation takes from bead to bead: at once, it would
+/// be overshot by a quarter.
+const RAMP: f64 = 64.0;
+/// How beads that walls press are braked, where the file does not say otherwise.
+const DAMPING: f64 = 0.05;
+/// Speeds of the wave along a fibre, in m/s.
+const WAVES: Range<f64> = 1e2..1e5;
+/// The files that cases have in common, by their names without the ending: the fit's too.
+pub const COMMON: [&str; 3] = ["summary", "fit", "parameters"];
+
+impl Scene {
+    /// Reads the file.
+    ///
+    /// # Errors
+    /// An input error that names file, line, value and what is allowed.
+    pub fn read(path: &Path) -> Result<Scene, Error> {
+        let (name, text) = toml_file::read(path)?;
+        Scene::parse(&name, &text)
+    }
+
+    /// The scene that `text` describes; `name` stands for the file in messages.
+    ///
+    /// # Errors
+    /// An input error that names file, line, value and what is allowed.
+    pub fn parse(name: &str, text: &str) -> Result<Scene, Error> {
+        let source = Source { name, text };
+        let file: SceneFile = source.parse()?;
+        let units = units::system(&source, &file.units)?;
+        let base = file.scene.get_ref();
+        if let Some(name) = &base.name {
+            return Err(source.error(name.span(), "name in [scene]; allowed: in a [[case]]"));
+        }
+        let tables: Vec<CaseFile> = file.case.iter().map(|case| case.get_ref().over(base)).collect();
+        let mut cases: Vec<Case> = Vec::new();
+        if file.case.is_empty() {
+            source.refuse_unused(base.unused(&[base]))?;
+            cases.push(
+                Reader { source: &source, units: &units, file: base, span: file.scene.span() }
+                    .case("scene".to_string())?,
+            );
+        } else {
+            source.refuse_unused(base.unused(&tables.iter().collect::<Vec<_>>()))?;
+        }
+        for (case, table) in file.case.iter().zip(&tables) {
+            let taken = COMMON.into_iter().chain(cases.iter().map(|other| other.name.as_str()));
+            let given = case.get_ref().name.as_ref();
+            let name = source.name_of("case", given, case.span(), taken)?;
+            if name.to_ascii_lowercase().starts_with("fit-") {
+                let message = format!("case \"{name}\", as tables of the fit are called; allowed: another beginning");
+                return Err(source.error(given.map_or(case.span(), Spanned::span), &message));
+            }
+            source.refuse_unused(case.get_ref().unused(&[table]))?;
+            cases.push(Reader { source: &source, units: &units, file: table, span: case.span() }.case(name)?);
+        }
+        Ok(Scene { title: file.title.unwrap_or_else(|| name.to_string()), units, cases })
+    }
+}
+
+/// A case's table and what is needed to read it.
+struct Reader<'a> {
+    source: &'a Source<'a>,
+    units: &'a UnitSystem,
+    file: &'a CaseFile,
+    /// The place that errors name for keys that are missing.
+    span: Range<usize>,
+}
+
+impl Reader<'_> {
+    fn missing(&self, key: &str, allowed: &str) -> Error {
+        self.source.error(self.span.clone(), &format!("{key} is missing; allowed: {allowed}"))
+    }
+
+    fn positive(&self, key: &str, value: &Option<Spanned<f64>>) -> Result<f64, Error> {
+        match value {
+            Some(value) => self.source.positive(key, *value.get_ref(), value.span()),
+            None => Err(self.missing(key, "a finite number > 0")),
+        }
+    }
+
+    /// A number above 0, up to a value that a key of this name has; or the default.
+    fn up_to(&self, key: &str, value: &Option<Spanned<f64>>, most: (&str, f64), default: f64) -> Result<f64, Error> {
+        let Some(value) = value else { return Ok(default) };
+        let number = *value.get_ref();
+        if number > 0.0 && number <= most.1 {
+            return Ok(number);
+        }
+        let message = format!("{key} is {number}; allowed: a number > 0, up to {} = {}", most.0, most.1);
+        Err(self.source.error(value.span(), &message))
+    }
+
+    fn case(&self, name: String) -> Result<Case, Error> {
+        let file = self.file;
+        let end = self.positive("end", &file.end)?;
+        let fibre = self.fibre()?;
+        let [half_length, spacing] = self.lengths(&fibre)?;
+        let fibres = self.fibres(half_length / spacing)?;
+        let is_pressed = file.striker() == StrikerName::Walls;
+        let case = Case {
+            fibre,
+            half_length,
+            spacing,
+            fibres,
+            outline: self.outline()?,
+            packing: self.packing()?,
+            contact: self.contact(&fibre, fibres)?,
+            friction: zero_or_more(self.source, "friction", &file.friction, 0.0)?,
+            striker: self.striker(&fibre, spacing)?,
+            speed: if is_pressed { 0.0 } else { self.positive("speed", &file.speed)? },
+            end,
+            sample: self.up_to("sample", &file.sample, ("end", end), end / SAMPLES)?,
+            pictures: self.source.pictures(&file.pictures, &name, end)?,
+            step: self.up_to("step", &file.step, ("the largest stable one", 1.0), STEP)?,
+            law: file.law.as_ref().map(|law| self.source.file("law", law)).transpose()?,
+            name,
+        };
+        Ok(case)
+    }
+
+    /// The half length and the spacing. Between walls no bead moves along the fibres: one of a diameter's length stands for each.
+    fn lengths(&self, fibre: &Fibre) -> Result<[f64; 2], Error> {
+        let file = self.file;
+        if file.striker() == StrikerName::Walls {
+            return Ok([fibre.diameter; 2]);
+        }
+        let half_length = self.positive("half-length", &file.half_length)?;
+        let spacing = self.positive("spacing", &file.spacing)?;
+        if spacing > 0.5 * half_length {
+            let message =
+                format!("spacing is {spacing}; allowed: a number > 0, up to half of half-length = {half_length}");
+            return Err(self.source.error(file.spacing.as_ref().map_or(self.span.clone(), Spanned::span), &message));
+        }
+        Ok([half_length, spacing])
+    }
+
+    fn fibre(&self) -> Result<Fibre, Error> {
+        let Some(table) = &self.file.fibre else {
+            return Err(self.missing("fibre", "{ diameter, modulus, density, strain-at-failure }"));
+        };
+        let FibreFile { diameter, modulus, density, strain_at_failure } = table.get_ref();
+        let [modulus, density] = [self.positive("modulus", modulus)?, self.positive("density", density)?];
+        // Outside of this no fibre is, and the units are not those that were meant.
+        let wave = (modulus / density).sqrt() / self.units.from_si(1.0, SPEED);
+        if !WAVES.contains(&wave) {
+            let message = format!(
+                "modulus and density make a wave of {wave:.3e} m/s; allowed: {:.0e} to {:.0e} m/s",
+                WAVES.start, WAVES.end
+            );
+            return Err(self.source.error(table.span(), &message));
+        }
+        Ok(Fibre {
+            diameter: self.positive("diameter", diameter)?,
+            modulus,
+            density,
+            strain_at_failure: match strain_at_failure {
+                None => None,
+                Some(_) => {
+                    Some(self.up_to("strain-at-failure", strain_at_failure, ("the stretch of a fibre", 1.0), 1.0)?)
+                }
+            },
+        })
+    }
+
+    fn fibres(&self, beads: f64) -> Result<usize, Error> {
+        let allowed = format!("a whole number from 1 to {MOST_FIBRES}");
+        let Some(fibres) = &self.file.fibres else { return Err(self.missing("fibres", &allowed)) };
+        let count = *fibres.get_ref();
+        if !(1..=MOST_FIBRES).contains(&count) {
+            return Err(self.source.error(fibres.span(), &format!("fibres is {count}; allowed: {allowed}")));
+        }
+        let all = count as f64 * beads;
+        if all > MOST_BEADS {
+            let message = format!("fibres of this spacing make {all:.2e} beads; allowed: up to {MOST_BEADS:.0e}");
+            return Err(self.source.error(fibres.span(), &message));
+        }
+        Ok(count as usize)
+    }
+
+    fn outline(&self) -> Result<Outline, Error> {
+        let file = self.file;
+        match file.section() {
+            SectionName::Circle if file.width.is_some() => Ok(Outline::Size([self.positive("width", &file.width)?; 2])),
+            SectionName::Circle => Ok(Outline::Aspect(1.0)),
+            SectionName::Box => match &file.aspect {
+                None => Ok(Outline::Box(1.0)),
+                Some(_) => Ok(Outline::Box(self.positive("aspect", &file.aspect)?)),
+            },
+            SectionName::Ellipse => match (&file.aspect, &file.width, &file.height) {
+                (None, Some(_), Some(_)) => {
+                    Ok(Outline::Size([self.positive("width", &file.width)?, self.positive("height", &file.height)?]))
+                }
+                (Some(_), None, None) => Ok(Outline::Aspect(self.positive("aspect", &file.aspect)?)),
+                _ => Err(self
+                    .source
+                    .error(self.span.clone(), "section is ellipse; allowed: with aspect, or with width and height")),
+            },
+        }
+    }
+
+    fn packing(&self) -> Result<Packing, Error> {
+        match (self.file.packing(), &self.file.seed) {
+            (PackingName::Hexagonal, _) => Ok(Packing::Hexagonal),
+            (PackingName::Random, None) => Ok(Packing::Random { seed: 1 }),
+            (PackingName::Random, Some(seed)) => {
+                let number = self.source.seed(seed)?;
+                Ok(Packing::Random { seed: number })
+            }
+        }
+    }
+
+    /// The force rises with the depth, up to half a fibre.
+    fn contact(&self, fibre: &Fibre, fibres: usize) -> Result<Contact, Error> {
+        let allowed = "one to three coefficients of a force that rises with the depth, up to a fibre's radius";
+        let length = match self.file.contact_length {
+            None => fibre.diameter,
+            Some(_) => self.positive("contact-length", &self.file.contact_length)?,
+        };
+        let Some(given) = &self.file.contact else {
+            // A single fibre meets no other.
+            let none = Contact { coefficients: [0.0; 3], length };
+            return if fibres == 1 { Ok(none) } else { Err(self.missing("contact", allowed)) };
+        };
+        let list = given.get_ref();
+        let mut coefficients = [0.0; 3];
+        if (1..=3).contains(&list.len()) {
+            coefficients[..list.len()].copy_from_slice(list);
+        }
+        let [a, b, c] = coefficients;
+        let slope = |part: usize| {
+            let depth = 0.5 * fibre.diameter * part as f64 / 100.0;
+            a + 2.0 * b * depth + 3.0 * c * depth * depth
+        };
+        if !(0..=100).all(|part| slope(part) > 0.0) {
+            let message = format!("contact is {list:?}; allowed: {allowed}");
+            return Err(self.source.error(given.span(), &message));
+        }
+        Ok(Contact { coefficients, length })
+    }
+
+    /// The law's section of a preset.
+    fn law(&self, name: &Spanned<String>) -> Result<SectionLaw, Error> {
+        let error = |message: &str| self.source.error(name.span(), message);
+        let preset = Preset::find(Laws::Toron, name.get_ref(), self.source.folder(), error)?;
+        let values = preset.complete(self.units)?;
+        let value = |property: &str| {
+            let index = preset.law.table().iter().position(|known| known.name == property);
+            index.map(|index| values[index]).ok_or_else(|| {
+                error(&format!("preset \"{}\" has no {property}; allowed: one of the hyperelastic law", name.get_ref()))
+            })
+        };
+        Ok(SectionLaw { k_tc: value("k_tc")?, p: value("p")?, k_td: value("k_td")? })
+    }
+
+    fn striker(&self, fibre: &Fibre, spacing: f64) -> Result<Striker, Error> {
+        let file = self.file;
+        if file.striker() == StrikerName::Driven {
+            let default = RAMP * spacing / (fibre.modulus / fibre.density).sqrt();
+            return Ok(Striker::Driven { ramp: zero_or_more(self.source, "ramp", &file.ramp, default)? });
+        }
+        if file.striker() == StrikerName::Walls {
+            let closing = file.closing.as_ref();
+            let share = self.positive("closing", &file.closing)?;
+            if share >= 1.0 {
+                let message = format!("closing is {share}; allowed: a number > 0 and < 1");
+                return Err(self.source.error(closing.map_or(self.span.clone(), Spanned::span), &message));
+            }
+            return Ok(Striker::Walls {
+                walls: file.walls.as_ref().map_or(Walls::AllSides, |walls| *walls.get_ref()),
+                closing: share,
+                damping: zero_or_more(self.source, "damping", &file.damping, DAMPING)?,
+                law: file.preset.as_ref().map(|name| self.law(name)).transpose()?,
+            });
+        }
+        let held = file.held.as_ref().is_some_and(|held| *held.get_ref());
+        Ok(Striker::Cylinder {
+            radius: self.positive("radius", &file.radius)?,
+            mass: if held && file.mass.is_none() { 0.0 } else { self.positive("mass", &file.mass)? },
+            held,
+            friction: zero_or_more(self.source, "projectile-friction", &file.projectile_friction, 0.0)?,
+            stiffness: self.positive("projectile-stiffness", &file.projectile_stiffness)?,
+        })
+    }
+}

@@ -1,0 +1,291 @@
+//! A fit from its TOML file: the yarn, what is known of its fibre, and the data sets. `docs/guides/identification.md` has the keys.
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+use serde::Deserialize;
+use toml::Spanned;
+
+use super::data::{DataSet, Loading};
+use super::data_sheet::{DataSheet, DataSheetFile};
+use super::equivalence::{Constant, Fibre};
+use super::fit::Problem;
+use super::parameter::{ALL, PARAMETERS, Parameter, Values};
+use super::reader::{Reader, plain_name};
+use super::strength::file::SetFile;
+use toron::host::units::UnitSystem;
+use toron::law::parameters::HYPERELASTIC;
+use toron_materials::material::laws::{LawName, Laws};
+use toron_materials::material::preset::{LONGEST_NAME, Preset};
+use toron_materials::units;
+use toron_shared::error::Error;
+use toron_shared::nearest;
+use toron_shared::toml_file::{self, Numbers, Source};
+
+/// Two densities of a yarn are the same within this, which is more than rounding and less than a slip.
+const SAME_DENSITY: f64 = 0.005;
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct FitFile {
+    pub title: Option<String>,
+    pub units: Spanned<String>,
+    #[serde(default)]
+    yarn: YarnFile,
+    fibre: Option<Spanned<FibreFile>>,
+    data_sheet: Option<Spanned<DataSheetFile>>,
+    #[serde(default)]
+    data: Vec<Spanned<DataFile>>,
+    #[serde(default)]
+    pub strength: Vec<Spanned<SetFile>>,
+}
+
+impl FitFile {
+    /// Whether anything in it is of the law's properties.
+    pub fn has_properties(&self) -> bool {
+        self.yarn != YarnFile::default() || self.fibre.is_some() || self.data_sheet.is_some() || !self.data.is_empty()
+    }
+}
+
+/// The yarn: what the preset that comes out says of it, and the values that are known.
+#[derive(Default, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+struct YarnFile {
+    name: Option<Spanned<String>>,
+    source: Option<Spanned<String>>,
+    density: Option<Spanned<f64>>,
+    preset: Option<Spanned<String>>,
+    #[serde(default)]
+    properties: BTreeMap<Spanned<String>, Spanned<f64>>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct FibreFile {
+    modulus: Spanned<f64>,
+    volume_fraction: Spanned<f64>,
+    strain_at_failure: Spanned<f64>,
+    modulus_deviation: Option<Spanned<f64>>,
+    volume_fraction_deviation: Option<Spanned<f64>>,
+    strain_at_failure_deviation: Option<Spanned<f64>>,
+}
+
+/// A data set.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct DataFile {
+    pub name: Option<Spanned<String>>,
+    pub file: Spanned<String>,
+    pub loading: Option<Spanned<LoadingName>>,
+    pub path: Option<Spanned<String>>,
+    pub abscissa: Option<Spanned<String>>,
+    pub ordinate: Option<Spanned<String>>,
+    #[serde(default)]
+    pub columns: BTreeMap<Spanned<String>, Spanned<String>>,
+    pub length: Option<Spanned<f64>>,
+    pub area: Option<Spanned<f64>>,
+    /// Where on the abscissa the specimen is at rest: the slack that a test begins with.
+    pub zero: Option<Spanned<f64>>,
+    pub range: Option<Spanned<Numbers<2>>>,
+    pub deviation: Option<Spanned<DeviationFile>>,
+    pub weight: Option<Spanned<f64>>,
+    pub fits: Option<Vec<Spanned<String>>>,
+}
+
+impl DataFile {
+    /// The files that it names.
+    fn files(&self) -> impl Iterator<Item = &str> {
+        [Some(&self.file), self.path.as_ref()].into_iter().flatten().map(|name| name.get_ref().as_str())
+    }
+}
+
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
+#[serde(rename_all = "kebab-case")]
+pub(super) enum LoadingName {
+    Elongation,
+    Compaction,
+    Compression,
+    Failure,
+}
+
+/// A standard deviation of all ordinates, or the column that has one for each.
+#[derive(Deserialize)]
+#[serde(untagged, expecting = "expected a number or the name of a column")]
+pub(super) enum DeviationFile {
+    Number(f64),
+    Column(String),
+}
+
+/// A fit as a file describes it.
+#[derive(Debug)]
+pub struct Job {
+    pub title: String,
+    pub units: UnitSystem,
+    /// The preset that comes out, with the values that are known before.
+    pub preset: Preset,
+    /// The preset from which values come that nothing else gives.
+    pub base: Option<Preset>,
+    pub fibre: Option<Fibre>,
+    pub sheet: Option<DataSheet>,
+    pub problem: Problem,
+    /// The files that were read, none of which is to be overwritten.
+    pub inputs: Vec<PathBuf>,
+}
+
+impl Job {
+    /// Reads the file and its data.
+    ///
+    /// # Errors
+    /// An input error that names file, line and what is allowed.
+    pub fn read(path: &Path) -> Result<Job, Error> {
+        let (name, text) = toml_file::read(path)?;
+        let source = Source { name: &name, text: &text };
+        let file: FitFile = source.parse()?;
+        let units = units::system(&source, &file.units)?;
+        let folder = path.parent().unwrap_or(Path::new(""));
+        if file.data.is_empty() && file.fibre.is_none() && file.data_sheet.is_none() {
+            return Err(source.error(
+                0..0,
+                "neither [[data]] nor [fibre] nor [data_sheet] nor [[strength]]: nothing tells a parameter",
+            ));
+        }
+        if let (Some(_), Some(sheet)) = (&file.fibre, &file.data_sheet) {
+            let message = "[fibre] and [data_sheet] both tell k_el and eps_lim; allowed: one of them";
+            return Err(source.error(sheet.span(), message));
+        }
+        let sheet = file.data_sheet.as_ref().map(|sheet| DataSheet::read(&source, sheet)).transpose()?;
+        let fibre = file.fibre.as_ref().map(|fibre| known_fibre(&source, fibre)).transpose()?;
+        let fibre = fibre.or_else(|| sheet.as_ref().map(|sheet| sheet.fibre(&units)));
+        let base = file.yarn.preset.as_ref().map(|name| base(&source, name, folder)).transpose()?;
+        let mut preset = preset_to_be(&source, &file, units)?;
+        if let Some(sheet) = &sheet {
+            let of_sheet = sheet.density(&units);
+            if let Some(given) =
+                file.yarn.density.as_ref().filter(|given| (*given.get_ref() / of_sheet - 1.0).abs() > SAME_DENSITY)
+            {
+                let message = format!(
+                    "density is {}, and by [data_sheet] {of_sheet:.4e}, the fibre's times the volume fraction; allowed: one of them",
+                    given.get_ref()
+                );
+                return Err(source.error(given.span(), &message));
+            }
+            preset.density = Some(of_sheet);
+        }
+        let mut known = [None; PARAMETERS];
+        known.copy_from_slice(&preset.values[..PARAMETERS]);
+        let reader = Reader { source: &source, units: &units, known: &known };
+        let sets = reader.sets(&file.data, fibre.is_some())?;
+        let fitted = |parameter: Parameter| sets.iter().any(|set| set.fits.contains(&parameter));
+        let mut known_deviations = Vec::new();
+        if let Some(fibre) = fibre {
+            for (parameter, value) in
+                [(Parameter::KEl, fibre.k_el()), (Parameter::EpsLim, fibre.strain_at_failure.value)]
+            {
+                if known[parameter.index()].is_none() && !fitted(parameter) {
+                    known[parameter.index()] = Some(value);
+                }
+            }
+            known_deviations = fibre.deviations();
+            for parameter in ALL.into_iter().filter(|&p| fitted(p) || preset.values[p.index()].is_some()) {
+                known_deviations.iter_mut().for_each(|values| values[parameter.index()] = 0.0);
+            }
+        }
+        let start = start(&known, base.as_ref(), &units, &sets);
+        let of_base = |parameter: Parameter| base.as_ref().and_then(|base| base.value(parameter.index(), &units));
+        let density = preset.density.or_else(|| base.as_ref().and_then(|base| base.density_in(&units)));
+        let problem = Problem { sets, units, density, known, fallback: ALL.map(of_base), known_deviations, start };
+        let title = file.title.unwrap_or_else(|| preset.name.clone());
+        let data = file.data.iter().flat_map(|data| data.get_ref().files());
+        let inputs = data.chain(file.yarn.preset.as_ref().map(|preset| preset.get_ref().as_str()));
+        let inputs = inputs.map(|name| folder.join(name)).chain([path.to_path_buf()]).collect();
+        Ok(Job { title, units, preset, base, fibre, sheet, problem, inputs })
+    }
+}
+
+/// Where the search starts: what is known, the preset that the file names, the material of a path, else anything: the answer is
+/// linear in the stiffnesses, and the exponent is sought from several starts.
+fn start(known: &[Option<f64>; PARAMETERS], base: Option<&Preset>, units: &UnitSystem, sets: &[DataSet]) -> Values {
+    const ANY: Values = [1.0, 1.0, 2.0, 1.0, 0.0, 0.05, 0.0, 0.0];
+    let of_path = sets.iter().find_map(|set| match &set.loading {
+        Loading::Path(path) => Some(path.trial()),
+        _ => None,
+    });
+    let value = |parameter: Parameter| {
+        let index = parameter.index();
+        let of_base = base.and_then(|preset| preset.value(index, units));
+        known[index].or(of_base).unwrap_or(of_path.unwrap_or(ANY)[index])
+    };
+    ALL.map(value)
+}
+
+fn known_fibre(source: &Source<'_>, file: &Spanned<FibreFile>) -> Result<Fibre, Error> {
+    let file = file.get_ref();
+    let constant = |name: &str, value: &Spanned<f64>, deviation: &Option<Spanned<f64>>| {
+        let number = source.positive(name, *value.get_ref(), value.span())?;
+        let deviation = deviation.as_ref().map_or(Ok(0.0), |deviation| {
+            source.positive(&format!("{name}_deviation"), *deviation.get_ref(), deviation.span())
+        })?;
+        Ok(Constant { value: number, deviation })
+    };
+    let fibre = Fibre {
+        modulus: constant("modulus", &file.modulus, &file.modulus_deviation)?,
+        volume_fraction: constant("volume_fraction", &file.volume_fraction, &file.volume_fraction_deviation)?,
+        strain_at_failure: constant("strain_at_failure", &file.strain_at_failure, &file.strain_at_failure_deviation)?,
+    };
+    for (name, value, span) in [
+        ("volume_fraction", fibre.volume_fraction.value, file.volume_fraction.span()),
+        ("strain_at_failure", fibre.strain_at_failure.value, file.strain_at_failure.span()),
+    ] {
+        if value > 1.0 {
+            return Err(source.error(span, &format!("{name} is {value}; allowed: a number > 0, at most 1")));
+        }
+    }
+    Ok(fibre)
+}
+
+/// The preset that fills in what nothing else gives.
+fn base(source: &Source<'_>, name: &Spanned<String>, folder: &Path) -> Result<Preset, Error> {
+    let preset = Preset::find(Laws::Toron, name.get_ref(), folder, |message| source.error(name.span(), message))?;
+    if preset.law != LawName::Hyperelastic {
+        let message =
+            format!("preset \"{}\" belongs to the linear elastic law; allowed: a hyperelastic one", preset.name);
+        return Err(source.error(name.span(), &message));
+    }
+    Ok(preset)
+}
+
+/// The preset that comes out, with the values that the file gives.
+fn preset_to_be(source: &Source<'_>, file: &FitFile, units: UnitSystem) -> Result<Preset, Error> {
+    let text = |value: &Option<Spanned<String>>| value.as_ref().map(|text| text.get_ref().clone());
+    let name = text(&file.yarn.name).unwrap_or_else(|| "my-yarn".to_string());
+    if !plain_name(&name) || name.len() > LONGEST_NAME || toron::preset(&name).is_some() {
+        let span = file.yarn.name.as_ref().map_or(0..0, Spanned::span);
+        let allowed = "up to 80 letters, digits and - _ ., and no name of the library's presets";
+        return Err(source.error(span, &format!("name is \"{name}\"; allowed: {allowed}")));
+    }
+    let origin = text(&file.yarn.source).or_else(|| file.title.clone());
+    let mut preset = Preset::new(&name, &origin.unwrap_or_else(|| name.clone()), LawName::Hyperelastic, units);
+    if let Some(density) = &file.yarn.density {
+        preset.density = Some(source.positive("density", *density.get_ref(), density.span())?);
+    }
+    for (name, value) in &file.yarn.properties {
+        let index = property(source, name.get_ref(), name.span())?;
+        let (property, number) = (&HYPERELASTIC[index], *value.get_ref());
+        let above = if property.minimum_excluded { number > property.minimum } else { number >= property.minimum };
+        if !(above && number <= property.maximum && number.is_finite()) {
+            let message = format!("{} is {number}; allowed: {}", property.name, property.allowed);
+            return Err(source.error(value.span(), &message));
+        }
+        preset.values[index] = Some(number);
+    }
+    Ok(preset)
+}
+
+fn property(source: &Source<'_>, name: &str, span: Range<usize>) -> Result<usize, Error> {
+    HYPERELASTIC.iter().position(|property| property.name == name).ok_or_else(|| {
+        let known: Vec<&str> = HYPERELASTIC.iter().map(|property| property.name).collect();
+        let hint = nearest::hint(name, known.iter().copied());
+        source.error(span, &format!("property \"{name}\"{hint}; allowed: {}", known.join(" ")))
+    })
+}

@@ -1,0 +1,305 @@
+//! A scene from its TOML file. The format is described in `docs/guides/fabric.md`.
+
+use std::f64::consts::PI;
+use std::path::Path;
+use std::sync::Arc;
+
+use toml::Spanned;
+
+use super::file::{CaseFile, Rim, SceneFile, ShapeName};
+use super::scene::{Case, Scene, Striker};
+use crate::struck::keys::{self, Reader};
+use crate::struck::shots::read_shots;
+use crate::weave::cloth::Cloth;
+use crate::weave::cloth::read_cloth;
+use crate::weave::file::{PlyFile, WeaveFile};
+use crate::weave::foreign::file::MeshFile;
+use crate::weave::geometry::Family;
+use crate::weave::layup::Ply;
+use crate::weave::panel::Part;
+use crate::weave::reader::layup;
+use toron::law::parameters::DENSITY;
+use toron_explicit_host::contact::{Rigid, Shape};
+use toron_explicit_host::control_keys::zero_or_more;
+use toron_explicit_host::medium::Control;
+use toron_explicit_host::mutual_contact::Parameters;
+use toron_explicit_host::struck::blow::DENSITIES;
+use toron_materials::material::file::MaterialFile;
+use toron_materials::material::model::Material;
+use toron_materials::material::of_law::{HYPERELASTIC, LINEAR_ELASTIC, LawName};
+use toron_materials::units;
+use toron_shared::error::Error;
+use toron_shared::numbers::number;
+use toron_shared::toml_file::{self, Numbers, Source, over};
+
+/// Samples of a history where the file does not say otherwise.
+const SAMPLES: f64 = 400.0;
+/// Friction of the sphere and of the yarns, where the file gives none: the thesis's.
+const FRICTION: [f64; 2] = [0.23, 0.18];
+/// Over a yarn's height: how near nodes are to faces that are looked at in every step, and how deep they may be.
+const MARGIN: f64 = 0.8;
+const DEEPEST: f64 = 0.5;
+/// A mass and a density that differ by less than this part are the same.
+const SAME_MASS: f64 = 0.02;
+
+impl Scene {
+    /// Reads the file.
+    ///
+    /// # Errors
+    /// An input error that names file, line, value and what is allowed.
+    pub fn read(path: &Path) -> Result<Scene, Error> {
+        let (name, text) = toml_file::read(path)?;
+        Scene::parse(&name, &text)
+    }
+
+    /// The scene that `text` describes; `name` stands for the file in messages.
+    ///
+    /// # Errors
+    /// An input error that names file, line, value and what is allowed.
+    pub fn parse(name: &str, text: &str) -> Result<Scene, Error> {
+        let source = Source { name, text };
+        let file: SceneFile = source.parse()?;
+        let units = units::system(&source, &file.units)?;
+        let cloth = Arc::new(read_cloth(&source, file.weave.as_ref(), &file.ply, file.mesh.as_ref(), &units)?);
+        let CaseFile { weave, ply, mesh, .. } = file.scene.get_ref();
+        let tables = [
+            weave.as_ref().map(|table| (table.span(), "weave in [scene]; allowed: [weave], or in a [[case]]")),
+            ply.as_ref().map(|_| (file.scene.span(), "ply in [scene]; allowed: [[ply]], or in a [[case]]")),
+            mesh.as_ref().map(|table| (table.span(), "mesh in [scene]; allowed: [mesh], or in a [[case]]")),
+        ];
+        if let Some((span, message)) = tables.into_iter().flatten().next() {
+            return Err(source.error(span, message));
+        }
+        let cases = keys::cases(
+            (&source, &units),
+            (&file.scene, &file.case),
+            &["summary"],
+            CaseFile::unused,
+            |reader, [file_of_case, _], name| {
+                let (cloth, threads) = reader.cloth_of_case(&file, file_of_case, &cloth)?;
+                reader.panel_case(file_of_case, cloth, threads, name)
+            },
+        )?;
+        let inner = || cases.iter().map(|case| case.zones.inner());
+        let shots = file.shots.as_ref().map(|shots| read_shots(&source, shots, &units, inner())).transpose()?;
+        Ok(Scene { title: file.title.unwrap_or_else(|| name.to_string()), units, cases, shots })
+    }
+}
+
+/// Materials of warp and weft of each ply.
+type Threads = Vec<[Option<Box<Material>>; 2]>;
+
+impl Reader<'_> {
+    /// What a case strikes: the scene's weave or mesh, with what the case has otherwise, and the materials of its own
+    /// yarns.
+    fn cloth_of_case(
+        &self,
+        scene: &SceneFile,
+        case: &CaseFile,
+        cloth: &Arc<Cloth>,
+    ) -> Result<(Arc<Cloth>, Threads), Error> {
+        if let Some(mesh) = &case.mesh {
+            let mesh = over(&Some(mesh.clone()), &scene.mesh, MeshFile::over);
+            let plies = case.ply.as_deref().unwrap_or_default();
+            let foreign = read_cloth(self.source, case.weave.as_ref(), plies, mesh.as_ref(), self.units)?;
+            return Ok((Arc::new(foreign), vec![[None, None]]));
+        }
+        let plies = case.ply.as_ref().unwrap_or(&scene.ply);
+        let weave = over(&case.weave, &scene.weave, WeaveFile::over);
+        // The scene's is a mesh.
+        let Some(weave) = weave.filter(|_| case.weave.is_some() || scene.mesh.is_none()) else {
+            return match case.ply.as_ref().and_then(|plies| plies.first()) {
+                Some(ply) => Err(self.source.error(ply.span(), "[[ply]] beside [mesh]; allowed: with [weave]")),
+                None => Ok((cloth.clone(), vec![[None, None]])),
+            };
+        };
+        let cloth = if case.weave.is_none() && case.ply.is_none() {
+            cloth.clone()
+        } else {
+            let own = case.weave.as_ref().map(Spanned::span);
+            Arc::new(Cloth::Woven(layup(self.source, &weave, plies, self.units, own)?))
+        };
+        let threads = self.threads(weave.get_ref(), plies, &cloth)?;
+        Ok((cloth, threads))
+    }
+
+    fn panel_case(&self, file: &CaseFile, cloth: Arc<Cloth>, threads: Threads, name: String) -> Result<Case, Error> {
+        let keys = self.keys;
+        let plan = self.plan(&name, SAMPLES)?;
+        let stiffness = self.positive("contact-stiffness", &keys.contact_stiffness)?;
+        let [_, height] = cloth.yarn_heights();
+        let pressed_at_rest = cloth.coarse_radius().is_none();
+        let [friction, of_yarns] = FRICTION;
+        let zones = self.zones(|| self.positive("hyperelastic-radius", &file.hyperelastic_radius))?;
+        let material = |own: &Option<Box<Material>>| own.as_deref().unwrap_or(zones.inner()).name();
+        let materials: Vec<[String; 2]> = threads.iter().map(|ply| ply.each_ref().map(material)).collect();
+        let strength = self.panel_strength(&cloth, &materials)?;
+        let (mass, striker) = self.mass_and_striker(file)?;
+        Ok(Case {
+            sphere: Rigid {
+                shape: shape(file),
+                radius: self.positive("radius", &keys.radius)?,
+                stiffness,
+                friction: zero_or_more(self.source, "friction", &keys.friction, friction)?,
+                aim: self.aim(file, &cloth)?,
+            },
+            cloth,
+            speed: self.speed(zones.inner())?,
+            zones,
+            threads,
+            strength,
+            mass,
+            striker,
+            held: file.rim != Some(Rim::Free),
+            mutual: Parameters {
+                stiffness,
+                friction: zero_or_more(self.source, "yarn-friction", &file.yarn_friction, of_yarns)?,
+                margin: MARGIN * height,
+                deepest: DEEPEST * height,
+                // The chords of a coarse mesh go into each other where the yarns that they stand for touch.
+                pressed_at_rest,
+            },
+            control: Control { by_direction: true, ..self.control()? },
+            plan,
+            single_precision: keys.is_single_precision(),
+            name,
+        })
+    }
+
+    /// Where the panel is struck; a part of one is struck where its planes of symmetry meet.
+    fn aim(&self, file: &CaseFile, cloth: &Cloth) -> Result<[f64; 2], Error> {
+        let Some(aim) = &file.aim else { return Ok([0.0; 2]) };
+        let Numbers([x, y]) = *aim.get_ref();
+        let allowed = match cloth.part() {
+            Part::Quarter => "with part = \"whole\"".to_string(),
+            Part::Whole => match cloth.covers([x, y]) {
+                Ok(()) => return Ok([x, y]),
+                Err(allowed) => allowed,
+            },
+        };
+        Err(self.source.error(aim.span(), &format!("aim is [{x}, {y}]; allowed: {allowed}")))
+    }
+
+    /// What the yarns of each ply are made of, warp and weft, where the tables say it.
+    fn threads(&self, weave: &WeaveFile, plies: &[Spanned<PlyFile>], cloth: &Cloth) -> Result<Threads, Error> {
+        let none = PlyFile::default();
+        let plies = plies.iter().map(Spanned::get_ref).chain(plies.is_empty().then_some(&none));
+        let of_ply = |(file, laid): (&PlyFile, &Ply)| {
+            let [warp, weft] = Family::BOTH.map(|family| self.thread_material(file.material(weave, family)));
+            let [warp, weft] = [warp?, weft?];
+            Ok(if laid.woven.exchanged { [weft, warp] } else { [warp, weft] })
+        };
+        plies.zip(cloth.plies()).map(of_ply).collect()
+    }
+
+    /// What the yarns of a family are made of, if a table says it: a material of the case's law.
+    fn thread_material(&self, file: Option<Spanned<MaterialFile>>) -> Result<Option<Box<Material>>, Error> {
+        let Some(file) = file else { return Ok(None) };
+        let law = match self.keys.law() {
+            LawName::Hyperelastic => HYPERELASTIC,
+            LawName::LinearElastic => LINEAR_ELASTIC,
+            LawName::Hybrid => {
+                let message = "material of a family of yarns, or of a ply, with law = \"hybrid\"; allowed: hyperelastic, linear-elastic";
+                return Err(self.source.error(file.span(), message));
+            }
+        };
+        self.material(law, &Some(file)).map(|material| Some(Box::new(material)))
+    }
+
+    /// The mass of what strikes, and its density: from the file's mass, which must be one that its volume can have, or
+    /// from the file's density.
+    fn mass_and_striker(&self, file: &CaseFile) -> Result<(f64, Striker), Error> {
+        let keys = self.keys;
+        let volume = self.volume(file)?;
+        let in_si = |density: f64| density / self.units.from_si(1.0, DENSITY);
+        let Some(given) = &file.striker_density else {
+            let mass = self.positive("mass", &keys.mass)?;
+            let density = volume.map(|volume| in_si(mass / volume));
+            if let (Some(given), Some(volume), Some(density)) = (&keys.mass, volume, density) {
+                self.check_density(file, density, volume, given)?;
+            }
+            return Ok((mass, Striker { density, is_told: false }));
+        };
+        let density = self.positive("striker-density", &file.striker_density)?;
+        if !DENSITIES.contains(&in_si(density)) {
+            let [least, most] =
+                [DENSITIES.start(), DENSITIES.end()].map(|density| number(density * self.units.from_si(1.0, DENSITY)));
+            let message = format!("striker-density is {density}; allowed: what solids have, {least} to {most}");
+            return Err(self.source.error(given.span(), &message));
+        }
+        let striker = Striker { density: Some(in_si(density)), is_told: true };
+        let of_volume = volume.map(|volume| density * volume);
+        match (&keys.mass, of_volume) {
+            (None, Some(mass)) => Ok((mass, striker)),
+            (None, None) => {
+                let wanted = "mass is missing; allowed: a finite number > 0, or length beside striker-density";
+                Err(self.source.error(self.span.clone(), wanted))
+            }
+            (Some(_), None) => {
+                let mass = self.positive("mass", &keys.mass)?;
+                Ok((mass, striker))
+            }
+            (Some(place), Some(of_volume)) => {
+                let mass = self.positive("mass", &keys.mass)?;
+                if (mass - of_volume).abs() <= SAME_MASS * of_volume {
+                    return Ok((mass, striker));
+                }
+                let message = format!(
+                    "mass is {mass}, and striker-density {} with the sizes of the {} makes {}; allowed: one of the two, or both the same",
+                    given.get_ref(),
+                    shape(file).name(),
+                    number(of_volume)
+                );
+                Err(self.source.error(place.span(), &message))
+            }
+        }
+    }
+
+    /// That a density in kg/m³, of this volume, is one that solids have.
+    fn check_density(&self, file: &CaseFile, density: f64, volume: f64, given: &Spanned<f64>) -> Result<(), Error> {
+        if DENSITIES.contains(&density) {
+            return Ok(());
+        }
+        let (radius, name, units) = (
+            number(self.keys.radius.as_ref().map_or(0.0, |radius| *radius.get_ref())),
+            shape(file).name(),
+            self.units.names().join("-"),
+        );
+        let [least, most] = [DENSITIES.start(), DENSITIES.end()]
+            .map(|density| number(density * volume * self.units.from_si(1.0, DENSITY)));
+        let message = format!(
+            "mass is {}, of a {name} with radius {radius}: {} kg/m³; allowed: {least} to {most}, of {} to {} kg/m³;\n\
+             mass or a length is most likely not in the units of the file, {units}",
+            given.get_ref(),
+            number(density),
+            DENSITIES.start(),
+            DENSITIES.end(),
+        );
+        Err(self.source.error(given.span(), &message))
+    }
+
+    /// The volume of what strikes; none of a cylinder whose length is not given.
+    fn volume(&self, file: &CaseFile) -> Result<Option<f64>, Error> {
+        let radius = self.positive("radius", &self.keys.radius)?;
+        let length = file.length.as_ref().map(|_| self.positive("length", &file.length)).transpose()?;
+        let (section, half_sphere) = (PI * radius * radius, 2.0 / 3.0 * PI * radius.powi(3));
+        Ok(match (file.shape(), length) {
+            (ShapeName::Sphere, _) => Some(2.0 * half_sphere),
+            (ShapeName::Flat, length) => length.map(|length| section * length),
+            (ShapeName::Hemisphere, Some(length)) if length < radius => {
+                let span = file.length.as_ref().map_or(self.span.clone(), Spanned::span);
+                let message = format!("length is {length}; allowed: the radius of its end, {radius}, or more");
+                return Err(self.source.error(span, &message));
+            }
+            (ShapeName::Hemisphere, length) => length.map(|length| half_sphere + section * (length - radius)),
+        })
+    }
+}
+
+fn shape(file: &CaseFile) -> Shape {
+    match file.shape() {
+        ShapeName::Sphere => Shape::Sphere,
+        ShapeName::Flat => Shape::Flat,
+        ShapeName::Hemisphere => Shape::Hemisphere,
+    }
+}

@@ -1,0 +1,89 @@
+//! A panel as it is struck: its solver, what is measured of it, and when the sphere has gone through.
+
+use super::fate::{self, Fate};
+use super::measure::{OfPanel, Sample};
+use super::model::{self, share};
+use super::scene::Case;
+use crate::weave::model::Model;
+use toron_explicit_host::lanes::Number;
+use toron_explicit_host::solver::Solver;
+use toron_explicit_host::struck::plan::Plan;
+pub use toron_explicit_host::struck::run::End;
+use toron_explicit_host::struck::run::{self, Struck};
+use toron_shared::error::Error;
+
+/// What came of a case.
+pub type Outcome = run::Outcome<OfPanel, Fate>;
+
+/// A case with its mesh.
+pub struct StruckPanel<'a> {
+    pub case: &'a Case,
+    pub panel: Model,
+}
+
+impl<'a> StruckPanel<'a> {
+    /// # Errors
+    /// As for [`model::check`].
+    pub fn new(case: &'a Case) -> Result<Self, Error> {
+        let panel = case.cloth.model();
+        model::check(case, &panel)?;
+        Ok(StruckPanel { case, panel })
+    }
+}
+
+impl Struck for StruckPanel<'_> {
+    type Own = OfPanel;
+    type Course = Fate;
+
+    fn name(&self) -> &str {
+        &self.case.name
+    }
+
+    fn plan(&self) -> &Plan {
+        &self.case.plan
+    }
+
+    fn single_precision(&self) -> bool {
+        self.case.single_precision
+    }
+
+    fn identity(&self) -> String {
+        format!("{:?}", Case { plan: Plan::default(), ..self.case.clone() })
+    }
+
+    fn solver<T: Number>(&self) -> Result<Solver<T>, Error> {
+        let mut solver = model::solver(self.case, &self.panel)?;
+        // The balance keeps the energies with which elements are deleted.
+        solver.all_outputs = solver.media.iter().any(|medium| medium.fails);
+        Ok(solver)
+    }
+
+    fn radius(&self) -> f64 {
+        self.case.sphere.radius
+    }
+
+    fn sample<T: Number>(&self, solver: &Solver<T>, start: f64) -> Sample {
+        let [_, height] = self.case.cloth.yarn_heights();
+        let own = OfPanel::of(&self.panel, solver, height);
+        Sample { own, ..Sample::of(solver, 1.0 / share(self.case), start) }
+    }
+
+    fn follow<T: Number>(&self, solver: &Solver<T>, course: &mut Fate) -> Result<(), Error> {
+        if self.case.plan.decides {
+            course.follow(&self.panel, solver, &self.case.sphere, self.case.speed);
+        }
+        Ok(())
+    }
+
+    fn is_decided(&self, course: &Fate) -> bool {
+        course.is_decided()
+    }
+
+    /// The sphere has gone its own radius since something touched it last, or since the beginning, where it stands at
+    /// the panel; and no yarn is left ahead, as the next ply may be.
+    fn has_left<T: Number>(&self, solver: &Solver<T>, _course: &Fate, free: f64) -> bool {
+        let sphere = &self.case.sphere;
+        solver.projectile.as_ref().is_some_and(|striker| free * -striker.velocity > sphere.radius)
+            && !fate::anything_ahead(&self.panel, solver, sphere)
+    }
+}

@@ -1,0 +1,162 @@
+//! A scene from its TOML file. The format is described in `docs/guides/impact.md`.
+
+use std::path::Path;
+
+use toml::Spanned;
+
+use super::file::{CaseFile, SceneFile, SectionName, StrikerName};
+use super::scene::{Abscissa, Case, Outputs, Scene, Striker};
+use crate::strength::scatter::Strength;
+use crate::struck::keys::{self, Reader};
+use crate::struck::shots::read_shots;
+use toron_explicit_host::contact::{Rigid, Shape};
+use toron_explicit_host::control_keys::zero_or_more;
+use toron_explicit_host::mesh::{Section, Yarn};
+use toron_materials::units;
+use toron_shared::error::Error;
+use toron_shared::toml_file::{self, Source};
+
+/// An element takes some 700 bytes: more do not fit most memories.
+const MOST_ELEMENTS: usize = 10_000_000;
+/// The files that cases have in common, by their names without the ending.
+const COMMON: [&str; 2] = ["summary", "residual-speed"];
+/// Lengths closer than this part of themselves are the same.
+const ROUNDING: f64 = 1e-9;
+/// Samples of a history where the file does not say otherwise.
+const SAMPLES: f64 = 600.0;
+
+impl Scene {
+    /// Reads the file.
+    ///
+    /// # Errors
+    /// An input error that names file, line, value and what is allowed.
+    pub fn read(path: &Path) -> Result<Scene, Error> {
+        let (name, text) = toml_file::read(path)?;
+        Scene::parse(&name, &text)
+    }
+
+    /// The scene that `text` describes; `name` stands for the file in messages.
+    ///
+    /// # Errors
+    /// An input error that names file, line, value and what is allowed.
+    pub fn parse(name: &str, text: &str) -> Result<Scene, Error> {
+        let source = Source { name, text };
+        let file: SceneFile = source.parse()?;
+        let units = units::system(&source, &file.units)?;
+        let cases = keys::cases(
+            (&source, &units),
+            (&file.scene, &file.case),
+            &COMMON,
+            CaseFile::unused,
+            |reader, [file, _], name| reader.yarn_case(file, name),
+        )?;
+        let inner = || cases.iter().map(|case| case.zones.inner());
+        let shots = file.shots.as_ref().map(|shots| read_shots(&source, shots, &units, inner())).transpose()?;
+        let abscissa = file.abscissa.map(|abscissa| abscissa_of(&source, &abscissa, &cases)).transpose()?;
+        Ok(Scene { title: file.title.unwrap_or_else(|| name.to_string()), units, cases, shots, abscissa })
+    }
+}
+
+/// A contact has its stiffness only where there is one.
+fn abscissa_of(source: &Source<'_>, abscissa: &Spanned<Abscissa>, cases: &[Case]) -> Result<Abscissa, Error> {
+    let driven = cases.iter().find(|case| case.striker == Striker::Driven);
+    match (abscissa.get_ref(), driven) {
+        (Abscissa::ContactStiffness, Some(case)) => {
+            let message =
+                format!("abscissa is contact-stiffness, but case \"{}\" is driven; allowed: elements", case.name);
+            Err(source.error(abscissa.span(), &message))
+        }
+        (&abscissa, _) => Ok(abscissa),
+    }
+}
+
+impl Reader<'_> {
+    fn yarn_case(&self, file: &CaseFile, name: String) -> Result<Case, Error> {
+        let plan = self.plan(&name, SAMPLES)?;
+        if plan.decides {
+            let message = "until is \"decided\", which is for panels; allowed: stopped, end";
+            return Err(self.source.error(self.span.clone(), message));
+        }
+        let yarn = self.yarn(file)?;
+        let zones = self.zones(|| self.hyperelastic_length(file, &yarn))?;
+        Ok(Case {
+            strength: self.yarn_strength(&yarn)?,
+            striker: self.striker(file)?,
+            speed: self.speed(zones.inner())?,
+            plan,
+            name,
+            control: self.control()?,
+            zones,
+            yarn,
+            single_precision: self.keys.is_single_precision(),
+            outputs: file.outputs.unwrap_or(Outputs::Full),
+        })
+    }
+
+    fn yarn(&self, file: &CaseFile) -> Result<Yarn, Error> {
+        let section = match file.section {
+            None | Some(SectionName::Ellipse) => Section::Ellipse,
+            Some(SectionName::Rectangle) => Section::Rectangle,
+        };
+        let yarn = Yarn {
+            section,
+            length: self.positive("half-length", &file.half_length)?,
+            height: self.positive("height", &file.height)?,
+            width: self.positive("width", &file.width)?,
+            layers: self.count("layers", &file.layers, [1, MOST_ELEMENTS], None)?,
+            rows: self.count("rows", &file.rows, [1, MOST_ELEMENTS], None)?,
+            // An ellipse needs two: they meet between its tips.
+            columns: self.count(
+                "columns",
+                &file.columns,
+                [if section == Section::Ellipse { 2 } else { 1 }, MOST_ELEMENTS],
+                None,
+            )?,
+        };
+        let elements = [yarn.layers, yarn.rows, yarn.columns].into_iter().fold(1, usize::saturating_mul);
+        if elements > MOST_ELEMENTS {
+            let message = format!("layers, rows and columns make {elements} elements; allowed: up to {MOST_ELEMENTS}");
+            return Err(self.source.error(self.span.clone(), &message));
+        }
+        Ok(yarn)
+    }
+
+    /// The strength of the whole yarn, which is twice as long as what is modelled.
+    fn yarn_strength(&self, yarn: &Yarn) -> Result<Option<Strength>, Error> {
+        let Some(table) = self.strength_table() else { return Ok(None) };
+        if let Some(family) = table.get_ref().families.iter().flatten().next() {
+            let message = "warp or weft in the strength of one yarn; allowed: their keys in the table itself";
+            return Err(self.source.error(family.span(), message));
+        }
+        self.strength(table, std::iter::once(2.0 * yarn.length)).map(Some)
+    }
+
+    fn striker(&self, file: &CaseFile) -> Result<Striker, Error> {
+        let keys = self.keys;
+        if file.striker() == StrikerName::Driven {
+            return Ok(Striker::Driven);
+        }
+        let cylinder = Rigid {
+            shape: Shape::Cylinder,
+            radius: self.positive("radius", &keys.radius)?,
+            stiffness: self.positive("contact-stiffness", &keys.contact_stiffness)?,
+            friction: zero_or_more(self.source, "friction", &keys.friction, 0.0)?,
+            aim: [0.0; 2],
+        };
+        let held = file.held.as_ref().is_some_and(|held| *held.get_ref());
+        let mass = if held && keys.mass.is_none() { 0.0 } else { self.positive("mass", &keys.mass)? };
+        Ok(Striker::Cylinder { cylinder, mass, held })
+    }
+
+    fn hyperelastic_length(&self, file: &CaseFile, yarn: &Yarn) -> Result<f64, Error> {
+        let (key, value) = ("hyperelastic-length", &file.hyperelastic_length);
+        let length = self.positive(key, value)?;
+        let layer = yarn.length / yarn.layers as f64;
+        if length < layer * (1.0 - ROUNDING) || length > yarn.length * (1.0 + ROUNDING) {
+            let span = value.as_ref().map_or(self.span.clone(), Spanned::span);
+            let message = format!("{key} is {length}; allowed: from a layer, {layer}, to half-length, {}", yarn.length);
+            return Err(self.source.error(span, &message));
+        }
+        Ok(length)
+    }
+}

@@ -1,0 +1,166 @@
+//! The table `[shots]` of a scene: how a series of shots differs from the one that the scene describes.
+//! `docs/guides/v50.md` has the keys; `toron v50` fires them.
+
+use serde::Deserialize;
+use toml::Spanned;
+use toron_explicit_host::control_keys::zero_or_more;
+
+use toron::host::units::UnitSystem;
+use toron_materials::material::model::Material;
+use toron_shared::error::Error;
+use toron_shared::toml_file::{Numbers, Source};
+
+/// Shots of a series, at most: files number them.
+const MOST_SHOTS: i64 = 1_000_000;
+/// Of two shots a curve has no more to say than the shots themselves.
+const FEWEST_SHOTS: i64 = 2;
+const SEED: u64 = 1;
+/// Over the scene's end: how long a shot may take that is not decided there.
+const EXTENSION: f64 = 2.0;
+const MOST_EXTENSION: f64 = 100.0;
+/// Over the range: a step up or down, the first guess of the deviation, and how narrow the bracket of a limit is.
+const STEP: f64 = 0.1;
+const DEVIATION: f64 = 0.125;
+const TOLERANCE: f64 = 0.02;
+/// A bracket of so little of the fastest speed has no numbers between its ends, but for a few.
+const LEAST_TOLERANCE: f64 = 1e-9;
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct ShotsFile {
+    number: Spanned<i64>,
+    speeds: Spanned<Numbers<2>>,
+    design: Option<DesignName>,
+    step: Option<Spanned<f64>>,
+    deviation: Option<Spanned<f64>>,
+    scatter: Option<Spanned<f64>>,
+    aim: Option<AimName>,
+    seed: Option<Spanned<i64>>,
+    extension: Option<Spanned<f64>>,
+    tolerance: Option<Spanned<f64>>,
+    spread: Option<Spanned<f64>>,
+}
+
+/// How the speeds are chosen.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum DesignName {
+    Even,
+    #[default]
+    Langlie,
+    UpAndDown,
+    DOptimal,
+}
+
+/// Where shots meet the panel.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum AimName {
+    /// Where the scene aims.
+    #[default]
+    Fixed,
+    /// Anywhere in a cell of the weave about that place.
+    Cell,
+}
+
+/// A series of shots.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Shots {
+    pub number: usize,
+    pub speeds: [f64; 2],
+    pub design: DesignName,
+    /// A step up or down.
+    pub step: f64,
+    /// The first guess of the deviation of the limit speed.
+    pub deviation: f64,
+    /// The standard deviation of a shot's speed from what it was to be.
+    pub scatter: f64,
+    pub aim: AimName,
+    pub seed: u64,
+    /// How many times the scene's end a shot may take.
+    pub extension: f64,
+    /// How narrow the bracket of a limit without scatter is.
+    pub tolerance: f64,
+    /// The spread within which test houses take their mean, if one is given.
+    pub spread: Option<f64>,
+}
+
+/// The series of a scene whose cases begin with these materials under the blow.
+///
+/// # Errors
+/// An input error that names file, line, value and what is allowed.
+pub fn read_shots<'m>(
+    source: &Source<'_>,
+    file: &ShotsFile,
+    units: &UnitSystem,
+    materials: impl Iterator<Item = &'m Material>,
+) -> Result<Shots, Error> {
+    let Numbers([low, high]) = *file.speeds.get_ref();
+    let error = |key: &str, value: &dyn std::fmt::Display, span, allowed: &str| {
+        Err(source.error(span, &format!("{key} is {value}; allowed: {allowed}")))
+    };
+    if !(low > 0.0 && low < high && high.is_finite()) {
+        let allowed = "the slowest and then the fastest speed, two different finite numbers > 0";
+        return error("speeds", &format!("[{low}, {high}]"), file.speeds.span(), allowed);
+    }
+    for material in materials {
+        let bears = material.bears_strike("the fastest of speeds", high, units);
+        bears.map_err(|message| source.error(file.speeds.span(), &message))?;
+    }
+    let number = *file.number.get_ref();
+    if !(FEWEST_SHOTS..=MOST_SHOTS).contains(&number) {
+        let allowed = format!(
+            "{FEWEST_SHOTS} to {MOST_SHOTS}; 20 or more give an interval that is of use (toron v50 --simulate \
+             shows how wide it is)"
+        );
+        return error("number", &number, file.number.span(), &allowed);
+    }
+    let design = file.design.unwrap_or_default();
+    for (key, value, of) in
+        [("step", &file.step, DesignName::UpAndDown), ("deviation", &file.deviation, DesignName::DOptimal)]
+    {
+        if let Some(value) = value.as_ref().filter(|_| design != of) {
+            let with = if of == DesignName::UpAndDown { "up-and-down" } else { "d-optimal" };
+            return error(key, value.get_ref(), value.span(), &format!("with design = \"{with}\""));
+        }
+    }
+    let positive = |key: &str, value: &Option<Spanned<f64>>, default: f64| match value {
+        Some(value) => source.positive(key, *value.get_ref(), value.span()),
+        None => Ok(default),
+    };
+    let range = high - low;
+    let extension = positive("extension", &file.extension, EXTENSION)?;
+    if let Some(given) = file.extension.as_ref().filter(|_| !(1.0..=MOST_EXTENSION).contains(&extension)) {
+        return error("extension", &extension, given.span(), &format!("1 to {MOST_EXTENSION}"));
+    }
+    let tolerance = positive("tolerance", &file.tolerance, TOLERANCE * range)?;
+    let least = LEAST_TOLERANCE * high;
+    if let Some(given) = file.tolerance.as_ref().filter(|_| !(least..range).contains(&tolerance)) {
+        let allowed = format!("{least:.3e} or more, and less than the range of speeds, {range}");
+        return error("tolerance", &tolerance, given.span(), &allowed);
+    }
+    let scatter = zero_or_more(source, "scatter", &file.scatter, 0.0)?;
+    let step = positive("step", &file.step, STEP * range)?;
+    for (key, value, given, most, what) in [
+        ("scatter", scatter, &file.scatter, 0.5 * range, "half of the range of speeds"),
+        ("step", step, &file.step, range, "the range of speeds"),
+    ] {
+        if let Some(given) = given.as_ref().filter(|_| value > most) {
+            return error(key, &value, given.span(), &format!("up to {most}, {what}"));
+        }
+    }
+    let seed = file.seed.as_ref().map_or(Ok(SEED), |seed| source.seed(seed))?;
+    Ok(Shots {
+        number: number as usize,
+        speeds: [low, high],
+        design,
+        step,
+        deviation: positive("deviation", &file.deviation, DEVIATION * range)?,
+        scatter,
+        aim: file.aim.unwrap_or_default(),
+        seed,
+        extension,
+        tolerance: tolerance.max(least),
+        spread: file.spread.as_ref().map(|_| positive("spread", &file.spread, 0.0)).transpose()?,
+    })
+}

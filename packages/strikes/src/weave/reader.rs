@@ -1,0 +1,333 @@
+//! A weave and its panel from a TOML file. `docs/guides/fabric.md` has the keys.
+
+use std::ops::Range;
+use std::path::Path;
+
+use toml::Spanned;
+
+use super::cloth::Cloth;
+use super::coarse::{Coarse, ROWS as COARSE_ROWS};
+use super::file::{PanelFile, PatternFile, PlyFile, SceneFile, ShapeName, ThreadFile, WeaveFile};
+use super::geometry::{Family, Geometry, Weave};
+use super::layup::{Laid, Layup};
+use super::model::Model;
+use super::panel::{MOST_ELEMENTS, Outline, Panel, Part, Place, Turn};
+use super::pattern::Pattern;
+use super::preset::{ALONG, CLEARANCE, COLUMNS, PRESETS, Preset, ROWS};
+use super::section::{Section, Thread};
+use crate::weave::cloth::read_cloth;
+use toron::host::units::UnitSystem;
+use toron_materials::material::file::read_material;
+use toron_materials::material::laws::Laws;
+use toron_materials::material::model::Material;
+use toron_materials::units::{self, LENGTH};
+use toron_shared::error::Error;
+use toron_shared::toml_file::{self, Source};
+
+const MOST_ALONG: usize = 64;
+const MOST_COLUMNS: usize = 40;
+const MOST_ROWS: usize = 20;
+const POSITIVE: &str = "a finite number > 0";
+
+/// A panel whose weave is solved, ready to be meshed.
+#[derive(Clone, Debug)]
+pub struct Woven {
+    pub geometry: Geometry,
+    pub panel: Panel,
+    pub places: Vec<Place>,
+    /// Turned by a right angle by exchanging warp and weft, as in a quarter.
+    pub exchanged: bool,
+}
+
+impl Woven {
+    pub fn model(&self) -> Model {
+        Model::of(&self.geometry, &self.panel, &self.places)
+    }
+
+    pub fn elements(&self) -> usize {
+        let weave = &self.geometry.weave;
+        let of_yarn =
+            |place: &Place| -> usize { self.panel.spans(weave, place).iter().map(|span| span.elements(place)).sum() };
+        self.places.iter().map(of_yarn).sum()
+    }
+}
+
+/// What a scene of a weave alone is.
+#[derive(Clone, Debug)]
+pub struct Scene {
+    pub title: String,
+    pub units: UnitSystem,
+    pub cloth: Cloth,
+    /// Whether it is the scene of a strike.
+    pub is_struck: bool,
+    /// Of the yarns of warp and weft of each ply; empty where the scene names none.
+    pub materials: Vec<[Material; 2]>,
+}
+
+impl Scene {
+    /// Reads the file.
+    ///
+    /// # Errors
+    /// An input error that names file, line, value and what is allowed.
+    pub fn read(path: &Path) -> Result<Scene, Error> {
+        let (name, text) = toml_file::read(path)?;
+        Scene::parse(&name, &text)
+    }
+
+    /// The scene that `text` describes; `name` stands for the file in messages.
+    ///
+    /// # Errors
+    /// An input error that names file, line, value and what is allowed.
+    pub fn parse(name: &str, text: &str) -> Result<Scene, Error> {
+        let source = Source { name, text };
+        let file: SceneFile = source.parse()?;
+        let units = units::system(&source, &file.units)?;
+        let material = file.material.as_ref();
+        let material = material
+            .map(|table| read_material(&source, Laws::Toron, table.get_ref(), &units, table.span()))
+            .transpose()?;
+        let cloth = read_cloth(&source, file.weave.as_ref(), &file.ply, file.mesh.as_ref(), &units)?;
+        let of_all = |material: Material| vec![[material.clone(), material]; cloth.pitches().len()];
+        let materials = material.map_or(Vec::new(), of_all);
+        Ok(Scene {
+            title: file.title.unwrap_or_else(|| name.to_string()),
+            is_struck: file.scene.is_some(),
+            cloth,
+            materials,
+            units,
+        })
+    }
+}
+
+/// The table `[weave]` and the tables `[[ply]]`: none is one ply. `case` is the place of what a case has otherwise:
+/// what does not go together is then its mistake.
+pub fn layup(
+    source: &Source<'_>,
+    table: &Spanned<WeaveFile>,
+    plies: &[Spanned<PlyFile>],
+    units: &UnitSystem,
+    case: Option<Range<usize>>,
+) -> Result<Layup, Error> {
+    let of_case = |place: Range<usize>| match &case {
+        Some(case) if !case.contains(&place.start) => case.clone(),
+        _ => place,
+    };
+    let Some((first, _)) = plies.split_first() else {
+        let woven = woven(source, table, None, units, of_case)?;
+        return Ok(Layup::new(vec![Laid { woven, angle: 0.0, distance: 0.0 }]));
+    };
+    if let Some(distance) = &first.get_ref().distance {
+        let message = "distance of the first [[ply]]; allowed: in those below it";
+        return Err(source.error(distance.span(), message));
+    }
+    let mut laid = Vec::with_capacity(plies.len());
+    for ply in plies {
+        let PlyFile { weave: own, angle, distance, .. } = ply.get_ref();
+        let woven = match own {
+            Some(own) => {
+                check_panel_of_ply(source, own.get_ref().panel.as_ref())?;
+                let table = Spanned::new(own.span(), own.get_ref().over(table.get_ref()));
+                let blamed = |place: Range<usize>| if own.span().contains(&place.start) { place } else { own.span() };
+                woven(source, &table, angle.as_ref(), units, blamed)?
+            }
+            None => woven(source, table, angle.as_ref(), units, of_case)?,
+        };
+        let distance = match distance {
+            Some(distance) => source.positive("distance", *distance.get_ref(), distance.span())?,
+            None => woven.geometry.weave.clearance,
+        };
+        laid.push(Laid { woven, angle: angle.as_ref().map_or(0.0, |angle| *angle.get_ref()), distance });
+    }
+    let elements: usize = laid.iter().map(|laid| laid.woven.elements()).sum();
+    if elements as f64 > MOST_ELEMENTS {
+        let message = format!("the plies have {elements} elements; allowed: up to {MOST_ELEMENTS:.0e}");
+        return Err(source.error(first.span(), &message));
+    }
+    Ok(Layup::new(laid))
+}
+
+/// All plies have one outline.
+fn check_panel_of_ply(source: &Source<'_>, panel: Option<&Spanned<PanelFile>>) -> Result<(), Error> {
+    let Some(file) = panel else { return Ok(()) };
+    let PanelFile { shape, radius, half, part, coarse_radius, coarse_rows, centre: _ } = file.get_ref();
+    let own = [radius.is_some(), half.is_some(), part.is_some(), coarse_radius.is_some(), coarse_rows.is_some()];
+    if shape.is_none() && own == [false; 5] {
+        return Ok(());
+    }
+    let message = "weave.panel of a [[ply]] has other keys than centre; allowed: these in [weave.panel], for all plies";
+    Err(source.error(file.span(), message))
+}
+
+/// A ply. `blamed` is the place that errors name for a key at some place which does not go together with others.
+fn woven(
+    source: &Source<'_>,
+    table: &Spanned<WeaveFile>,
+    angle: Option<&Spanned<f64>>,
+    units: &UnitSystem,
+    blamed: impl Fn(Range<usize>) -> Range<usize>,
+) -> Result<Woven, Error> {
+    let file = table.get_ref();
+    let base = file.preset.as_ref().map(|name| weave_preset(source, name, units)).transpose()?;
+    let warp =
+        thread(source, Family::Warp, file.warp.as_ref(), base.as_ref().map(|base| &base.threads[0]), table.span())?;
+    let of_weft = base.as_ref().map_or(&warp, |base| &base.threads[1]);
+    let weft = thread(source, Family::Weft, file.weft.as_ref(), Some(of_weft), table.span())?;
+    let clearance = match &file.clearance {
+        Some(value) => source.positive("clearance", *value.get_ref(), value.span())?,
+        None => units.from_si(CLEARANCE, LENGTH),
+    };
+    let mut weave = Weave {
+        pattern: pattern(source, file, base, table.span())?,
+        threads: [warp, weft],
+        along: number(source, "along", &file.along, [2, MOST_ALONG], ALONG)?,
+        columns: number(source, "columns", &file.columns, [1, MOST_COLUMNS], COLUMNS)?,
+        rows: number(source, "rows", &file.rows, [1, MOST_ROWS], ROWS)?,
+        clearance,
+    };
+    if let Some(along) = file.along.as_ref().filter(|_| !weave.along.is_multiple_of(2)) {
+        return Err(source.error(along.span(), &format!("along is {}; allowed: an even number", weave.along)));
+    }
+    for (family, given) in Family::BOTH.into_iter().zip([&file.warp, &file.weft]) {
+        let given = given.as_ref().and_then(|given| given.get_ref().width.as_ref().or(given.get_ref().height.as_ref()));
+        let place = blamed(given.map_or(table.span(), Spanned::span));
+        weave.check_thread(family).map_err(|message| source.error(place, &message))?;
+    }
+    let wanted = "panel is missing; allowed: a table with shape and radius or half";
+    let of_panel = file.panel.as_ref().ok_or_else(|| source.error(table.span(), wanted))?;
+    let mut panel = panel(source, of_panel)?;
+    let part = of_panel.get_ref().part.as_ref().map_or(of_panel.span(), Spanned::span);
+    panel.check_mirror_planes(&weave).map_err(|message| source.error(blamed(part), &message))?;
+    let exchanged = match angle {
+        Some(angle) => turn(source, &mut panel, angle)?,
+        None => false,
+    };
+    if exchanged {
+        weave = weave.exchanged();
+    }
+    let places = panel.places(&weave).map_err(|message| source.error(blamed(of_panel.span()), &message))?;
+    if let Some(radius) = &of_panel.get_ref().coarse_radius {
+        panel.check_coarse_radius(&weave, &places).map_err(|message| source.error(blamed(radius.span()), &message))?;
+    }
+    let geometry = weave.solve().map_err(|message| source.error(table.span(), &message))?;
+    Ok(Woven { geometry, panel, places, exchanged })
+}
+
+/// Turns a ply; true where its warp and weft are to be exchanged for it.
+fn turn(source: &Source<'_>, panel: &mut Panel, angle: &Spanned<f64>) -> Result<bool, Error> {
+    let degrees = source.finite("angle", *angle.get_ref(), angle.span())?;
+    if panel.part == Part::Whole {
+        panel.turn = Turn::degrees(degrees);
+        return Ok(false);
+    }
+    if degrees.rem_euclid(90.0) != 0.0 {
+        let message = format!("angle is {degrees} in a quarter; allowed: multiples of 90, or part = \"whole\"");
+        return Err(source.error(angle.span(), &message));
+    }
+    Ok(degrees.rem_euclid(180.0) != 0.0)
+}
+
+fn weave_preset(source: &Source<'_>, name: &Spanned<String>, units: &UnitSystem) -> Result<Weave, Error> {
+    let preset = Preset::find(name.get_ref()).ok_or_else(|| {
+        let known = PRESETS.each_ref().map(|preset| preset.name).join(", ");
+        source.error(name.span(), &format!("preset \"{}\"; allowed: {known}", name.get_ref()))
+    })?;
+    Ok(preset.weave(units))
+}
+
+fn pattern(source: &Source<'_>, file: &WeaveFile, base: Option<Weave>, span: Range<usize>) -> Result<Pattern, Error> {
+    let allowed = "allowed: plain, or rows of o (over) and u (under), one a warp yarn";
+    let Some(pattern) = &file.pattern else {
+        let missing = || source.error(span, &format!("pattern is missing; {allowed}, or a preset"));
+        return base.map(|base| base.pattern).ok_or_else(missing);
+    };
+    match pattern.get_ref() {
+        PatternFile::Name(name) if name == "plain" => Ok(Pattern::plain()),
+        PatternFile::Name(name) => Err(source.error(pattern.span(), &format!("pattern is \"{name}\"; {allowed}"))),
+        PatternFile::Rows(rows) => Pattern::parse(rows).map_err(|message| source.error(pattern.span(), &message)),
+    }
+}
+
+/// The keys of a family; those left out are the preset's, or the warp's.
+fn thread(
+    source: &Source<'_>,
+    family: Family,
+    table: Option<&Spanned<ThreadFile>>,
+    base: Option<&Thread>,
+    span: Range<usize>,
+) -> Result<Thread, Error> {
+    let none = ThreadFile::default();
+    let file = table.map_or(&none, Spanned::get_ref);
+    let span = table.map_or(span, Spanned::span);
+    let length = |key: &str, value: &Option<Spanned<f64>>, of_base: Option<f64>| {
+        let key = format!("{}.{key}", family.name());
+        match (value, of_base) {
+            (Some(value), _) => source.positive(&key, *value.get_ref(), value.span()),
+            (None, Some(number)) => Ok(number),
+            (None, None) => {
+                let message = format!("{key} is missing; allowed: {POSITIVE}, or a preset of the weave");
+                Err(source.error(span.clone(), &message))
+            }
+        }
+    };
+    Ok(Thread {
+        pitch: length("pitch", &file.pitch, base.map(|base| base.pitch))?,
+        section: file.section.or(base.map(|base| base.section)).unwrap_or(Section::Ellipse),
+        width: length("width", &file.width, base.map(|base| base.width))?,
+        height: length("height", &file.height, base.map(|base| base.height))?,
+    })
+}
+
+fn panel(source: &Source<'_>, table: &Spanned<PanelFile>) -> Result<Panel, Error> {
+    let file = table.get_ref();
+    let missing =
+        |key: &str, allowed: &str| source.error(table.span(), &format!("panel.{key} is missing; allowed: {allowed}"));
+    let shape = file.shape.ok_or_else(|| missing("shape", "circle, rectangle"))?;
+    let foreign = match shape {
+        ShapeName::Circle => file.half.as_ref().map(|half| (half.span(), "half, of a rectangle; allowed: radius")),
+        ShapeName::Rectangle => {
+            file.radius.as_ref().map(|radius| (radius.span(), "radius, of a circle; allowed: half"))
+        }
+    };
+    if let Some((span, message)) = foreign {
+        return Err(source.error(span, &format!("panel has {message}")));
+    }
+    let outline = match shape {
+        ShapeName::Circle => {
+            let radius = file.radius.as_ref().ok_or_else(|| missing("radius", POSITIVE))?;
+            Outline::Circle(source.positive("radius", *radius.get_ref(), radius.span())?)
+        }
+        ShapeName::Rectangle => {
+            let half = file.half.as_ref().ok_or_else(|| missing("half", "half sizes along x and y, each > 0"))?;
+            let [x, y] = half.get_ref().0;
+            Outline::Rectangle([source.positive("half", x, half.span())?, source.positive("half", y, half.span())?])
+        }
+    };
+    let part = file.part.as_ref().map_or(Part::Whole, |part| *part.get_ref());
+    let coarse = match (&file.coarse_radius, &file.coarse_rows) {
+        (Some(radius), rows) => Some(Coarse {
+            radius: source.positive("coarse-radius", *radius.get_ref(), radius.span())?,
+            rows: number(source, "coarse-rows", rows, [1, COARSE_ROWS], COARSE_ROWS)?,
+        }),
+        (None, Some(rows)) => {
+            return Err(source.error(rows.span(), "coarse-rows without coarse-radius; allowed: beside it"));
+        }
+        (None, None) => None,
+    };
+    Ok(Panel { outline, part, centre: file.centre.unwrap_or_default(), turn: Turn::NONE, coarse })
+}
+
+/// A whole number in this range, or the default.
+fn number(
+    source: &Source<'_>,
+    key: &str,
+    value: &Option<Spanned<i64>>,
+    [least, most]: [usize; 2],
+    default: usize,
+) -> Result<usize, Error> {
+    let Some(value) = value else { return Ok(default) };
+    let number = usize::try_from(*value.get_ref()).ok().filter(|number| (least..=most).contains(number));
+    number.ok_or_else(|| {
+        let message = format!("{key} is {}; allowed: a whole number from {least} to {most}", value.get_ref());
+        source.error(value.span(), &message)
+    })
+}
