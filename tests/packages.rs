@@ -62,14 +62,19 @@ const ARROWS: [Arrows; 26] = [
     ("own-law-program", &["reinforced-solid", "toron-materials"], &[]),
 ];
 
-/// The packages of a workspace, each with what it needs of this repository: to be built, and for its tests.
-fn found(manifest: &str) -> BTreeMap<String, [Vec<String>; 2]> {
+/// What Cargo knows of a workspace.
+fn metadata(manifest: &str) -> Value {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(manifest);
     let mut cargo = Command::new(env!("CARGO"));
     cargo.args(["metadata", "--format-version", "1", "--no-deps", "--offline", "--manifest-path"]).arg(path);
     let output = cargo.output().expect("cargo runs");
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    let metadata: Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    serde_json::from_slice(&output.stdout).expect("JSON")
+}
+
+/// The packages of a workspace, each with what it needs of this repository: to be built, and for its tests.
+fn found(manifest: &str) -> BTreeMap<String, [Vec<String>; 2]> {
+    let metadata = metadata(manifest);
     let text = |value: &Value| value.as_str().expect("a name").to_owned();
     let packages = metadata["packages"].as_array().expect("packages");
     let arrows = |package: &Value| {
@@ -103,4 +108,13 @@ fn arrows_of_the_table_point_down() {
         let below = |needed: &&str| ARROWS[..place].iter().any(|(other, ..)| other == needed);
         assert!(built.iter().all(below), "{name} needs a package that does not stand below it: {built:?}");
     }
+}
+
+/// `cargo run` runs `toron`, as the README has it, although other packages have programs too.
+#[test]
+fn one_program_is_run_without_a_name() {
+    let metadata = metadata("Cargo.toml");
+    let packages = metadata["packages"].as_array().expect("packages");
+    let named: Vec<_> = packages.iter().filter_map(|package| package["default_run"].as_str()).collect();
+    assert_eq!(named, ["toron"]);
 }
