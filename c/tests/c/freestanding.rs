@@ -28,7 +28,7 @@ fn build(options: &[&str]) -> Output {
 fn the_package_needs_no_standard_library_and_no_function_can_panic() {
     let output = build(&[]);
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    has_every_function(&Path::new(BUILD).join("release/libfreestanding.so"));
+    has_every_function(&BUILD.join("release/libfreestanding.so"));
     // The check can fail: a function that does panic is refused, and for that reason.
     let output = build(&["--features", "control"]);
     let message = String::from_utf8_lossy(&output.stderr);
@@ -40,8 +40,8 @@ fn the_package_needs_no_standard_library_and_no_function_can_panic() {
 fn has_every_function(linked: &Path) {
     #[cfg(all(target_arch = "x86_64", target_os = "linux"))]
     {
-        use crate::library::LIBRARY;
         use crate::symbols::functions;
+        use toron_test_support::library::LIBRARY;
         let missing = &functions(&LIBRARY.join("libtoron.so")) - &functions(linked);
         assert!(missing.is_empty(), "{missing:?}");
     }
