@@ -17,7 +17,7 @@ use crate::law::interface::Law;
 use crate::law::number::level::{Level, has_fma};
 use crate::law::number::real::Scalar;
 use crate::law::number::registers::Registers;
-use crate::law::point::{self, Call, Columns, OldState, Sink, evaluate_call};
+use crate::law::point::{self, Call, Columns, OldState, Own, Sink, evaluate_call};
 use crate::law::prepared::{Given, PreparedHyperelastic};
 use crate::law::response::Request;
 use crate::law::state::{ENERGIES, FAILURE_INDEX, INVARIANTS};
@@ -303,6 +303,7 @@ unsafe fn evaluate_point<T: Registers>(law: &PreparedHyperelastic<T>, block: &Bl
     let fibre = if m.is_null() { None } else { Some(unsafe { [f.read(m, 0), f.read(m, 1), f.read(m, 2)] }) };
     // SAFETY: the block is plain: null, or the number of the only point, if its failure is computed.
     let limit = if block.failure.is_null() { None } else { unsafe { block.limit.as_ref() } };
+    let own = Own { fibre, limit };
     let mut code = status::OK;
     let sink = PointOfBlock { block, code: &mut code };
     let level = Level::Avx512;
@@ -315,14 +316,14 @@ unsafe fn evaluate_point<T: Registers>(law: &PreparedHyperelastic<T>, block: &Bl
         let tangent = SixBySix(request, measure(block.measure)?);
         // As the lanes, which have no kernel of their own for the tangent of a fibre along the first axis.
         let source = &law.with_axes_of_any_fibre();
-        evaluate_call(Call { source, f, fibre, limit, state: old, tangent, sink }, level)?;
+        evaluate_call(Call { source, f, own, state: old, tangent, sink }, level)?;
     } else if !block.wave_speed.is_null() {
         let tangent = NoTangent(Request { wave_modulus: true, ..Request::STRESS_AND_STATE });
-        evaluate_call(Call { source, f, fibre, limit, state: old, tangent, sink }, level)?;
+        evaluate_call(Call { source, f, own, state: old, tangent, sink }, level)?;
     } else if block.energies.is_null() {
-        evaluate_call(Call { source, f, fibre, limit, state: old, tangent: Stress::<false>, sink }, level)?;
+        evaluate_call(Call { source, f, own, state: old, tangent: Stress::<false>, sink }, level)?;
     } else {
-        evaluate_call(Call { source, f, fibre, limit, state: old, tangent: Stress::<true>, sink }, level)?;
+        evaluate_call(Call { source, f, own, state: old, tangent: Stress::<true>, sink }, level)?;
     }
     Ok(code)
 }

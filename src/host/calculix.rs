@@ -33,7 +33,7 @@ use crate::law::hyperelastic::Hyperelastic;
 use crate::law::interface::{Law, Points};
 use crate::law::linear_elastic::LinearElastic;
 use crate::law::number::level::Level;
-use crate::law::point::{Call, Point, Sink, evaluate_call};
+use crate::law::point::{Call, Own, Point, Sink, evaluate_call};
 use crate::law::response::{Request, nan_unless_finite};
 use crate::law::state::HYPERELASTIC_STATE;
 use crate::law::status;
@@ -230,12 +230,10 @@ impl Arguments<'_> {
         let mut answer = Answer::new([0.0; HYPERELASTIC_STATE]);
         let request = Request { stress: false, wave_modulus: false, ..Request::ALL };
         let tangent = SixBySix(request, Measure::Material);
+        let own = Own { fibre, limit: Some(&limit) };
         // SAFETY: `properties` has refused a state_count below the law's number of variables, and there are as many.
         let state = unsafe { &*self.old_state.cast::<[Cell<f64>; HYPERELASTIC_STATE]>() };
-        evaluate_call(
-            Call { source: properties, f: self.f, fibre, limit: Some(&limit), state, tangent, sink: &mut answer },
-            Level::Avx512,
-        )?;
+        evaluate_call(Call { source: properties, f: self.f, own, state, tangent, sink: &mut answer }, Level::Avx512)?;
         self.finish(answer, || 0.5 * properties.first().copied().unwrap_or_default())
     }
 

@@ -14,7 +14,7 @@ use crate::law::error::Error;
 use crate::law::number::level::Level;
 use crate::law::number::real::Real;
 use crate::law::number::registers::Registers;
-use crate::law::point::{self, Call, Sink, Source, cells, evaluate_call};
+use crate::law::point::{self, Call, Own, Sink, Source, cells, evaluate_call};
 use crate::law::prepared::Given;
 use crate::law::prepared::PreparedHyperelastic;
 use crate::law::response::Request;
@@ -222,12 +222,15 @@ unsafe fn evaluate_from<T: Registers, L: Source<T>>(source: L, point: *const Poi
         // What most callers want is compiled for them.
         if state_new.is_null() {
             let sink = StressAnswer::<T, false> { stress, state: state_new, status: &mut status };
-            evaluate_call(Call { source, f, fibre, limit: None, state, tangent: Stress::<false>, sink }, level)?;
+            evaluate_call(
+                Call { source, f, own: Own { fibre, ..Own::NONE }, state, tangent: Stress::<false>, sink },
+                level,
+            )?;
         } else {
             // SAFETY: the caller's point.
-            let limit = unsafe { limit(point) };
+            let own = Own { fibre, limit: unsafe { limit(point) } };
             let sink = StressAnswer::<T, true> { stress, state: state_new, status: &mut status };
-            evaluate_call(Call { source, f, fibre, limit, state, tangent: Stress::<true>, sink }, level)?;
+            evaluate_call(Call { source, f, own, state, tangent: Stress::<true>, sink }, level)?;
         }
         return Ok(status);
     }
@@ -243,18 +246,18 @@ unsafe fn evaluate_from<T: Registers, L: Source<T>>(source: L, point: *const Poi
         wave_modulus: !wave_speed.is_null(),
     };
     // SAFETY: as above.
-    let limit = unsafe { limit(point) };
+    let own = Own { fibre, limit: unsafe { limit(point) } };
     let sink = PointAnswer { stress, state: state_new, modes, density, wave_speed, tangent, status: &mut status };
     if tangent.is_null() {
-        evaluate_call(Call { source, f, fibre, limit, state, tangent: NoTangent(request), sink }, level)?;
+        evaluate_call(Call { source, f, own, state, tangent: NoTangent(request), sink }, level)?;
         return Ok(status);
     }
     match measure(point.measure)? {
         Measure::Nominal => {
-            evaluate_call(Call { source, f, fibre, limit, state, tangent: NineByNine(request), sink }, level)?;
+            evaluate_call(Call { source, f, own, state, tangent: NineByNine(request), sink }, level)?;
         }
         measure => {
-            evaluate_call(Call { source, f, fibre, limit, state, tangent: SixBySix(request, measure), sink }, level)?;
+            evaluate_call(Call { source, f, own, state, tangent: SixBySix(request, measure), sink }, level)?;
         }
     }
     Ok(status)

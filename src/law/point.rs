@@ -85,22 +85,21 @@ impl<T: Real<Mask = bool> + Into<f64>> Hyperelastic<T> {
         state: &[T; HYPERELASTIC_STATE],
         tangent: D,
     ) -> (Point<T>, [T; N]) {
-        self.point_limited(f, fibre, None, state, tangent)
+        self.point_with_own(f, Own { fibre, ..Own::NONE }, state, tangent)
     }
 
-    /// As [`point_with`](Self::point_with), for a point that may have a limit of its own, ln(1 + ε_lim), which is 0 for that of the law.
+    /// As [`point_with`](Self::point_with), for a point with numbers of its own.
     #[inline(never)]
-    pub(super) fn point_limited<D: Derivative<N>, const N: usize>(
+    pub(super) fn point_with_own<D: Derivative<N>, const N: usize>(
         &self,
         f: &[[T; 3]; 3],
-        fibre: Option<[T; 3]>,
-        limit: Option<&T>,
+        own: Own<'_, T>,
         state: &[T; HYPERELASTIC_STATE],
         tangent: D,
     ) -> (Point<T>, [T; N]) {
         let (mut point, mut entries) = (Point::nothing(), [T::splat(0.0); N]);
         let sink = (&mut point, &mut entries);
-        let evaluated = evaluate::<T, T, _, _, _, D, _, N>(self, f, fibre, limit, &cells(*state), tangent, sink);
+        let evaluated = evaluate::<T, T, _, _, _, D, _, N>(self, f, own, &cells(*state), tangent, sink);
         debug_assert!(evaluated.is_ok()); // only wrong properties are an error, and those of a law are right
         (point, entries)
     }
@@ -271,8 +270,7 @@ fn evaluate<
 >(
     source: L,
     f: F,
-    fibre: Option<[T; 3]>,
-    limit: Option<&T>,
+    own: Own<'_, T>,
     state: O,
     tangent: D,
     sink: S,
@@ -281,30 +279,40 @@ fn evaluate<
     let [c1, c2, c3] = f.columns();
     let f = [vector(c1), vector(c2), vector(c3)];
     let everywhere = R::splat(0.0).le(R::splat(0.0));
-    let own = source.frame();
-    if own.aligned && fibre.is_none() {
+    let given = source.frame();
+    if given.aligned && own.fibre.is_none() {
         let axes = MaterialAxes { axes: FirstAxis, frame: FibreFrame::first_axis(), usable: everywhere };
-        return point_in(source, &own, Inputs { f: &f, limit, state: &state }, &axes, tangent, sink);
+        return point_in(source, &given, Inputs { f: &f, own, state: &state }, &axes, tangent, sink);
     }
-    let (frame, usable) = match fibre {
+    let (frame, usable) = match own.fibre {
         Some(direction) => FibreFrame::new(vector(direction)),
         None => {
-            let FibreFrame { m, t1, t2 } = own.frame;
+            let FibreFrame { m, t1, t2 } = given.frame;
             (FibreFrame { m: vector(m), t1: vector(t1), t2: vector(t2) }, everywhere)
         }
     };
     let axes = MaterialAxes { axes: frame, frame, usable };
-    point_in(source, &own, Inputs { f: &f, limit, state: &state }, &axes, tangent, sink)
+    point_in(source, &given, Inputs { f: &f, own, state: &state }, &axes, tangent, sink)
+}
+
+/// What a point may have of its own, in place of what the properties say.
+#[derive(Clone, Copy)]
+pub(crate) struct Own<'a, T> {
+    /// A fibre direction of any length.
+    pub fibre: Option<[T; 3]>,
+    /// ln(1 + ε_lim), or 0 for that of the properties. Read if failure is requested.
+    pub limit: Option<&'a T>,
+}
+
+impl<T> Own<'_, T> {
+    pub const NONE: Self = Own { fibre: None, limit: None };
 }
 
 /// A call from a host: the properties or a law prepared from them, a point, and what becomes of the results.
 pub(crate) struct Call<'a, T, L, F, O, D, S, const N: usize> {
     pub source: L,
     pub f: F,
-    /// A fibre direction of any length, or `None` for that of the properties.
-    pub fibre: Option<[T; 3]>,
-    /// ln(1 + ε_lim) of a point that may have a limit of its own, which is 0 for that of the properties. Read if failure is requested.
-    pub limit: Option<&'a T>,
+    pub own: Own<'a, T>,
     /// If it is an array, in cells, since the sink may overwrite it with the new one.
     pub state: O,
     pub tangent: D,
@@ -329,8 +337,7 @@ impl<
     pub(super) fn evaluate_baseline(self) -> Result<(), Error> {
         let law = self.source.whole()?;
         let state = core::array::from_fn(|c| self.state.entry(c));
-        let (point, entries) =
-            law.point_limited(&self.f.columns(), self.fibre, self.limit, &state, self.tangent.general());
+        let (point, entries) = law.point_with_own(&self.f.columns(), self.own, &state, self.tangent.general());
         self.sink.take(point, None, entries);
         Ok(())
     }
@@ -370,8 +377,8 @@ pub(crate) fn evaluate_call<
         >(
             call: Call<'_, T, L, F, O, D, S, N>,
         ) -> Result<(), Error> {
-            let Call { source, f, fibre, limit, state, tangent, sink } = call;
-            evaluate::<T, T::Point, L, F, O, D, S, N>(source, f, fibre, limit, state, tangent, sink)
+            let Call { source, f, own, state, tangent, sink } = call;
+            evaluate::<T, T::Point, L, F, O, D, S, N>(source, f, own, state, tangent, sink)
         }
         if level > Level::Baseline && has_fma() {
             // SAFETY: the processor has AVX2 and FMA, as `has_fma` has found.
@@ -419,10 +426,10 @@ struct MaterialAxes<A, R: Real> {
     usable: R::Mask,
 }
 
-/// What a point has besides its axes: F, by columns, perhaps a limit of its own, and the old state.
+/// What a point has besides its axes: F, by columns, numbers of its own, and the old state.
 struct Inputs<'a, T, R, O> {
     f: &'a [[R; 3]; 3],
-    limit: Option<&'a T>,
+    own: Own<'a, T>,
     state: &'a O,
 }
 
@@ -442,14 +449,14 @@ fn point_in<
     const N: usize,
 >(
     source: L,
-    own: &PropertyFrame<T>,
-    Inputs { f, limit, state }: Inputs<'_, T, R, O>,
+    given: &PropertyFrame<T>,
+    Inputs { f, own, state }: Inputs<'_, T, R, O>,
     &MaterialAxes { ref axes, ref frame, usable }: &MaterialAxes<A, R>,
     tangent: D,
     sink: S,
 ) -> Result<(), Error> {
     let (stretch, images) = Stretch::new(f, axes);
-    let law = source.law(own)?;
+    let law = source.law(given)?;
     let (shear, law) = (law.shears, law.lanes::<R>());
     let (section, [a, b]) = Section::of_point(&stretch, images, axes);
     let images = [images[0], a, b];
@@ -470,7 +477,7 @@ fn point_in<
     let nan_if_invalid = R::select(usable, strain.nan_if_invalid, R::splat(f64::NAN));
     let r = deformed.respond(frame, nan_if_invalid, latch, request);
     let zero = R::splat(0.0);
-    let limit = if request.failure { limit.map(|&limit| R::of(limit)) } else { None };
+    let limit = if request.failure { own.limit.map(|&limit| R::of(limit)) } else { None };
     // As late as can be, since the compiler moves nothing across this decision.
     let (index, updated) = match limit {
         None if request.failure => (failure.index(&strain), r.updated),

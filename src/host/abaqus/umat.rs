@@ -18,7 +18,7 @@ use crate::law::linear_elastic::LinearElastic;
 use crate::law::number::level::Level;
 use crate::law::number::vector::{cross, dot};
 use crate::law::parameters::HYPERELASTIC_PROPERTIES as PROPERTIES;
-use crate::law::point::{Call, Point, Sink, evaluate_call};
+use crate::law::point::{Call, Own, Point, Sink, evaluate_call};
 use crate::law::state::HYPERELASTIC_STATE;
 use crate::law::status;
 use crate::law::tangent::Measure;
@@ -224,7 +224,7 @@ where
                 &*sink.call.statev.cast::<[Cell<f64>; HYPERELASTIC_STATE]>(),
             )
         };
-        evaluate_call(Call { source, f, fibre: None, limit, state, tangent, sink }, Level::Avx512)?;
+        evaluate_call(Call { source, f, own: Own { limit, ..Own::NONE }, state, tangent, sink }, Level::Avx512)?;
         Ok(sink.status.get())
     };
     // SAFETY: the message is the caller's; what `body` reads and writes is not null.

@@ -17,7 +17,7 @@ use crate::law::number::level::Level;
 use crate::law::number::real::Scalar;
 use crate::law::number::registers::Registers;
 use crate::law::parameters;
-use crate::law::point::{Call, Point, Sink, evaluate_call};
+use crate::law::point::{Call, Own, Point, Sink, evaluate_call};
 use crate::law::response::Request;
 use crate::law::state::{ALIVE, ENERGIES, FAILED, HYPERELASTIC_STATE};
 use crate::law::status;
@@ -92,7 +92,7 @@ pub(super) unsafe fn scalar<T: Registers + Precision>(call: &Umat<T>) -> Result<
     let (source, f, state) = unsafe { element(cm, hsv, nhv) }?;
     let mut status = status::OK;
     let sink = Element { sig, hsv, failel, status: &mut status };
-    evaluate_call(Call { source, f, fibre: None, limit: None, state, tangent: Stress::<true>, sink }, Level::Avx512)?;
+    evaluate_call(Call { source, f, own: Own::NONE, state, tangent: Stress::<true>, sink }, Level::Avx512)?;
     Ok(status)
 }
 
@@ -115,7 +115,7 @@ pub(super) unsafe fn scalar_tangent<T: Registers + Precision>(call: &Utan<T>) ->
         status: &mut status,
     };
     let tangent = SixBySix(Request::default(), Measure::Truesdell);
-    evaluate_call(Call { source, f, fibre: None, limit: None, state, tangent, sink }, Level::Avx512)?;
+    evaluate_call(Call { source, f, own: Own::NONE, state, tangent, sink }, Level::Avx512)?;
     Ok(status)
 }
 

@@ -10,7 +10,7 @@ use crate::law::failure::Failure;
 use crate::law::hyperelastic::Hyperelastic;
 use crate::law::number::level::Level;
 use crate::law::parameters::HYPERELASTIC_PROPERTIES;
-use crate::law::point::{Call, Point, Sink, evaluate_call};
+use crate::law::point::{Call, Own, Point, Sink, evaluate_call};
 use crate::law::response::{Request, nan_unless_finite};
 use crate::law::state::{FAILED, HYPERELASTIC_STATE};
 use crate::law::status;
@@ -89,10 +89,7 @@ unsafe fn evaluate(view: &BehaviourDataView, options: Options, plane: bool) -> R
     let usual = request == Request::STRESS_AND_STATE;
     macro_rules! evaluate_with {
         ($tangent:expr) => {
-            evaluate_call(
-                Call { source, f: &f, fibre: None, limit: None, state, tangent: $tangent, sink: to },
-                Level::Avx512,
-            )
+            evaluate_call(Call { source, f: &f, own: Own::NONE, state, tangent: $tangent, sink: to }, Level::Avx512)
         };
     }
     match options.operator {
