@@ -1,7 +1,8 @@
 //! Pictures: one font, one set of colours, panels of lines, and the way from a drawing to SVG and PNG.
 //!
-//! It knows no law and no unit: callers hand over the names of units. plotters lays a drawing out; a [`Sheet`](sheet::Sheet) takes it down for both files. Text is drawn as the outlines of an
-//! embedded font, so that a picture looks alike wherever it is made and wherever it is seen.
+//! No law and no unit is known here: callers hand over the names of units. plotters lays a drawing out; a
+//! [`Sheet`](sheet::Sheet) takes it down for both files. Text is drawn as the outlines of an embedded font, so that a
+//! picture looks alike wherever it is made and wherever it is seen.
 
 pub mod colour_scale;
 mod font;
