@@ -156,21 +156,6 @@ impl Message {
         unsafe { *self.text.add(length) = 0 };
     }
 
-    /// The status of a result, which has been computed in the default floating-point environment; if it is not 0, a message says why.
-    ///
-    /// # Safety
-    /// As for [`write`](Self::write).
-    #[inline(always)]
-    pub unsafe fn answer(self, result: Result<i32, Error>) -> i32 {
-        match result {
-            Ok(status::OK) => status::OK,
-            // SAFETY: the message is the caller's.
-            Ok(code) => unsafe { self.refused(&Error::Plain(code)) },
-            // SAFETY: as above.
-            Err(error) => unsafe { self.refused(&error) },
-        }
-    }
-
     /// As [`refuse`](Self::refuse), in any floating-point environment.
     ///
     /// # Safety
@@ -239,7 +224,23 @@ pub unsafe fn status_message(status: i32, text: *mut c_char, capacity: size_t) -
     if status::meaning(status).is_some() { status::OK } else { status::UNKNOWN_NAME }
 }
 
-/// What [`Message::answer`] returns, for a body that runs in the caller's environment: for what computes nothing and whose errors have no number but whole ones.
+/// Runs the body of an entry point in the default floating-point environment. Returns its status, or that of its error, with a
+/// message.
+///
+/// # Safety
+/// As for [`Message::write`].
+#[inline(always)]
+pub unsafe fn entry(message: Message, body: impl FnOnce() -> Result<i32, Error>) -> i32 {
+    match in_default_environment(body) {
+        Ok(status::OK) => status::OK,
+        // SAFETY: the message is the caller's.
+        Ok(code) => unsafe { message.refused(&Error::Plain(code)) },
+        // SAFETY: as above.
+        Err(error) => unsafe { message.refused(&error) },
+    }
+}
+
+/// As [`entry`], in the caller's environment, for what computes nothing and whose errors have no number but whole ones.
 ///
 /// # Safety
 /// As for [`Message::write`].
@@ -248,7 +249,7 @@ pub unsafe fn look_up(message: Message, body: impl FnOnce() -> Result<i32, Error
     body().unwrap_or_else(|error| unsafe { message.refuse(&error) })
 }
 
-/// The worst code of a block as a result of an entry: an error that names the first point at fault, if each point's code is known.
+/// The worst code of a block as a result of [`entry`]: an error that names the first point at fault, if each point's code is known.
 ///
 /// # Errors
 /// The code is not 0, and `codes` is not null.

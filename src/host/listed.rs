@@ -7,11 +7,10 @@ use core::ptr::{null, null_mut};
 use libc::{c_char, size_t};
 
 use super::arguments::{Layout, check_density, check_points, leading_dimension, level, measure_of};
-use super::entry_points::{Message, look_up, of_points};
+use super::entry_points::{Message, entry, look_up, of_points};
 use super::prepared::{AsNumbers, PreparedLaw, numbers};
 use super::structures::{Structure, read};
 use super::tables::{TableRow, write_row};
-use crate::host::environment::in_default_environment;
 use crate::law::block::{Precision, distances};
 use crate::law::description::Description;
 use crate::law::error::Error;
@@ -183,7 +182,7 @@ pub unsafe fn block<N: Named<T>, T: Precision>(
         }
     };
     // SAFETY: the message is the C caller's, and so are the arguments, which `body` checks.
-    unsafe { Message { text: message, capacity }.answer(in_default_environment(body)) }
+    unsafe { entry(Message { text: message, capacity }, body) }
 }
 
 /// `NAME_property`: writes a row of the table of properties.

@@ -2,8 +2,7 @@
 
 use libc::size_t;
 
-use super::entry_points::{Message, properties};
-use crate::host::environment::in_default_environment;
+use super::entry_points::{Message, entry, properties};
 use crate::law::block::Precision;
 use crate::law::error::Error;
 use crate::law::hyperelastic::Hyperelastic;
@@ -134,5 +133,5 @@ pub unsafe fn prepare<T: Precision, L: PreparedLaw<T>>(
         Ok(status::OK)
     };
     // SAFETY: the message is the C caller's, and so are the arguments, which `body` checks.
-    unsafe { message.answer(in_default_environment(body)) }
+    unsafe { entry(message, body) }
 }

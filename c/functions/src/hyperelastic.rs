@@ -3,8 +3,7 @@
 use libc::{c_char, size_t};
 use toron::Error;
 use toron::host::blocks::{self, Block};
-use toron::host::entry_points::{Message, properties};
-use toron::host::environment::in_default_environment;
+use toron::host::entry_points::{Message, entry, properties};
 use toron::host::points::{self, Point};
 use toron::host::prepared::{numbers, prepare};
 use toron::law::parameters;
@@ -71,8 +70,7 @@ pub unsafe extern "C" fn toron_hyperelastic_point_f64(
 ) -> i32 {
     // SAFETY: the caller's arguments, as lib.rs says.
     unsafe {
-        Message { text: message, capacity }
-            .answer(in_default_environment(move || points::evaluate(Given::Prepared(numbers(law)?), point)))
+        entry(Message { text: message, capacity }, move || points::evaluate(Given::Prepared(numbers(law)?), point))
     }
 }
 
@@ -86,8 +84,7 @@ pub unsafe extern "C" fn toron_hyperelastic_point_f32(
 ) -> i32 {
     // SAFETY: the caller's arguments, as lib.rs says.
     unsafe {
-        Message { text: message, capacity }
-            .answer(in_default_environment(move || points::evaluate(Given::Prepared(numbers(law)?), point)))
+        entry(Message { text: message, capacity }, move || points::evaluate(Given::Prepared(numbers(law)?), point))
     }
 }
 
@@ -103,9 +100,9 @@ pub unsafe extern "C" fn toron_hyperelastic_point_with_properties_f64(
 ) -> i32 {
     // SAFETY: the caller's arguments, as lib.rs says.
     unsafe {
-        Message { text: message, capacity }.answer(in_default_environment(move || {
+        entry(Message { text: message, capacity }, move || {
             points::evaluate(Given::Properties(read(properties, count)?), point)
-        }))
+        })
     }
 }
 
@@ -120,9 +117,9 @@ pub unsafe extern "C" fn toron_hyperelastic_point_with_properties_f32(
 ) -> i32 {
     // SAFETY: the caller's arguments, as lib.rs says.
     unsafe {
-        Message { text: message, capacity }.answer(in_default_environment(move || {
+        entry(Message { text: message, capacity }, move || {
             points::evaluate(Given::Properties(read(properties, count)?), point)
-        }))
+        })
     }
 }
 
@@ -140,8 +137,7 @@ pub unsafe extern "C" fn toron_hyperelastic_block_f64(
 ) -> i32 {
     // SAFETY: the caller's arguments, as lib.rs says.
     unsafe {
-        Message { text: message, capacity }
-            .answer(in_default_environment(move || blocks::evaluate(Given::Prepared(numbers(law)?), block)))
+        entry(Message { text: message, capacity }, move || blocks::evaluate(Given::Prepared(numbers(law)?), block))
     }
 }
 
@@ -155,8 +151,7 @@ pub unsafe extern "C" fn toron_hyperelastic_block_f32(
 ) -> i32 {
     // SAFETY: the caller's arguments, as lib.rs says.
     unsafe {
-        Message { text: message, capacity }
-            .answer(in_default_environment(move || blocks::evaluate(Given::Prepared(numbers(law)?), block)))
+        entry(Message { text: message, capacity }, move || blocks::evaluate(Given::Prepared(numbers(law)?), block))
     }
 }
 
@@ -172,9 +167,9 @@ pub unsafe extern "C" fn toron_hyperelastic_block_with_properties_f64(
 ) -> i32 {
     // SAFETY: the caller's arguments, as lib.rs says.
     unsafe {
-        Message { text: message, capacity }.answer(in_default_environment(move || {
+        entry(Message { text: message, capacity }, move || {
             blocks::evaluate(Given::Properties(read(properties, count)?), block)
-        }))
+        })
     }
 }
 
@@ -189,9 +184,9 @@ pub unsafe extern "C" fn toron_hyperelastic_block_with_properties_f32(
 ) -> i32 {
     // SAFETY: the caller's arguments, as lib.rs says.
     unsafe {
-        Message { text: message, capacity }.answer(in_default_environment(move || {
+        entry(Message { text: message, capacity }, move || {
             blocks::evaluate(Given::Properties(read(properties, count)?), block)
-        }))
+        })
     }
 }
 
@@ -216,8 +211,8 @@ pub unsafe extern "C" fn toron_hyperelastic_least_acoustic_eigenvalue_f64(
 ) -> i32 {
     // SAFETY: the caller's arguments, as lib.rs says.
     unsafe {
-        Message { text: message, capacity }.answer(in_default_environment(move || {
+        entry(Message { text: message, capacity }, move || {
             points::least_acoustic_eigenvalue(numbers(law)?, point, least, direction)
-        }))
+        })
     }
 }

@@ -1,8 +1,7 @@
 //! The linear elastic law: prepared, at one point, at blocks of points.
 
 use libc::{c_char, size_t};
-use toron::host::entry_points::{Message, properties};
-use toron::host::environment::in_default_environment;
+use toron::host::entry_points::{Message, entry, properties};
 use toron::host::linear_elastic::{self as linear, LinearBlock, LinearIncrement, LinearPoint};
 use toron::host::prepared::{AsNumbers, PreparedLaw, numbers, prepare};
 use toron::law::block::Precision;
@@ -86,8 +85,7 @@ pub unsafe extern "C" fn toron_linear_elastic_axes_f64(
 ) -> i32 {
     // SAFETY: the caller's arguments, as lib.rs says.
     unsafe {
-        Message { text: message, capacity }
-            .answer(in_default_environment(move || linear::axes(&prepared(law)?, fibre, second_axis, axes)))
+        entry(Message { text: message, capacity }, move || linear::axes(&prepared(law)?, fibre, second_axis, axes))
     }
 }
 
@@ -103,8 +101,7 @@ pub unsafe extern "C" fn toron_linear_elastic_axes_f32(
 ) -> i32 {
     // SAFETY: the caller's arguments, as lib.rs says.
     unsafe {
-        Message { text: message, capacity }
-            .answer(in_default_environment(move || linear::axes(&prepared(law)?, fibre, second_axis, axes)))
+        entry(Message { text: message, capacity }, move || linear::axes(&prepared(law)?, fibre, second_axis, axes))
     }
 }
 
@@ -121,10 +118,7 @@ pub unsafe extern "C" fn toron_linear_elastic_point_f64(
     capacity: size_t,
 ) -> i32 {
     // SAFETY: the caller's arguments, as lib.rs says.
-    unsafe {
-        Message { text: message, capacity }
-            .answer(in_default_environment(move || linear::point(&prepared(law)?, point)))
-    }
+    unsafe { entry(Message { text: message, capacity }, move || linear::point(&prepared(law)?, point)) }
 }
 
 /// As `toron_linear_elastic_point_f64`, in single precision.
@@ -136,10 +130,7 @@ pub unsafe extern "C" fn toron_linear_elastic_point_f32(
     capacity: size_t,
 ) -> i32 {
     // SAFETY: the caller's arguments, as lib.rs says.
-    unsafe {
-        Message { text: message, capacity }
-            .answer(in_default_environment(move || linear::point(&prepared(law)?, point)))
-    }
+    unsafe { entry(Message { text: message, capacity }, move || linear::point(&prepared(law)?, point)) }
 }
 
 /// As `toron_linear_elastic_point_f64`, with the properties in the table's order in place of a law that has been prepared. The
@@ -153,10 +144,7 @@ pub unsafe extern "C" fn toron_linear_elastic_point_with_properties_f64(
     capacity: size_t,
 ) -> i32 {
     // SAFETY: the caller's arguments, as lib.rs says.
-    unsafe {
-        Message { text: message, capacity }
-            .answer(in_default_environment(move || linear::point(&with(properties, count)?, point)))
-    }
+    unsafe { entry(Message { text: message, capacity }, move || linear::point(&with(properties, count)?, point)) }
 }
 
 /// As `toron_linear_elastic_point_with_properties_f64`, in single precision.
@@ -169,10 +157,7 @@ pub unsafe extern "C" fn toron_linear_elastic_point_with_properties_f32(
     capacity: size_t,
 ) -> i32 {
     // SAFETY: the caller's arguments, as lib.rs says.
-    unsafe {
-        Message { text: message, capacity }
-            .answer(in_default_environment(move || linear::point(&with(properties, count)?, point)))
-    }
+    unsafe { entry(Message { text: message, capacity }, move || linear::point(&with(properties, count)?, point)) }
 }
 
 /// The linear elastic law for a strain increment in material axes that the host updates: see `toron_linear_increment_f64`.
@@ -187,10 +172,7 @@ pub unsafe extern "C" fn toron_linear_elastic_increment_f64(
     capacity: size_t,
 ) -> i32 {
     // SAFETY: the caller's arguments, as lib.rs says.
-    unsafe {
-        Message { text: message, capacity }
-            .answer(in_default_environment(move || linear::increment(&prepared(law)?, increment)))
-    }
+    unsafe { entry(Message { text: message, capacity }, move || linear::increment(&prepared(law)?, increment)) }
 }
 
 /// As `toron_linear_elastic_increment_f64`, in single precision.
@@ -202,10 +184,7 @@ pub unsafe extern "C" fn toron_linear_elastic_increment_f32(
     capacity: size_t,
 ) -> i32 {
     // SAFETY: the caller's arguments, as lib.rs says.
-    unsafe {
-        Message { text: message, capacity }
-            .answer(in_default_environment(move || linear::increment(&prepared(law)?, increment)))
-    }
+    unsafe { entry(Message { text: message, capacity }, move || linear::increment(&prepared(law)?, increment)) }
 }
 
 /// The linear elastic law over a step at a block of points: see `toron_linear_block_f64`.
@@ -221,10 +200,7 @@ pub unsafe extern "C" fn toron_linear_elastic_block_f64(
     capacity: size_t,
 ) -> i32 {
     // SAFETY: the caller's arguments, as lib.rs says.
-    unsafe {
-        Message { text: message, capacity }
-            .answer(in_default_environment(move || linear::block(&prepared(law)?, block)))
-    }
+    unsafe { entry(Message { text: message, capacity }, move || linear::block(&prepared(law)?, block)) }
 }
 
 /// As `toron_linear_elastic_block_f64`, in single precision.
@@ -236,10 +212,7 @@ pub unsafe extern "C" fn toron_linear_elastic_block_f32(
     capacity: size_t,
 ) -> i32 {
     // SAFETY: the caller's arguments, as lib.rs says.
-    unsafe {
-        Message { text: message, capacity }
-            .answer(in_default_environment(move || linear::block(&prepared(law)?, block)))
-    }
+    unsafe { entry(Message { text: message, capacity }, move || linear::block(&prepared(law)?, block)) }
 }
 
 /// As `toron_linear_elastic_block_f64`, with the properties in the table's order in place of a law that has been prepared. The
@@ -253,10 +226,7 @@ pub unsafe extern "C" fn toron_linear_elastic_block_with_properties_f64(
     capacity: size_t,
 ) -> i32 {
     // SAFETY: the caller's arguments, as lib.rs says.
-    unsafe {
-        Message { text: message, capacity }
-            .answer(in_default_environment(move || linear::block(&with(properties, count)?, block)))
-    }
+    unsafe { entry(Message { text: message, capacity }, move || linear::block(&with(properties, count)?, block)) }
 }
 
 /// As `toron_linear_elastic_block_with_properties_f64`, in single precision.
@@ -269,8 +239,5 @@ pub unsafe extern "C" fn toron_linear_elastic_block_with_properties_f32(
     capacity: size_t,
 ) -> i32 {
     // SAFETY: the caller's arguments, as lib.rs says.
-    unsafe {
-        Message { text: message, capacity }
-            .answer(in_default_environment(move || linear::block(&with(properties, count)?, block)))
-    }
+    unsafe { entry(Message { text: message, capacity }, move || linear::block(&with(properties, count)?, block)) }
 }

@@ -6,8 +6,7 @@ use core::slice;
 use libc::{c_char, size_t};
 
 use super::{UMAT_COUNTS, check_counts, property_count};
-use crate::host::entry_points::{Message, check_plane, check_pointers, properties};
-use crate::host::environment::in_default_environment;
+use crate::host::entry_points::{Message, check_plane, check_pointers, entry, properties};
 use crate::host::limit_variable;
 use crate::law::block::{components, components_mut};
 use crate::law::derivative::{Derivative, JaumannModulus, Stress};
@@ -116,7 +115,7 @@ pub trait StandardLaw: Law<f64> {
     #[inline(never)]
     unsafe fn umat(call: &Umat, message: *mut c_char, capacity: size_t) -> i32 {
         // SAFETY: the arrays are those that `Umat` promises, and the message is the caller's.
-        unsafe { Message { text: message, capacity }.answer(in_default_environment(|| step::<Self>(call))) }
+        unsafe { entry(Message { text: message, capacity }, || step::<Self>(call)) }
     }
 }
 
@@ -126,7 +125,7 @@ impl StandardLaw for LinearElastic<f64> {
     #[inline(never)]
     unsafe fn umat(call: &Umat, message: *mut c_char, capacity: size_t) -> i32 {
         // SAFETY: as in the trait.
-        unsafe { Message { text: message, capacity }.answer(in_default_environment(|| step::<Self>(call))) }
+        unsafe { entry(Message { text: message, capacity }, || step::<Self>(call)) }
     }
 }
 
@@ -179,7 +178,7 @@ unsafe fn check(call: &Umat, limit: &mut Option<f64>, message: Message) -> i32 {
         Ok(status::OK)
     };
     // SAFETY: the message is the caller's.
-    unsafe { message.answer(in_default_environment(body)) }
+    unsafe { entry(message, body) }
 }
 
 /// # Safety
@@ -228,7 +227,7 @@ where
         Ok(sink.status.get())
     };
     // SAFETY: the message is the caller's; what `body` reads and writes is not null.
-    unsafe { message.answer(in_default_environment(body)) }
+    unsafe { entry(message, body) }
 }
 
 /// Where the results of a point go: by reference, so that only its address is passed down.

@@ -6,8 +6,7 @@ use libc::{c_char, size_t};
 
 use super::{VUMAT_COUNTS, check_counts, property_count};
 use crate::host::arguments::level;
-use crate::host::entry_points::{Message, check_plane, check_pointers, properties, stiffness_at_rest};
-use crate::host::environment::in_default_environment;
+use crate::host::entry_points::{Message, check_plane, check_pointers, entry, properties, stiffness_at_rest};
 use crate::host::limit_variable;
 use crate::host::structures::{read, structures};
 use crate::law::block::{Precision, components, components_mut};
@@ -306,7 +305,7 @@ pub trait ExplicitLaw<T: Precision>: Law<T> {
     #[inline(never)]
     unsafe fn vumat(block: *const Vumat<T>, message: *mut c_char, capacity: size_t) -> i32 {
         // SAFETY: null or a structure of its size, with arrays as long as its fields say; the message is the caller's.
-        unsafe { Message { text: message, capacity }.answer(in_default_environment(move || vumat::<Self, T>(block))) }
+        unsafe { entry(Message { text: message, capacity }, move || vumat::<Self, T>(block)) }
     }
 }
 
@@ -319,9 +318,7 @@ macro_rules! compiled {
             #[inline(never)]
             unsafe fn vumat(block: *const Vumat<$t>, message: *mut c_char, capacity: size_t) -> i32 {
                 // SAFETY: as in the trait.
-                unsafe {
-                    Message { text: message, capacity }.answer(in_default_environment(move || vumat::<Self, $t>(block)))
-                }
+                unsafe { entry(Message { text: message, capacity }, move || vumat::<Self, $t>(block)) }
             }
         }
     };

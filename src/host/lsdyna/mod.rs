@@ -28,8 +28,7 @@ use libc::{c_char, size_t};
 
 use message::History;
 
-use crate::host::entry_points::{Message, check_pointers, properties, stiffness_at_rest, store};
-use crate::host::environment::in_default_environment;
+use crate::host::entry_points::{Message, check_pointers, entry, properties, stiffness_at_rest, store};
 use crate::law::block::Precision;
 use crate::law::description::Description;
 use crate::law::error::Error;
@@ -103,9 +102,7 @@ pub trait UserRoutines<T: Precision>: History<T> {
     #[inline(never)]
     unsafe fn umat(call: &Umat<T>, message: *mut c_char, capacity: size_t) -> i32 {
         // SAFETY: the arrays and the message are the caller's.
-        unsafe {
-            Message { text: message, capacity }.answer(in_default_environment(|| any_law::scalar::<T, Self>(call)))
-        }
+        unsafe { entry(Message { text: message, capacity }, || any_law::scalar::<T, Self>(call)) }
     }
 
     /// The vectorised one.
@@ -115,9 +112,7 @@ pub trait UserRoutines<T: Precision>: History<T> {
     #[inline(never)]
     unsafe fn umat_vector(call: &UmatVector<T>, message: *mut c_char, capacity: size_t) -> i32 {
         // SAFETY: the arrays and the message are the caller's.
-        unsafe {
-            Message { text: message, capacity }.answer(in_default_environment(|| any_law::vector::<T, Self>(call)))
-        }
+        unsafe { entry(Message { text: message, capacity }, || any_law::vector::<T, Self>(call)) }
     }
 
     /// The tangent.
@@ -127,10 +122,7 @@ pub trait UserRoutines<T: Precision>: History<T> {
     #[inline(never)]
     unsafe fn utan(call: &Utan<T>, message: *mut c_char, capacity: size_t) -> i32 {
         // SAFETY: the arrays and the message are the caller's.
-        unsafe {
-            Message { text: message, capacity }
-                .answer(in_default_environment(|| any_law::scalar_tangent::<T, Self>(call)))
-        }
+        unsafe { entry(Message { text: message, capacity }, || any_law::scalar_tangent::<T, Self>(call)) }
     }
 
     /// The vectorised one.
@@ -140,10 +132,7 @@ pub trait UserRoutines<T: Precision>: History<T> {
     #[inline(never)]
     unsafe fn utan_vector(call: &UtanVector<T>, message: *mut c_char, capacity: size_t) -> i32 {
         // SAFETY: the arrays and the message are the caller's.
-        unsafe {
-            Message { text: message, capacity }
-                .answer(in_default_environment(|| any_law::vector_tangent::<T, Self>(call)))
-        }
+        unsafe { entry(Message { text: message, capacity }, || any_law::vector_tangent::<T, Self>(call)) }
     }
 
     /// The moduli that the card asks for, for contact and the time step.
@@ -161,10 +150,7 @@ pub trait UserRoutines<T: Precision>: History<T> {
         capacity: size_t,
     ) -> i32 {
         // SAFETY: the arrays and the message are the caller's.
-        unsafe {
-            Message { text: message, capacity }
-                .answer(in_default_environment(|| moduli::<T, Self>(values, count, bulk, shear)))
-        }
+        unsafe { entry(Message { text: message, capacity }, || moduli::<T, Self>(values, count, bulk, shear)) }
     }
 }
 
@@ -349,25 +335,25 @@ macro_rules! compiled {
             #[inline(never)]
             unsafe fn umat(call: &Umat<$t>, message: *mut c_char, capacity: size_t) -> i32 {
                 // SAFETY: as in the trait.
-                unsafe { Message { text: message, capacity }.answer(in_default_environment(|| $module::scalar::<$($parameter),+>(call))) }
+                unsafe { entry(Message { text: message, capacity }, || $module::scalar::<$($parameter),+>(call)) }
             }
 
             #[inline(never)]
             unsafe fn umat_vector(call: &UmatVector<$t>, message: *mut c_char, capacity: size_t) -> i32 {
                 // SAFETY: as in the trait.
-                unsafe { Message { text: message, capacity }.answer(in_default_environment(|| any_law::vector::<$t, Self>(call))) }
+                unsafe { entry(Message { text: message, capacity }, || any_law::vector::<$t, Self>(call)) }
             }
 
             #[inline(never)]
             unsafe fn utan(call: &Utan<$t>, message: *mut c_char, capacity: size_t) -> i32 {
                 // SAFETY: as in the trait.
-                unsafe { Message { text: message, capacity }.answer(in_default_environment(|| $module::scalar_tangent::<$($parameter),+>(call))) }
+                unsafe { entry(Message { text: message, capacity }, || $module::scalar_tangent::<$($parameter),+>(call)) }
             }
 
             #[inline(never)]
             unsafe fn utan_vector(call: &UtanVector<$t>, message: *mut c_char, capacity: size_t) -> i32 {
                 // SAFETY: as in the trait.
-                unsafe { Message { text: message, capacity }.answer(in_default_environment(|| $module::vector_tangent::<$($parameter),+>(call))) }
+                unsafe { entry(Message { text: message, capacity }, || $module::vector_tangent::<$($parameter),+>(call)) }
             }
 
             #[inline(never)]
@@ -380,7 +366,7 @@ macro_rules! compiled {
                 capacity: size_t,
             ) -> i32 {
                 // SAFETY: as in the trait.
-                unsafe { Message { text: message, capacity }.answer(in_default_environment(|| moduli::<$t, Self>(values, count, bulk, shear))) }
+                unsafe { entry(Message { text: message, capacity }, || moduli::<$t, Self>(values, count, bulk, shear)) }
             }
         }
     };

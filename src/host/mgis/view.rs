@@ -2,8 +2,7 @@
 
 use core::ffi::c_char;
 
-use crate::host::entry_points::Message;
-use crate::host::environment::in_default_environment;
+use crate::host::entry_points::{Message, entry};
 use crate::law::error::{Error, Value};
 use crate::law::status;
 use crate::law::wave_speed::check_density;
@@ -233,7 +232,7 @@ pub(super) unsafe fn integrate(
         Ok(code)
     };
     // SAFETY: the message is null or has MESSAGE_CAPACITY bytes.
-    match unsafe { message.answer(in_default_environment(body)) } {
+    match unsafe { entry(message, body) } {
         status::OK => INTEGRATED,
         _ => NOT_INTEGRATED,
     }

@@ -5,8 +5,7 @@ use core::slice;
 
 use libc::{c_char, size_t};
 
-use crate::host::entry_points::{Message, check_pointers};
-use crate::host::environment::in_default_environment;
+use crate::host::entry_points::{Message, check_pointers, entry};
 use crate::law::block::MOST;
 use crate::law::error::Error;
 use crate::law::status;
@@ -102,7 +101,7 @@ macro_rules! entries {
         #[inline(never)]
         pub unsafe fn $read_card(card: &MaterialCard<$t>, message: *mut c_char, capacity: size_t) -> i32 {
             // SAFETY: the card and the message are as just said.
-            unsafe { Message { text: message, capacity }.answer(in_default_environment(|| read_card(card))) }
+            unsafe { entry(Message { text: message, capacity }, || read_card(card)) }
         }
 
         /// A line of the starter's listing, or no text and `TORON_UNKNOWN_NAME` behind the last one.
@@ -113,7 +112,7 @@ macro_rules! entries {
         pub unsafe fn $write_line(wanted: &ListingLine<$t>) -> i32 {
             let no_message = Message { text: core::ptr::null_mut(), capacity: 0 };
             // SAFETY: the line is as just said; no message is wanted.
-            unsafe { no_message.answer(in_default_environment(|| write_line(wanted))) }
+            unsafe { entry(no_message, || write_line(wanted)) }
         }
 
         /// The engine's routine, `LUSERnn`.
@@ -131,10 +130,7 @@ macro_rules! entries {
         /// As for [`evaluate`]; `message` is null or has `capacity` bytes.
         pub unsafe fn $group_of(laws: &Laws<$t>, group: &Group<$t>, message: *mut c_char, capacity: size_t) -> i32 {
             // SAFETY: group and message are as just said.
-            unsafe {
-                Message { text: message, capacity }
-                    .answer(in_default_environment(|| evaluate(laws, group).map(|()| status::OK)))
-            }
+            unsafe { entry(Message { text: message, capacity }, || evaluate(laws, group).map(|()| status::OK)) }
         }
     };
 }
