@@ -156,17 +156,6 @@ impl Message {
         unsafe { *self.text.add(length) = 0 };
     }
 
-    /// As [`refuse`](Self::refuse), in any floating-point environment.
-    ///
-    /// # Safety
-    /// As for [`write`](Self::write).
-    #[cold]
-    #[inline(never)]
-    unsafe fn refused(self, error: &Error) -> i32 {
-        // SAFETY: the message is that of `write`, and formatting runs in the default environment.
-        in_default_environment(|| unsafe { self.refuse(error) })
-    }
-
     /// Writes what is wrong; returns the status code.
     ///
     /// # Safety
@@ -231,13 +220,13 @@ pub unsafe fn status_message(status: i32, text: *mut c_char, capacity: size_t) -
 /// As for [`Message::write`].
 #[inline(always)]
 pub unsafe fn entry(message: Message, body: impl FnOnce() -> Result<i32, Error>) -> i32 {
-    match in_default_environment(body) {
+    in_default_environment(|| match body() {
         Ok(status::OK) => status::OK,
-        // SAFETY: the message is the caller's.
-        Ok(code) => unsafe { message.refused(&Error::Plain(code)) },
+        // SAFETY: the message is the caller's, and `body` has run in the default environment, as this does.
+        Ok(code) => unsafe { message.refuse(&Error::Plain(code)) },
         // SAFETY: as above.
-        Err(error) => unsafe { message.refused(&error) },
-    }
+        Err(error) => unsafe { message.refuse(&error) },
+    })
 }
 
 /// As [`entry`], in the caller's environment, for what computes nothing and whose errors have no number but whole ones.

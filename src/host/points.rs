@@ -2,6 +2,7 @@
 
 use core::cell::Cell;
 use core::mem::MaybeUninit;
+use core::ptr::null_mut;
 
 use libc::size_t;
 
@@ -82,7 +83,21 @@ pub(in crate::host) struct PointAnswer<'a, T> {
     pub status: &'a mut i32,
 }
 
-impl<T: Real> PointAnswer<'_, T> {
+impl<'a, T: Real> PointAnswer<'a, T> {
+    /// The status alone.
+    #[inline(always)]
+    pub fn nothing(status: &'a mut i32) -> Self {
+        PointAnswer {
+            stress: null_mut(),
+            state: null_mut(),
+            modes: null_mut(),
+            density: T::splat(1.0),
+            wave_speed: null_mut(),
+            tangent: null_mut(),
+            status,
+        }
+    }
+
     #[inline(always)]
     fn put(self, point: &point::Point<T>) {
         *self.status = point.status;

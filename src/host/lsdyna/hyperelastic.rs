@@ -103,17 +103,8 @@ pub(super) unsafe fn scalar_tangent<T: Registers + Precision>(call: &Utan<T>) ->
     check_pointers(&[(cm, "cm"), (hsv, "hsv"), (es, "es")])?;
     // SAFETY: `check_pointers` has refused null; the arrays are those that `Utan` promises.
     let (source, f, state) = unsafe { element(cm, hsv, nhv) }?;
-    let none = core::ptr::null_mut;
     let mut status = status::OK;
-    let sink = PointAnswer {
-        stress: none(),
-        state: none(),
-        modes: none(),
-        density: T::splat(1.0),
-        wave_speed: none(),
-        tangent: es,
-        status: &mut status,
-    };
+    let sink = PointAnswer { tangent: es, ..PointAnswer::nothing(&mut status) };
     let tangent = SixBySix(Request::default(), Measure::Truesdell);
     evaluate_call(Call { source, f, own: Own::NONE, state, tangent, sink }, Level::Avx512)?;
     Ok(status)

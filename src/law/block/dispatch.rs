@@ -10,7 +10,7 @@ use super::baseline::Baseline;
 use super::instructions::Instructions;
 use super::kernel::{ALIGNED, ANY};
 #[cfg(target_arch = "x86_64")]
-use super::kernel::{FIBRES, LIMITS, SHEAR, STATE, STRESS, WAVE, request};
+use super::kernel::{FIBRES, LIMITS, SHEAR, STATE, STRESS, WAVE, is_usual, request};
 use super::points::Points;
 use super::run::{HYPERELASTIC_ROWS, LINEAR_ROWS};
 use crate::law::hyperelastic::Hyperelastic;
@@ -106,7 +106,7 @@ unsafe fn dispatch<T: Precision>(level: Level, law: &Hyperelastic<T>, block: &Po
 #[cfg(target_arch = "x86_64")]
 unsafe fn run<T: Registers, I: Instructions>(law: &Hyperelastic<T>, block: &Points<T>) -> i32 {
     let Request { stress, energies, invariants, failure, modes, wave_modulus } = request::<T, ANY>(block);
-    let usual = stress && !modes && block.tangent.is_null();
+    let usual = stress && !modes && is_usual(block);
     let state = usual && energies && invariants && failure && !wave_modulus;
     let explicit = usual && energies && invariants && failure && wave_modulus && !law.shears;
     let nothing_else =

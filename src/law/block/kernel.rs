@@ -354,6 +354,13 @@ pub(super) fn request<T, const WANT: u8>(block: &Points<T>) -> Request {
     }
 }
 
+/// Whether kernels that are compiled for a request know all arrays of the block; else it takes the general one.
+#[cfg_attr(not(target_arch = "x86_64"), allow(dead_code))]
+#[inline(always)]
+pub(super) fn is_usual<T>(block: &Points<T>) -> bool {
+    block.tangent.is_null()
+}
+
 /// The results of [`respond`] that later stages need.
 struct Outcome<R: Real> {
     /// Whether it has a new state: it had not failed before and can be evaluated.
