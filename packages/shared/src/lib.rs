@@ -2,7 +2,8 @@
 //!
 //! - what a user is told: [`error`] with its exit codes, [`console`], [`progress`], [`text_table`], [`short_number`], [`nearest`] names;
 //! - arguments and the end of a program: [`command_line`];
-//! - files in TOML, with the places of what stands in them: [`toml_file`], [`toml_error`]; keyword files of solvers: [`keyword_file`];
+//! - files in TOML, with the places of what stands in them: [`toml_file`], [`toml_error`], tables over others in [`layers`], [`field_names`];
+//!   keyword files of solvers: [`keyword_file`];
 //! - where a program writes: [`run_directory`], [`kept_file`], [`file_names`], [`folder`];
 //! - what runs beside it: [`interrupt`], [`bound_child`], the [`shell`]'s words.
 
@@ -10,11 +11,13 @@ pub mod bound_child;
 pub mod command_line;
 pub mod console;
 pub mod error;
+pub mod field_names;
 pub mod file_names;
 pub mod folder;
 pub mod interrupt;
 pub mod kept_file;
 pub mod keyword_file;
+pub mod layers;
 pub mod nearest;
 pub mod progress;
 pub mod run_directory;

@@ -7,9 +7,10 @@ use std::sync::OnceLock;
 use serde::de::{DeserializeOwned, Error as _};
 use serde::{Deserialize, Deserializer};
 use toml::Spanned;
-use toml::de::DeTable;
+use toml::de::{DeTable, DeValue, ValueDeserializer};
 
 use super::error::Error;
+use super::field_names::field_names;
 use super::file_names::collide;
 use super::toml_error;
 
@@ -22,15 +23,11 @@ pub struct Source<'a> {
 /// A table's key that no case reads: its place, and the message.
 pub type Unused = Option<(Range<usize>, String)>;
 
-/// A table with the keys of `base` where it has none.
-pub fn over<T: Clone>(
-    own: &Option<Spanned<T>>,
-    base: &Option<Spanned<T>>,
-    keys: impl Fn(&T, &T) -> T,
-) -> Option<Spanned<T>> {
-    match (own, base) {
-        (Some(own), Some(base)) => Some(Spanned::new(own.span(), keys(own.get_ref(), base.get_ref()))),
-        (own, base) => own.clone().or(base.clone()),
+impl<'t> Source<'t> {
+    /// The file's tables as data, in which every value keeps its place.
+    pub fn tables(&self) -> Result<Spanned<DeValue<'t>>, Error> {
+        let tables = DeTable::parse(self.text).map_err(|error| self.parse_error(&error))?;
+        Ok(Spanned::new(tables.span(), DeValue::Table(tables.into_inner())))
     }
 }
 
@@ -43,9 +40,29 @@ impl Source<'_> {
 
     /// The file's tables.
     pub fn parse<F: DeserializeOwned>(&self) -> Result<F, Error> {
-        let parse_error =
-            |error: toml::de::Error| self.error(error.span().unwrap_or(0..0), &toml_error::message(self.text, &error));
-        toml::from_str(self.text).map_err(parse_error)
+        toml::from_str(self.text).map_err(|error| self.parse_error(&error))
+    }
+
+    /// A table of the file's data.
+    pub fn read<F: DeserializeOwned>(&self, table: &Spanned<DeValue>) -> Result<F, Error> {
+        F::deserialize(ValueDeserializer::from(table.clone())).map_err(|error| self.parse_error(&error))
+    }
+
+    /// A table whose keys are those of two structs, neither of which refuses the other's.
+    pub fn read_both<F: DeserializeOwned, G: DeserializeOwned>(
+        &self,
+        table: &Spanned<DeValue>,
+    ) -> Result<(F, G), Error> {
+        let known = [field_names::<F>(), field_names::<G>()].concat();
+        let keys = table.get_ref().as_table().into_iter().flat_map(DeTable::keys);
+        match keys.into_iter().find(|key| !known.contains(&&**key.get_ref())) {
+            None => Ok((self.read(table)?, self.read(table)?)),
+            Some(key) => Err(self.error(key.span(), &toml_error::unknown_key(key.get_ref(), &known))),
+        }
+    }
+
+    fn parse_error(&self, error: &toml::de::Error) -> Error {
+        self.error(error.span().unwrap_or(0..0), &toml_error::message(self.text, error))
     }
 
     /// The name of a case, or of another of several `what`, out of which its files' names are made; `taken` are the
@@ -81,7 +98,7 @@ impl Source<'_> {
 
     /// Where the value of a table's key stands; the file's beginning where it is not there.
     pub fn place(&self, table: &str, key: &str) -> Range<usize> {
-        let tables = DeTable::parse(self.text).ok();
+        let tables = self.tables().ok();
         let value = tables.as_ref().and_then(|tables| tables.get_ref().get(table)?.get_ref().get(key));
         value.map_or(0..0, Spanned::span)
     }

@@ -1,10 +1,14 @@
 //! The tables of a scene's TOML file: the scene's own and its cases', and which of their keys nothing reads.
 
 use serde::Deserialize;
+use serde::de::IgnoredAny;
 use toml::Spanned;
+use toml::de::DeValue;
 
 use super::scene::Walls;
-use toron_shared::toml_file::{Unused, over};
+use crate::common::layers::CaseTable;
+use toron_shared::error::Error;
+use toron_shared::toml_file::{Source, Unused};
 
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
 #[serde(rename_all = "kebab-case")]
@@ -34,12 +38,14 @@ pub enum StrikerName {
 pub struct SceneFile {
     pub title: Option<String>,
     pub units: Spanned<String>,
-    pub scene: Spanned<CaseFile>,
-    #[serde(default)]
-    pub case: Vec<Spanned<CaseFile>>,
+    // Scene and cases are read in layers.
+    #[serde(rename = "scene")]
+    _scene: IgnoredAny,
+    #[serde(rename = "case")]
+    _case: Option<Vec<IgnoredAny>>,
 }
 
-#[derive(Clone, Deserialize)]
+#[derive(Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct FibreFile {
     pub diameter: Option<Spanned<f64>>,
@@ -48,8 +54,8 @@ pub struct FibreFile {
     pub strain_at_failure: Option<Spanned<f64>>,
 }
 
-/// The scene's table, and what a case has otherwise.
-#[derive(Clone, Deserialize)]
+/// The scene's table, or a case's.
+#[derive(Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct CaseFile {
     pub name: Option<Spanned<String>>,
@@ -85,18 +91,6 @@ pub struct CaseFile {
     pub law: Option<Spanned<String>>,
 }
 
-impl FibreFile {
-    fn over(&self, base: &FibreFile) -> FibreFile {
-        let (own, base) = (self.clone(), base.clone());
-        FibreFile {
-            diameter: own.diameter.or(base.diameter),
-            modulus: own.modulus.or(base.modulus),
-            density: own.density.or(base.density),
-            strain_at_failure: own.strain_at_failure.or(base.strain_at_failure),
-        }
-    }
-}
-
 impl CaseFile {
     pub fn striker(&self) -> StrikerName {
         self.striker.unwrap_or(StrikerName::Cylinder)
@@ -109,9 +103,18 @@ impl CaseFile {
     pub fn packing(&self) -> PackingName {
         self.packing.unwrap_or(PackingName::Hexagonal)
     }
+}
 
-    /// A key of this table that none of these cases reads: its place, and the message.
-    pub fn unused(&self, cases: &[&CaseFile]) -> Unused {
+impl CaseTable for CaseFile {
+    fn read(source: &Source, table: &Spanned<DeValue>) -> Result<CaseFile, Error> {
+        source.read(table)
+    }
+
+    fn name(&self) -> Option<&Spanned<String>> {
+        self.name.as_ref()
+    }
+
+    fn unused(&self, cases: &[&CaseFile]) -> Unused {
         let number = |value: &Option<Spanned<f64>>| value.as_ref().map(Spanned::span);
         let strikers = |allowed: &[StrikerName]| cases.iter().any(|case| allowed.contains(&case.striker()));
         let strikes = strikers(&[StrikerName::Cylinder]);
@@ -150,43 +153,5 @@ impl CaseFile {
         ];
         let (key, span, _, message) = keys.into_iter().find(|(_, span, is_read, _)| span.is_some() && !is_read)?;
         Some((span?, format!("{key} belongs to {message}")))
-    }
-
-    /// This table, with the keys of `base` where it has none.
-    pub fn over(&self, base: &CaseFile) -> CaseFile {
-        let (own, base) = (self.clone(), base.clone());
-        CaseFile {
-            name: own.name,
-            fibre: over(&own.fibre, &base.fibre, FibreFile::over),
-            half_length: own.half_length.or(base.half_length),
-            spacing: own.spacing.or(base.spacing),
-            fibres: own.fibres.or(base.fibres),
-            section: own.section.or(base.section),
-            aspect: own.aspect.or(base.aspect),
-            width: own.width.or(base.width),
-            height: own.height.or(base.height),
-            packing: own.packing.or(base.packing),
-            seed: own.seed.or(base.seed),
-            contact: own.contact.or(base.contact),
-            contact_length: own.contact_length.or(base.contact_length),
-            friction: own.friction.or(base.friction),
-            striker: own.striker.or(base.striker),
-            speed: own.speed.or(base.speed),
-            ramp: own.ramp.or(base.ramp),
-            radius: own.radius.or(base.radius),
-            mass: own.mass.or(base.mass),
-            held: own.held.or(base.held),
-            projectile_friction: own.projectile_friction.or(base.projectile_friction),
-            projectile_stiffness: own.projectile_stiffness.or(base.projectile_stiffness),
-            end: own.end.or(base.end),
-            sample: own.sample.or(base.sample),
-            pictures: own.pictures.or(base.pictures),
-            step: own.step.or(base.step),
-            walls: own.walls.or(base.walls),
-            closing: own.closing.or(base.closing),
-            damping: own.damping.or(base.damping),
-            preset: own.preset.or(base.preset),
-            law: own.law.or(base.law),
-        }
     }
 }

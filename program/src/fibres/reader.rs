@@ -7,6 +7,7 @@ use toml::Spanned;
 
 use super::file::{CaseFile, FibreFile, PackingName, SceneFile, SectionName, StrikerName};
 use super::scene::{Case, Contact, Fibre, Outline, Packing, Scene, SectionLaw, Striker, Walls};
+use crate::common::layers::{self, Case as CaseTables};
 use crate::common::units::{self, SPEED};
 use crate::explicit::control_keys::zero_or_more;
 use crate::material::laws::Laws;
@@ -50,34 +51,24 @@ impl Scene {
         let source = Source { name, text };
         let file: SceneFile = source.parse()?;
         let units = units::system(&source, &file.units)?;
-        let base = file.scene.get_ref();
-        if let Some(name) = &base.name {
-            return Err(source.error(name.span(), "name in [scene]; allowed: in a [[case]]"));
-        }
-        let tables: Vec<CaseFile> = file.case.iter().map(|case| case.get_ref().over(base)).collect();
-        let mut cases: Vec<Case> = Vec::new();
-        if file.case.is_empty() {
-            source.refuse_unused(base.unused(&[base]))?;
-            cases.push(
-                Reader { source: &source, units: &units, file: base, span: file.scene.span() }
-                    .case("scene".to_string())?,
-            );
-        } else {
-            source.refuse_unused(base.unused(&tables.iter().collect::<Vec<_>>()))?;
-        }
-        for (case, table) in file.case.iter().zip(&tables) {
-            let taken = COMMON.into_iter().chain(cases.iter().map(|other| other.name.as_str()));
-            let given = case.get_ref().name.as_ref();
-            let name = source.name_of("case", given, case.span(), taken)?;
-            if name.to_ascii_lowercase().starts_with("fit-") {
-                let message = format!("case \"{name}\", as tables of the fit are called; allowed: another beginning");
-                return Err(source.error(given.map_or(case.span(), Spanned::span), &message));
+        let tables = source.tables()?;
+        let read = |case: CaseTables<CaseFile>| {
+            if let Some(given) = case.own.name.as_ref().filter(|name| is_of_fit(name.get_ref())) {
+                let message =
+                    format!("case \"{}\", as tables of the fit are called; allowed: another beginning", case.name);
+                return Err(source.error(given.span(), &message));
             }
-            source.refuse_unused(case.get_ref().unused(&[table]))?;
-            cases.push(Reader { source: &source, units: &units, file: table, span: case.span() }.case(name)?);
-        }
+            Reader { source: &source, units: &units, file: &case.table, span: case.span() }.case(case.name.clone())
+        };
+        let cases = layers::cases(&source, tables.get_ref(), &[], &COMMON)?;
+        let cases = cases.into_iter().map(read).collect::<Result<Vec<Case>, Error>>()?;
         Ok(Scene { title: file.title.unwrap_or_else(|| name.to_string()), units, cases })
     }
+}
+
+/// Whether a table of the fit may be called so.
+fn is_of_fit(name: &str) -> bool {
+    name.to_ascii_lowercase().starts_with("fit-")
 }
 
 /// A case's table and what is needed to read it.

@@ -4,14 +4,14 @@ use std::path::Path;
 
 use toml::Spanned;
 
-use super::file::{CaseFile, SceneFile, SectionName, StrikerName};
+use super::file::{SceneFile, SectionName, StrikerName, YarnKeys};
 use super::scene::{Abscissa, Case, Outputs, Scene, Striker};
 use crate::common::units;
 use crate::explicit::contact::{Rigid, Shape};
 use crate::explicit::control_keys::zero_or_more;
 use crate::explicit::mesh::{Section, Yarn};
 use crate::strength::scatter::Strength;
-use crate::struck::keys::{self, Reader};
+use crate::struck::keys::{Reader, read_cases};
 use crate::struck::shots::read_shots;
 use toron_shared::error::Error;
 use toron_shared::toml_file::{self, Source};
@@ -43,13 +43,10 @@ impl Scene {
         let source = Source { name, text };
         let file: SceneFile = source.parse()?;
         let units = units::system(&source, &file.units)?;
-        let cases = keys::cases(
-            (&source, &units),
-            (&file.scene, &file.case),
-            &COMMON,
-            CaseFile::unused,
-            |reader, [file, _], name| reader.yarn_case(file, name),
-        )?;
+        let tables = source.tables()?;
+        let cases = read_cases((&source, &units), tables.get_ref(), &[], &COMMON, |reader, case| {
+            reader.yarn_case(&case.table.target, case.name.clone())
+        })?;
         let inner = || cases.iter().map(|case| case.zones.inner());
         let shots = file.shots.as_ref().map(|shots| read_shots(&source, shots, &units, inner())).transpose()?;
         let abscissa = file.abscissa.map(|abscissa| abscissa_of(&source, &abscissa, &cases)).transpose()?;
@@ -71,7 +68,7 @@ fn abscissa_of(source: &Source<'_>, abscissa: &Spanned<Abscissa>, cases: &[Case]
 }
 
 impl Reader<'_> {
-    fn yarn_case(&self, file: &CaseFile, name: String) -> Result<Case, Error> {
+    fn yarn_case(&self, file: &YarnKeys, name: String) -> Result<Case, Error> {
         let plan = self.plan(&name, SAMPLES)?;
         if plan.decides {
             let message = "until is \"decided\", which is for panels; allowed: stopped, end";
@@ -93,7 +90,7 @@ impl Reader<'_> {
         })
     }
 
-    fn yarn(&self, file: &CaseFile) -> Result<Yarn, Error> {
+    fn yarn(&self, file: &YarnKeys) -> Result<Yarn, Error> {
         let section = match file.section {
             None | Some(SectionName::Ellipse) => Section::Ellipse,
             Some(SectionName::Rectangle) => Section::Rectangle,
@@ -124,14 +121,14 @@ impl Reader<'_> {
     /// The strength of the whole yarn, which is twice as long as what is modelled.
     fn yarn_strength(&self, yarn: &Yarn) -> Result<Option<Strength>, Error> {
         let Some(table) = self.strength_table() else { return Ok(None) };
-        if let Some(family) = table.get_ref().families.iter().flatten().next() {
+        if let Some(family) = table.get_ref().families().into_iter().flatten().next() {
             let message = "warp or weft in the strength of one yarn; allowed: their keys in the table itself";
             return Err(self.source.error(family.span(), message));
         }
         self.strength(table, std::iter::once(2.0 * yarn.length)).map(Some)
     }
 
-    fn striker(&self, file: &CaseFile) -> Result<Striker, Error> {
+    fn striker(&self, file: &YarnKeys) -> Result<Striker, Error> {
         let keys = self.keys;
         if file.striker() == StrikerName::Driven {
             return Ok(Striker::Driven);
@@ -148,7 +145,7 @@ impl Reader<'_> {
         Ok(Striker::Cylinder { cylinder, mass, held })
     }
 
-    fn hyperelastic_length(&self, file: &CaseFile, yarn: &Yarn) -> Result<f64, Error> {
+    fn hyperelastic_length(&self, file: &YarnKeys, yarn: &Yarn) -> Result<f64, Error> {
         let (key, value) = ("hyperelastic-length", &file.hyperelastic_length);
         let length = self.positive(key, value)?;
         let layer = yarn.length / yarn.layers as f64;

@@ -8,17 +8,20 @@ use std::path::Path;
 use nalgebra::{Unit, Vector3};
 use serde::Deserialize;
 use toml::Spanned;
+use toml::de::DeValue;
 
 use super::columns;
 use super::element::Hexahedron;
 use super::newton::COMPONENT_NAMES;
 use super::path::{LoadPath, Point, Step, Target, equal_parts};
+use crate::common::layers::layered;
 use crate::common::units;
 use crate::material::file::MaterialFile;
 use crate::material::file::read_material;
 use crate::material::laws::Laws;
 use toron::host::units::UnitSystem;
 use toron_shared::error::Error;
+use toron_shared::layers::entries;
 use toron_shared::toml_file::{self, Numbers, Source};
 
 /// Most increments that a path may have, all cycles counted: a point's history is kept in memory until it is written.
@@ -30,7 +33,8 @@ struct PathFile {
     title: Option<String>,
     units: Spanned<String>,
     element: Option<Spanned<Numbers<3>>>,
-    material: Option<Spanned<MaterialFile>>,
+    #[serde(rename = "material")]
+    _material: Option<MaterialFile>,
     #[serde(default)]
     point: Vec<Spanned<PointFile>>,
     #[serde(default)]
@@ -49,8 +53,8 @@ struct PlotFile {
 #[serde(deny_unknown_fields)]
 struct PointFile {
     name: Spanned<String>,
-    #[serde(default)]
-    material: MaterialFile,
+    #[serde(rename = "material")]
+    _material: Option<MaterialFile>,
 }
 
 #[derive(Deserialize)]
@@ -142,19 +146,21 @@ fn abscissa(source: &Source<'_>, plot: &PlotFile, points: &[Point]) -> Result<St
 }
 
 fn points(source: &Source<'_>, laws: Laws, file: &PathFile, units: &UnitSystem) -> Result<Vec<Point>, Error> {
-    let (base, span) = match &file.material {
-        Some(material) => (material.get_ref().clone(), material.span()),
-        None => (MaterialFile::default(), 0..0),
+    let tables = source.tables()?;
+    let base = tables.get_ref().get("material");
+    let read = |table: Option<Spanned<DeValue>>, span| {
+        let file = table.map_or(Ok(MaterialFile::default()), |table| source.read(&table))?;
+        read_material(source, laws, &file, units, span)
     };
     if file.point.is_empty() {
-        let material = read_material(source, laws, &base, units, span)?;
+        let material = read(base.cloned(), base.map_or(0..0, Spanned::span))?;
         return Ok(vec![Point { name: material.label.clone(), material }]);
     }
     let mut points: Vec<Point> = Vec::new();
-    for point in &file.point {
-        let (name, span) = (&point.get_ref().name, point.span());
+    for (point, table) in file.point.iter().zip(entries(tables.get_ref().get("point"))) {
+        let name = &point.get_ref().name;
         let name = source.name_of("point", Some(name), name.span(), points.iter().map(|other| other.name.as_str()))?;
-        let material = read_material(source, laws, &point.get_ref().material.over(&base), units, span)?;
+        let material = read(layered("material", [table.get_ref().get("material"), base]), point.span())?;
         points.push(Point { name, material });
     }
     Ok(points)

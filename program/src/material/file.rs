@@ -83,23 +83,12 @@ impl MaterialFile {
         Origin { source: preset.source.clone(), guesses }
     }
 
-    /// The table that names a preset and nothing else.
-    pub fn of_preset(name: &str, span: Range<usize>) -> MaterialFile {
-        MaterialFile { preset: Some(Spanned::new(span, name.to_string())), ..MaterialFile::default() }
-    }
-
-    /// This table completed by `base`; one that names its own preset or law starts afresh.
-    pub fn over(&self, base: &MaterialFile) -> MaterialFile {
-        if self.preset.is_some() || self.law.is_some() {
-            return self.clone();
+    /// This table, with this preset where it names neither a preset nor a law.
+    pub fn or_preset(mut self, name: &str, span: Range<usize>) -> MaterialFile {
+        if self.yarn().is_none() {
+            self.preset = Some(Spanned::new(span, name.to_string()));
         }
-        let mut merged = base.clone();
-        merged.fibre = self.fibre.clone().or(merged.fibre);
-        merged.density = self.density.clone().or(merged.density);
-        merged.frame = self.frame.clone().or(merged.frame);
-        merged.criterion = self.criterion.clone().or(merged.criterion);
-        merged.properties.extend(self.properties.clone());
-        merged
+        self
     }
 }
 

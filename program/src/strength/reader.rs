@@ -42,10 +42,10 @@ impl Reader<'_> {
         let seed = file.seed.as_ref().map_or(Ok(SEED), |seed| self.source.seed(seed))?;
         let cell = self.cell(file, &span, lengths)?;
         let law = |family: &Option<Spanned<LawFile>>| match family {
-            None => self.weibull(&file.law, &span),
-            Some(family) => self.weibull(&family.get_ref().over(&file.law), &family.span()),
+            None => self.weibull(&file.law(), &span),
+            Some(family) => self.weibull(family.get_ref(), &family.span()),
         };
-        let [warp, weft] = file.families.each_ref().map(law);
+        let [warp, weft] = file.families().map(law);
         Ok(Strength { field: Field { seed, cell }, laws: [warp?, weft?] })
     }
 

@@ -1,12 +1,15 @@
-//! The keys that all struck scenes have: a table that a scene adds its own keys to, and what is read from it.
+//! The keys that all struck scenes have, beside those of what is struck, and what is read from them.
 
 use std::ops::Range;
 
 use serde::Deserialize;
+use serde::de::DeserializeOwned;
 use toml::Spanned;
+use toml::de::DeValue;
 
 use super::plan::Plan;
 use super::zones::Zones;
+use crate::common::layers::{self, Case, CaseTable};
 use crate::explicit::control_keys::control;
 use crate::explicit::medium::Control;
 use crate::material::file::MaterialFile;
@@ -14,10 +17,10 @@ use crate::material::model::Material;
 use crate::material::of_law::material_of_law;
 use crate::material::of_law::{Choice, FailureName, HYPERELASTIC, LINEAR_ELASTIC, LawName, own_yarn, unused_material};
 use crate::material::smith::strike_speed;
-use crate::strength::file::StrengthFile;
+use crate::strength::file::{StrengthFile, complete_families};
 use toron::host::units::UnitSystem;
 use toron_shared::error::Error;
-use toron_shared::toml_file::{Source, Unused, over};
+use toron_shared::toml_file::{Numbers, Source, Unused};
 
 /// Files for ParaView are numbered by four digits.
 const MOST_FILES: usize = 9999;
@@ -41,106 +44,66 @@ pub enum Precision {
     F32,
 }
 
-/// Gives the common keys and their types to another macro.
-macro_rules! with_common_keys {
-    ($then:ident! { $($own:tt)* }) => {
-        $then! {
-            {
-                name: toml::Spanned<String>,
-                law: $crate::material::of_law::LawName,
-                failure: toml::Spanned<$crate::material::of_law::FailureName>,
-                strength: toml::Spanned<$crate::strength::file::StrengthFile>,
-                hyperelastic: toml::Spanned<$crate::material::file::MaterialFile>,
-                linear_elastic: toml::Spanned<$crate::material::file::MaterialFile>,
-                speed: toml::Spanned<f64>,
-                mass: toml::Spanned<f64>,
-                radius: toml::Spanned<f64>,
-                friction: toml::Spanned<f64>,
-                contact_stiffness: toml::Spanned<f64>,
-                hourglass: toml::Spanned<f64>,
-                viscosity: toml::Spanned<toron_shared::toml_file::Numbers<3>>,
-                end: toml::Spanned<f64>,
-                until: $crate::struck::keys::Until,
-                sample: toml::Spanned<f64>,
-                pictures: toml::Spanned<Vec<f64>>,
-                frames: toml::Spanned<i64>,
-                checkpoints: toml::Spanned<i64>,
-                precision: $crate::struck::keys::Precision,
-            }
-            $($own)*
-        }
-    };
+/// The common keys of a scene's table, or of a case's.
+#[derive(Clone, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub struct Keys {
+    pub name: Option<Spanned<String>>,
+    pub law: Option<LawName>,
+    pub failure: Option<Spanned<FailureName>>,
+    pub strength: Option<Spanned<StrengthFile>>,
+    pub hyperelastic: Option<Spanned<MaterialFile>>,
+    pub linear_elastic: Option<Spanned<MaterialFile>>,
+    pub speed: Option<Spanned<f64>>,
+    pub mass: Option<Spanned<f64>>,
+    pub radius: Option<Spanned<f64>>,
+    pub friction: Option<Spanned<f64>>,
+    pub contact_stiffness: Option<Spanned<f64>>,
+    pub hourglass: Option<Spanned<f64>>,
+    pub viscosity: Option<Spanned<Numbers<3>>>,
+    pub end: Option<Spanned<f64>>,
+    pub until: Option<Until>,
+    pub sample: Option<Spanned<f64>>,
+    pub pictures: Option<Spanned<Vec<f64>>>,
+    pub frames: Option<Spanned<i64>>,
+    pub checkpoints: Option<Spanned<i64>>,
+    pub precision: Option<Precision>,
 }
 
-macro_rules! keys {
-    ({ $($key:ident: $kind:ty,)* }) => {
-        /// The common keys of a scene's table, or of a case's.
-        #[derive(Clone)]
-        pub struct Keys {
-            $(pub $key: Option<$kind>,)*
-        }
-
-        impl Keys {
-            fn or(self, base: Keys) -> Keys {
-                Keys { $($key: self.$key.or(base.$key),)* }
-            }
-        }
-    };
+/// A table of a scene, or of a case: the common keys, and those of the target, a yarn or a panel.
+pub struct Table<T> {
+    pub common: Keys,
+    pub target: T,
 }
-with_common_keys!(keys! {});
 
-/// A table of a file: the common keys, and a scene's own.
-macro_rules! case_file {
-    ({ $($key:ident: $kind:ty,)* } { $($own:ident: $own_kind:ty,)* }) => {
-        /// The table as it stands in the file.
-        #[derive(serde::Deserialize)]
-        #[serde(deny_unknown_fields, rename_all = "kebab-case")]
-        struct Flat {
-            $($key: Option<$kind>,)*
-            $($own: Option<$own_kind>,)*
-        }
-
-        /// The scene's table, and what a case has otherwise.
-        #[derive(Clone, serde::Deserialize)]
-        #[serde(from = "Flat")]
-        pub struct CaseFile {
-            pub keys: $crate::struck::keys::Keys,
-            $(pub $own: Option<$own_kind>,)*
-        }
-
-        impl From<Flat> for CaseFile {
-            fn from(flat: Flat) -> CaseFile {
-                let Flat { $($key,)* $($own,)* } = flat;
-                CaseFile { keys: $crate::struck::keys::Keys { $($key,)* }, $($own,)* }
-            }
-        }
-
-        impl $crate::struck::keys::Table for CaseFile {
-            fn keys(&self) -> &$crate::struck::keys::Keys {
-                &self.keys
-            }
-
-            fn over(&self, base: &CaseFile) -> CaseFile {
-                let (own, base) = (self.clone(), base.clone());
-                CaseFile { keys: own.keys.over(base.keys), $($own: own.$own.or(base.$own),)* }
-            }
-        }
-    };
+/// The keys of what is struck.
+pub trait Target: DeserializeOwned {
+    /// A key of this table that none of these cases reads.
+    fn unused(table: &Table<Self>, cases: &[&Table<Self>]) -> Unused;
 }
-pub(crate) use {case_file, with_common_keys};
 
-impl Keys {
-    /// These keys, with those of `base` where there is none.
-    pub fn over(self, base: Keys) -> Keys {
-        let material = |own: &_, base: &_| over(own, base, MaterialFile::over);
-        Keys {
-            hyperelastic: material(&self.hyperelastic, &base.hyperelastic),
-            linear_elastic: material(&self.linear_elastic, &base.linear_elastic),
-            strength: over(&self.strength, &base.strength, StrengthFile::over),
-            ..self.or(base)
+impl<T: Target> CaseTable for Table<T> {
+    fn read(source: &Source, table: &Spanned<DeValue>) -> Result<Table<T>, Error> {
+        let mut table = table.clone();
+        if let DeValue::Table(keys) = table.get_mut()
+            && let Some(strength) = keys.get_mut("strength")
+        {
+            complete_families(strength);
         }
+        let (common, target) = source.read_both(&table)?;
+        Ok(Table { common, target })
     }
 
+    fn name(&self) -> Option<&Spanned<String>> {
+        self.common.name.as_ref()
+    }
+
+    fn unused(&self, cases: &[&Table<T>]) -> Unused {
+        T::unused(self, cases)
+    }
+}
+
+impl Keys {
     pub fn law(&self) -> LawName {
         self.law.unwrap_or(LawName::Hyperelastic)
     }
@@ -176,53 +139,24 @@ impl Keys {
     }
 }
 
-/// A table of a scene's file.
-pub trait Table: Clone {
-    fn keys(&self) -> &Keys;
-
-    /// This table, with the keys of `base` where it has none.
-    fn over(&self, base: &Self) -> Self;
-}
-
-/// Reads the cases of a scene, or the scene as the only one: `read` gets the reader of the common keys, the case's keys
-/// over the scene's, its own ones alone and its name. The files that cases have in common are called as `common` says,
-/// without their endings.
+/// Reads the cases of a scene as [`layers::cases`] finds them in these tables.
 ///
 /// # Errors
-/// A key that no case reads, as `unused` finds it; a name that cannot be; what `read` refuses.
-pub fn cases<F: Table, C>(
-    (source, units): (&Source, &UnitSystem),
-    (scene, cases): (&Spanned<F>, &[Spanned<F>]),
+/// As for that; what `read` refuses.
+pub fn read_cases<'t, T: Target, C>(
+    (source, units): (&Source<'t>, &UnitSystem),
+    tables: &DeValue<'t>,
+    beside: &[&str],
     common: &[&str],
-    unused: impl Fn(&F, &[&F]) -> Unused,
-    read: impl Fn(&Reader, [&F; 2], String) -> Result<C, Error>,
+    read: impl Fn(&Reader, &Case<Table<T>>) -> Result<C, Error>,
 ) -> Result<Vec<C>, Error> {
-    let base = scene.get_ref();
-    if let Some(name) = &base.keys().name {
-        return Err(source.error(name.span(), "name in [scene]; allowed: in a [[case]]"));
-    }
-    let tables: Vec<F> = cases.iter().map(|case| case.get_ref().over(base)).collect();
-    let own_yarn = own_yarn(std::iter::once(base).chain(&tables).flat_map(|table| table.keys().materials()));
-    let reader = |table: &F, own: &F, span: Range<usize>, name: String| {
-        let (keys, own_keys) = (table.keys(), own.keys());
-        let reader = Reader { source, units, keys, own: own_keys, own_yarn: own_yarn.as_deref(), span };
-        read(&reader, [table, own], name)
+    let cases: Vec<Case<Table<T>>> = layers::cases(source, tables, beside, common)?;
+    let own_yarn = own_yarn(cases.iter().flat_map(|case| case.table.common.materials()));
+    let read_case = |case: &Case<Table<T>>| {
+        let (keys, own) = (&case.table.common, &case.own.common);
+        read(&Reader { source, units, keys, own, own_yarn: own_yarn.as_deref(), span: case.span() }, case)
     };
-    if cases.is_empty() {
-        source.refuse_unused(unused(base, &[base]))?;
-        return Ok(vec![reader(base, base, scene.span(), "scene".to_string())?]);
-    }
-    source.refuse_unused(unused(base, &tables.iter().collect::<Vec<_>>()))?;
-    let (mut names, mut found): (Vec<String>, _) = (Vec::new(), Vec::new());
-    for (case, table) in cases.iter().zip(&tables) {
-        let own = case.get_ref();
-        let taken = common.iter().copied().chain(names.iter().map(String::as_str));
-        let name = source.name_of("case", own.keys().name.as_ref(), case.span(), taken)?;
-        source.refuse_unused(unused(own, &[table]))?;
-        found.push(reader(table, own, case.span(), name.clone())?);
-        names.push(name);
-    }
-    Ok(found)
+    cases.iter().map(read_case).collect()
 }
 
 /// A case's table and what is needed to read it.

@@ -7,7 +7,7 @@ use toml::Spanned;
 
 use super::cloth::Cloth;
 use super::coarse::{Coarse, ROWS as COARSE_ROWS};
-use super::file::{PanelFile, PatternFile, PlyFile, SceneFile, ShapeName, ThreadFile, WeaveFile};
+use super::file::{PanelFile, PatternFile, PlyTables, SceneFile, ShapeName, ThreadFile, WeaveFile};
 use super::geometry::{Family, Geometry, Weave};
 use super::layup::{Laid, Layup};
 use super::model::Model;
@@ -86,7 +86,7 @@ impl Scene {
         let material = material
             .map(|table| read_material(&source, Laws::Toron, table.get_ref(), &units, table.span()))
             .transpose()?;
-        let cloth = read_cloth(&source, file.weave.as_ref(), &file.ply, file.mesh.as_ref(), &units)?;
+        let cloth = read_cloth(&source, source.tables()?.get_ref(), &units, None)?;
         let of_all = |material: Material| vec![[material.clone(), material]; cloth.pitches().len()];
         let materials = material.map_or(Vec::new(), of_all);
         Ok(Scene {
@@ -99,63 +99,42 @@ impl Scene {
     }
 }
 
-/// The table `[weave]` and the tables `[[ply]]`: none is one ply. `case` is the place of what a case has otherwise:
-/// what does not go together is then its mistake.
+/// The plies of these tables. `case` is the place of the weave that a case has otherwise: what does not go together is
+/// then its mistake.
 pub fn layup(
     source: &Source<'_>,
-    table: &Spanned<WeaveFile>,
-    plies: &[Spanned<PlyFile>],
+    plies: &[PlyTables],
     units: &UnitSystem,
     case: Option<Range<usize>>,
 ) -> Result<Layup, Error> {
-    let of_case = |place: Range<usize>| match &case {
-        Some(case) if !case.contains(&place.start) => case.clone(),
-        _ => place,
-    };
-    let Some((first, _)) = plies.split_first() else {
-        let woven = woven(source, table, None, units, of_case)?;
-        return Ok(Layup::new(vec![Laid { woven, angle: 0.0, distance: 0.0 }]));
-    };
-    if let Some(distance) = &first.get_ref().distance {
+    if let Some(distance) = plies[0].own.as_ref().and_then(|ply| ply.get_ref().distance.as_ref()) {
         let message = "distance of the first [[ply]]; allowed: in those below it";
         return Err(source.error(distance.span(), message));
     }
-    let mut laid = Vec::with_capacity(plies.len());
-    for ply in plies {
-        let PlyFile { weave: own, angle, distance, .. } = ply.get_ref();
-        let woven = match own {
-            Some(own) => {
-                check_panel_of_ply(source, own.get_ref().panel.as_ref())?;
-                let table = Spanned::new(own.span(), own.get_ref().over(table.get_ref()));
-                let blamed = |place: Range<usize>| if own.span().contains(&place.start) { place } else { own.span() };
-                woven(source, &table, angle.as_ref(), units, blamed)?
-            }
-            None => woven(source, table, angle.as_ref(), units, of_case)?,
-        };
-        let distance = match distance {
-            Some(distance) => source.positive("distance", *distance.get_ref(), distance.span())?,
-            None => woven.geometry.weave.clearance,
-        };
-        laid.push(Laid { woven, angle: angle.as_ref().map_or(0.0, |angle| *angle.get_ref()), distance });
-    }
+    let laid = plies.iter().map(|ply| laid(source, ply, units, case.clone())).collect::<Result<Vec<Laid>, Error>>()?;
     let elements: usize = laid.iter().map(|laid| laid.woven.elements()).sum();
-    if elements as f64 > MOST_ELEMENTS {
+    if let Some(first) = plies[0].own.as_ref().filter(|_| elements as f64 > MOST_ELEMENTS) {
         let message = format!("the plies have {elements} elements; allowed: up to {MOST_ELEMENTS:.0e}");
         return Err(source.error(first.span(), &message));
     }
     Ok(Layup::new(laid))
 }
 
-/// All plies have one outline.
-fn check_panel_of_ply(source: &Source<'_>, panel: Option<&Spanned<PanelFile>>) -> Result<(), Error> {
-    let Some(file) = panel else { return Ok(()) };
-    let PanelFile { shape, radius, half, part, coarse_radius, coarse_rows, centre: _ } = file.get_ref();
-    let own = [radius.is_some(), half.is_some(), part.is_some(), coarse_radius.is_some(), coarse_rows.is_some()];
-    if shape.is_none() && own == [false; 5] {
-        return Ok(());
-    }
-    let message = "weave.panel of a [[ply]] has other keys than centre; allowed: these in [weave.panel], for all plies";
-    Err(source.error(file.span(), message))
+fn laid(source: &Source<'_>, ply: &PlyTables, units: &UnitSystem, case: Option<Range<usize>>) -> Result<Laid, Error> {
+    let own = ply.own.as_ref().map(Spanned::get_ref);
+    let otherwise = own.and_then(|own| own.weave.as_ref()).map(Spanned::span).or(case);
+    let blamed = |place: Range<usize>| match &otherwise {
+        Some(otherwise) if !otherwise.contains(&place.start) => otherwise.clone(),
+        _ => place,
+    };
+    let angle = own.and_then(|own| own.angle.as_ref());
+    let woven = woven(source, &ply.weave, angle, units, blamed)?;
+    let distance = match own.and_then(|own| own.distance.as_ref()) {
+        Some(distance) => source.positive("distance", *distance.get_ref(), distance.span())?,
+        None if own.is_some() => woven.geometry.weave.clearance,
+        None => 0.0,
+    };
+    Ok(Laid { woven, angle: angle.map_or(0.0, |angle| *angle.get_ref()), distance })
 }
 
 /// A ply. `blamed` is the place that errors name for a key at some place which does not go together with others.
