@@ -2,12 +2,13 @@
 //!
 //! - what a user is told: [`error`] with its exit codes, [`console`], [`progress`], [`text_table`], [`short_number`], [`nearest`] names;
 //! - arguments and the end of a program: [`command_line`];
-//! - files in TOML, with the places of what stands in them: [`toml_file`], [`toml_error`], tables over others in [`layers`], [`field_names`];
+//! - files in TOML, with the places of what stands in them: [`toml_file`], [`toml_error`], tables over others in [`layers`], [`field_names`], [`checked`] values;
 //!   keyword files of solvers: [`keyword_file`];
 //! - where a program writes: [`run_directory`], [`kept_file`], [`file_names`], [`folder`];
 //! - what runs beside it: [`interrupt`], [`bound_child`], the [`shell`]'s words.
 
 pub mod bound_child;
+pub mod checked;
 pub mod command_line;
 pub mod console;
 pub mod error;

@@ -77,7 +77,7 @@ fn allowed(message: &str, key: &str) -> Option<String> {
     let length = expected.strip_prefix("an array of length ").map(|length| format!("a list of {length} numbers"));
     let words = match expected {
         "i64" => "a whole number",
-        "usize" => "a whole number >= 0",
+        "usize" | "u64" => "a whole number >= 0",
         "f64" => "a number",
         "a boolean" => "true or false",
         "a string" => "text in quotes",

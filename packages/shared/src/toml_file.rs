@@ -9,6 +9,7 @@ use serde::{Deserialize, Deserializer};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue, ValueDeserializer};
 
+use super::checked::{Checked, value};
 use super::error::Error;
 use super::field_names::field_names;
 use super::file_names::collide;
@@ -144,13 +145,12 @@ impl Source<'_> {
         Err(self.error(span, &format!("{what} is {value}; allowed: a finite number > 0")))
     }
 
-    /// The number from which chance begins.
+    /// The value of a key that must be there; `table` is the place that the error names.
     ///
     /// # Errors
-    /// It is negative.
-    pub fn seed(&self, seed: &Spanned<i64>) -> Result<u64, Error> {
-        u64::try_from(*seed.get_ref())
-            .map_err(|_| self.error(seed.span(), &format!("seed is {}; allowed: a whole number >= 0", seed.get_ref())))
+    /// It is missing.
+    pub fn needed<T: Checked>(&self, key: &str, given: &Option<T>, table: Range<usize>) -> Result<T::Value, Error> {
+        value(given).ok_or_else(|| self.error(table, &format!("{key} is missing; allowed: {}", T::allowed())))
     }
 
     /// Times at which pictures are drawn. The case is named: the times may be the scene's, the end its own.
@@ -208,14 +208,14 @@ pub fn read(path: &Path) -> Result<(String, String), Error> {
 
 /// A list of so many numbers. The parser would pass over what comes after them.
 #[derive(Clone, Copy)]
-pub struct Numbers<const N: usize>(pub [f64; N]);
+pub struct Numbers<const N: usize, T = f64>(pub [T; N]);
 
-impl<'de, const N: usize> Deserialize<'de> for Numbers<N> {
+impl<'de, const N: usize, T: Deserialize<'de>> Deserialize<'de> for Numbers<N, T> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let list = Vec::<f64>::deserialize(deserializer)?;
+        let list = Vec::<T>::deserialize(deserializer)?;
         let wanted = format!("an array of length {N}");
-        let numbers = list.as_slice().try_into().map_err(|_| D::Error::invalid_length(list.len(), &wanted.as_str()))?;
-        Ok(Numbers(numbers))
+        let wrong = |list: Vec<T>| D::Error::invalid_length(list.len(), &wanted.as_str());
+        list.try_into().map(Numbers).map_err(wrong)
     }
 }
 

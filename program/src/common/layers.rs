@@ -128,3 +128,39 @@ fn with_tables<'t>(
     }
     Ok(all)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_key_drops_what_it_stands_instead_of() {
+        let mesh = "file = \"a\"\npart = \"whole\"\nclearance = 1\nheight = 1";
+        let rectangle = "shape = \"rectangle\"\nhalf = [1, 1]\npart = \"whole\"";
+        let stress = "stress = 1\nelastic-modulus = 2\ncell = 3";
+        for (table, lower, upper, left) in [
+            ("hyperelastic", "preset = \"a\"\nproperties.k_el = 1", "preset = \"a\"", "preset"),
+            ("linear-elastic", "preset = \"a\"\ndensity = 1", "law = \"b\"", "law"),
+            ("material", "preset = \"a\"\ndensity = 1", "fibre = [1, 0, 0]", "density fibre preset"),
+            ("weave", "pattern = \"plain\"\nwarp.pitch = 1\nrows = 2", "preset = \"a\"", "preset rows"),
+            ("weave", "preset = \"a\"\nrows = 2", "warp.pitch = 1", "preset rows warp"),
+            ("case", "weave.rows = 1\nply = [{}]\nspeed = 1", "mesh.file = \"a\"", "mesh speed"),
+            ("case", "mesh.file = \"a\"\nspeed = 1", "weave.rows = 1", "speed weave"),
+            ("case", "weave.rows = 1\nspeed = 1", "ply = [{}]", "ply speed weave"),
+            ("mesh", mesh, "file = \"b\"", "file part"),
+            ("mesh", mesh, "height = 2", "clearance file height part"),
+            ("panel", rectangle, "shape = \"circle\"", "part shape"),
+            ("panel", rectangle, "shape = \"rectangle\"", "half part shape"),
+            ("panel", "shape = \"circle\"\nradius = 1", "shape = \"rectangle\"", "shape"),
+            ("strength", stress, "strain = 1", "cell strain"),
+            ("weft", stress, "stress = 2", "cell elastic-modulus stress"),
+            ("warp", "strain = 1\ncell = 3", "stress = 2", "cell stress"),
+        ] {
+            let text = format!("[lower]\n{lower}\n[upper]\n{upper}\n");
+            let tables = Source { name: "both.toml", text: &text }.tables().expect(upper);
+            let both = layered(table, ["upper", "lower"].map(|key| tables.get_ref().get(key))).expect(upper);
+            let keys = both.get_ref().as_table().expect(upper).keys().map(|key| key.get_ref().as_ref());
+            assert_eq!(keys.collect::<Vec<&str>>().join(" "), left, "{table}: {upper} over {lower}");
+        }
+    }
+}

@@ -9,6 +9,7 @@ use crate::struck::keys::{Keys, Table, Target};
 use crate::struck::shots::ShotsFile;
 use crate::weave::file::{PlyFile, WeaveFile};
 use crate::weave::foreign::file::MeshFile;
+use toron_shared::checked::{Checked, NotNegative, Positive};
 use toron_shared::toml_file::{Numbers, Unused};
 
 #[derive(Deserialize)]
@@ -38,12 +39,12 @@ pub struct PanelKeys {
     pub ply: Option<Vec<PlyFile>>,
     pub mesh: Option<Spanned<MeshFile>>,
     shape: Option<ShapeName>,
-    pub length: Option<Spanned<f64>>,
+    pub length: Option<Spanned<Positive>>,
     pub aim: Option<Spanned<Numbers<2>>>,
-    pub striker_density: Option<Spanned<f64>>,
-    pub hyperelastic_radius: Option<Spanned<f64>>,
+    pub striker_density: Option<Spanned<Positive>>,
+    pub hyperelastic_radius: Option<Spanned<Positive>>,
     pub rim: Option<Rim>,
-    pub yarn_friction: Option<Spanned<f64>>,
+    pub yarn_friction: Option<NotNegative>,
 }
 
 /// How the yarns' ends at the panel's outline are held.
@@ -78,12 +79,12 @@ impl Target for PanelKeys {
         let keys: Vec<&Keys> = cases.iter().map(|case| &case.common).collect();
         let are_spheres = cases.iter().all(|case| case.target.shape() == ShapeName::Sphere);
         let of_sphere = table.target.length.as_ref().filter(|_| are_spheres).map(|length| {
-            let message = format!("length is {}; allowed: with shape = \"flat\" or \"hemisphere\"", length.get_ref());
+            let message = format!("length is {}; allowed: with shape = \"flat\" or \"hemisphere\"", length.value());
             (length.span(), message)
         });
         table.common.unused(&keys).or(of_sphere).or_else(|| {
             let radius = table.target.hyperelastic_radius.as_ref()?;
-            let message = format!("hyperelastic-radius is {}; allowed: with law = \"hybrid\"", radius.get_ref());
+            let message = format!("hyperelastic-radius is {}; allowed: with law = \"hybrid\"", radius.value());
             keys.iter().all(|keys| keys.law() != LawName::Hybrid).then(|| (radius.span(), message))
         })
     }

@@ -11,7 +11,6 @@ use super::scene::{Case, Scene, Striker};
 use crate::common::layers::Case as CaseTables;
 use crate::common::units::{self, number};
 use crate::explicit::contact::{Rigid, Shape};
-use crate::explicit::control_keys::zero_or_more;
 use crate::explicit::medium::Control;
 use crate::explicit::mutual_contact::Parameters;
 use crate::material::file::MaterialFile;
@@ -26,6 +25,7 @@ use crate::weave::file::{PlyTables, plies};
 use crate::weave::layup::Ply;
 use crate::weave::panel::Part;
 use toron::law::parameters::DENSITY;
+use toron_shared::checked::{Checked, Positive, value};
 use toron_shared::error::Error;
 use toron_shared::layers::entries;
 use toron_shared::toml_file::{self, Numbers, Source};
@@ -90,11 +90,11 @@ impl Reader<'_> {
     fn panel_case(&self, file: &PanelKeys, cloth: Arc<Cloth>, threads: Threads, name: String) -> Result<Case, Error> {
         let keys = self.keys;
         let plan = self.plan(&name, SAMPLES)?;
-        let stiffness = self.positive("contact-stiffness", &keys.contact_stiffness)?;
+        let stiffness = self.needed("contact-stiffness", &keys.contact_stiffness)?;
         let [_, height] = cloth.yarn_heights();
         let pressed_at_rest = cloth.coarse_radius().is_none();
         let [friction, of_yarns] = FRICTION;
-        let zones = self.zones(|| self.positive("hyperelastic-radius", &file.hyperelastic_radius))?;
+        let zones = self.zones(|| self.needed("hyperelastic-radius", &file.hyperelastic_radius))?;
         let material = |own: &Option<Box<Material>>| own.as_deref().unwrap_or(zones.inner()).name();
         let materials: Vec<[String; 2]> = threads.iter().map(|ply| ply.each_ref().map(material)).collect();
         let strength = self.panel_strength(&cloth, &materials)?;
@@ -102,9 +102,9 @@ impl Reader<'_> {
         Ok(Case {
             sphere: Rigid {
                 shape: shape(file),
-                radius: self.positive("radius", &keys.radius)?,
+                radius: self.needed("radius", &keys.radius)?,
                 stiffness,
-                friction: zero_or_more(self.source, "friction", &keys.friction, friction)?,
+                friction: value(&keys.friction).unwrap_or(friction),
                 aim: self.aim(file, &cloth)?,
             },
             cloth,
@@ -117,13 +117,13 @@ impl Reader<'_> {
             held: file.rim != Some(Rim::Free),
             mutual: Parameters {
                 stiffness,
-                friction: zero_or_more(self.source, "yarn-friction", &file.yarn_friction, of_yarns)?,
+                friction: value(&file.yarn_friction).unwrap_or(of_yarns),
                 margin: MARGIN * height,
                 deepest: DEEPEST * height,
                 // The chords of a coarse mesh go into each other where the yarns that they stand for touch.
                 pressed_at_rest,
             },
-            control: Control { by_direction: true, ..self.control()? },
+            control: Control { by_direction: true, ..self.control() },
             plan,
             single_precision: keys.is_single_precision(),
             name,
@@ -177,14 +177,14 @@ impl Reader<'_> {
         let volume = self.volume(file)?;
         let in_si = |density: f64| density / self.units.from_si(1.0, DENSITY);
         let Some(given) = &file.striker_density else {
-            let mass = self.positive("mass", &keys.mass)?;
+            let mass = self.needed("mass", &keys.mass)?;
             let density = volume.map(|volume| in_si(mass / volume));
             if let (Some(given), Some(volume), Some(density)) = (&keys.mass, volume, density) {
                 self.check_density(file, density, volume, given)?;
             }
             return Ok((mass, Striker { density, is_told: false }));
         };
-        let density = self.positive("striker-density", &file.striker_density)?;
+        let density = given.value();
         if !DENSITIES.contains(&in_si(density)) {
             let [least, most] =
                 [DENSITIES.start(), DENSITIES.end()].map(|density| number(density * self.units.from_si(1.0, DENSITY)));
@@ -199,18 +199,15 @@ impl Reader<'_> {
                 let wanted = "mass is missing; allowed: a finite number > 0, or length beside striker-density";
                 Err(self.source.error(self.span.clone(), wanted))
             }
-            (Some(_), None) => {
-                let mass = self.positive("mass", &keys.mass)?;
-                Ok((mass, striker))
-            }
+            (Some(mass), None) => Ok((mass.value(), striker)),
             (Some(place), Some(of_volume)) => {
-                let mass = self.positive("mass", &keys.mass)?;
+                let mass = place.value();
                 if (mass - of_volume).abs() <= SAME_MASS * of_volume {
                     return Ok((mass, striker));
                 }
                 let message = format!(
                     "mass is {mass}, and striker-density {} with the sizes of the {} makes {}; allowed: one of the two, or both the same",
-                    given.get_ref(),
+                    given.value(),
                     shape(file).name(),
                     number(of_volume)
                 );
@@ -220,21 +217,24 @@ impl Reader<'_> {
     }
 
     /// That a density in kg/m³, of this volume, is one that solids have.
-    fn check_density(&self, file: &PanelKeys, density: f64, volume: f64, given: &Spanned<f64>) -> Result<(), Error> {
+    fn check_density(
+        &self,
+        file: &PanelKeys,
+        density: f64,
+        volume: f64,
+        given: &Spanned<Positive>,
+    ) -> Result<(), Error> {
         if DENSITIES.contains(&density) {
             return Ok(());
         }
-        let (radius, name, units) = (
-            number(self.keys.radius.as_ref().map_or(0.0, |radius| *radius.get_ref())),
-            shape(file).name(),
-            self.units.names().join("-"),
-        );
+        let (radius, name, units) =
+            (number(value(&self.keys.radius).unwrap_or(0.0)), shape(file).name(), self.units.names().join("-"));
         let [least, most] = [DENSITIES.start(), DENSITIES.end()]
             .map(|density| number(density * volume * self.units.from_si(1.0, DENSITY)));
         let message = format!(
             "mass is {}, of a {name} with radius {radius}: {} kg/m³; allowed: {least} to {most}, of {} to {} kg/m³;\n\
              mass or a length is most likely not in the units of the file, {units}",
-            given.get_ref(),
+            given.value(),
             number(density),
             DENSITIES.start(),
             DENSITIES.end(),
@@ -244,10 +244,9 @@ impl Reader<'_> {
 
     /// The volume of what strikes; none of a cylinder whose length is not given.
     fn volume(&self, file: &PanelKeys) -> Result<Option<f64>, Error> {
-        let radius = self.positive("radius", &self.keys.radius)?;
-        let length = file.length.as_ref().map(|_| self.positive("length", &file.length)).transpose()?;
+        let radius = self.needed("radius", &self.keys.radius)?;
         let (section, half_sphere) = (PI * radius * radius, 2.0 / 3.0 * PI * radius.powi(3));
-        Ok(match (file.shape(), length) {
+        Ok(match (file.shape(), value(&file.length)) {
             (ShapeName::Sphere, _) => Some(2.0 * half_sphere),
             (ShapeName::Flat, length) => length.map(|length| section * length),
             (ShapeName::Hemisphere, Some(length)) if length < radius => {

@@ -8,7 +8,11 @@ use super::scene::{Abscissa, Outputs};
 use crate::material::of_law::LawName;
 use crate::struck::keys::{Keys, Table, Target};
 use crate::struck::shots::ShotsFile;
+use toron_shared::checked::{Checked, Positive, Whole};
 use toron_shared::toml_file::Unused;
+
+/// An element takes some 700 bytes: more do not fit most memories.
+pub const MOST_ELEMENTS: usize = 10_000_000;
 
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
 #[serde(rename_all = "kebab-case")]
@@ -42,14 +46,14 @@ pub struct SceneFile {
 #[derive(Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub struct YarnKeys {
-    pub hyperelastic_length: Option<Spanned<f64>>,
+    pub hyperelastic_length: Option<Spanned<Positive>>,
     pub section: Option<SectionName>,
-    pub half_length: Option<Spanned<f64>>,
-    pub height: Option<Spanned<f64>>,
-    pub width: Option<Spanned<f64>>,
-    pub layers: Option<Spanned<i64>>,
-    pub rows: Option<Spanned<i64>>,
-    pub columns: Option<Spanned<i64>>,
+    pub half_length: Option<Positive>,
+    pub height: Option<Positive>,
+    pub width: Option<Positive>,
+    pub layers: Option<Whole<1, MOST_ELEMENTS>>,
+    pub rows: Option<Whole<1, MOST_ELEMENTS>>,
+    pub columns: Option<Spanned<Whole<1, MOST_ELEMENTS>>>,
     striker: Option<StrikerName>,
     pub held: Option<Spanned<bool>>,
     pub outputs: Option<Outputs>,
@@ -73,18 +77,18 @@ impl Table<YarnKeys> {
         let length = self.target.hyperelastic_length.as_ref()?;
         let message = format!(
             "hyperelastic-length is {}, which only a yarn of two laws has; allowed: with law = \"hybrid\"",
-            length.get_ref()
+            length.value()
         );
         cases.iter().all(|case| case.law() != LawName::Hybrid).then(|| (length.span(), message))
     }
 
     /// A driven section meets nothing.
     fn unused_cylinder(&self, cases: &[&Self]) -> Unused {
-        let span = |value: &Option<Spanned<f64>>| value.as_ref().map(Spanned::span);
+        let span = |value: &Option<Spanned<Positive>>| value.as_ref().map(Spanned::span);
         let keys = [
             ("mass", span(&self.common.mass)),
             ("radius", span(&self.common.radius)),
-            ("friction", span(&self.common.friction)),
+            ("friction", self.common.friction.as_ref().map(Spanned::span)),
             ("contact-stiffness", span(&self.common.contact_stiffness)),
             ("held", self.target.held.as_ref().map(Spanned::span)),
         ];

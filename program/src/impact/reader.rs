@@ -4,20 +4,18 @@ use std::path::Path;
 
 use toml::Spanned;
 
-use super::file::{SceneFile, SectionName, StrikerName, YarnKeys};
+use super::file::{MOST_ELEMENTS, SceneFile, SectionName, StrikerName, YarnKeys};
 use super::scene::{Abscissa, Case, Outputs, Scene, Striker};
 use crate::common::units;
 use crate::explicit::contact::{Rigid, Shape};
-use crate::explicit::control_keys::zero_or_more;
 use crate::explicit::mesh::{Section, Yarn};
 use crate::strength::scatter::Strength;
 use crate::struck::keys::{Reader, read_cases};
 use crate::struck::shots::read_shots;
+use toron_shared::checked::{Checked, Whole, value};
 use toron_shared::error::Error;
 use toron_shared::toml_file::{self, Source};
 
-/// An element takes some 700 bytes: more do not fit most memories.
-const MOST_ELEMENTS: usize = 10_000_000;
 /// The files that cases have in common, by their names without the ending.
 const COMMON: [&str; 2] = ["summary", "residual-speed"];
 /// Lengths closer than this part of themselves are the same.
@@ -82,7 +80,7 @@ impl Reader<'_> {
             speed: self.speed(zones.inner())?,
             plan,
             name,
-            control: self.control()?,
+            control: self.control(),
             zones,
             yarn,
             single_precision: self.keys.is_single_precision(),
@@ -97,19 +95,18 @@ impl Reader<'_> {
         };
         let yarn = Yarn {
             section,
-            length: self.positive("half-length", &file.half_length)?,
-            height: self.positive("height", &file.height)?,
-            width: self.positive("width", &file.width)?,
-            layers: self.count("layers", &file.layers, [1, MOST_ELEMENTS], None)?,
-            rows: self.count("rows", &file.rows, [1, MOST_ELEMENTS], None)?,
-            // An ellipse needs two: they meet between its tips.
-            columns: self.count(
-                "columns",
-                &file.columns,
-                [if section == Section::Ellipse { 2 } else { 1 }, MOST_ELEMENTS],
-                None,
-            )?,
+            length: self.needed("half-length", &file.half_length)?,
+            height: self.needed("height", &file.height)?,
+            width: self.needed("width", &file.width)?,
+            layers: self.needed("layers", &file.layers)?,
+            rows: self.needed("rows", &file.rows)?,
+            columns: self.needed("columns", &file.columns)?,
         };
+        // They meet between the tips of an ellipse.
+        if let Some(one) = file.columns.as_ref().filter(|_| section == Section::Ellipse && yarn.columns == 1) {
+            let message = format!("columns is 1; allowed: {}", Whole::<2, MOST_ELEMENTS>::allowed());
+            return Err(self.source.error(one.span(), &message));
+        }
         let elements = [yarn.layers, yarn.rows, yarn.columns].into_iter().fold(1, usize::saturating_mul);
         if elements > MOST_ELEMENTS {
             let message = format!("layers, rows and columns make {elements} elements; allowed: up to {MOST_ELEMENTS}");
@@ -135,19 +132,19 @@ impl Reader<'_> {
         }
         let cylinder = Rigid {
             shape: Shape::Cylinder,
-            radius: self.positive("radius", &keys.radius)?,
-            stiffness: self.positive("contact-stiffness", &keys.contact_stiffness)?,
-            friction: zero_or_more(self.source, "friction", &keys.friction, 0.0)?,
+            radius: self.needed("radius", &keys.radius)?,
+            stiffness: self.needed("contact-stiffness", &keys.contact_stiffness)?,
+            friction: value(&keys.friction).unwrap_or(0.0),
             aim: [0.0; 2],
         };
         let held = file.held.as_ref().is_some_and(|held| *held.get_ref());
-        let mass = if held && keys.mass.is_none() { 0.0 } else { self.positive("mass", &keys.mass)? };
+        let mass = if held && keys.mass.is_none() { 0.0 } else { self.needed("mass", &keys.mass)? };
         Ok(Striker::Cylinder { cylinder, mass, held })
     }
 
     fn hyperelastic_length(&self, file: &YarnKeys, yarn: &Yarn) -> Result<f64, Error> {
         let (key, value) = ("hyperelastic-length", &file.hyperelastic_length);
-        let length = self.positive(key, value)?;
+        let length = self.needed(key, value)?;
         let layer = yarn.length / yarn.layers as f64;
         if length < layer * (1.0 - ROUNDING) || length > yarn.length * (1.0 + ROUNDING) {
             let span = value.as_ref().map_or(self.span.clone(), Spanned::span);

@@ -15,6 +15,7 @@ use crate::material::preset::property_index;
 use toron::host::units::UnitSystem;
 use toron::law::parameters::{DENSITY, NUMBER, Property};
 use toron::{Criterion, Rotation};
+use toron_shared::checked::{Positive, value};
 use toron_shared::error::Error;
 use toron_shared::toml_file::{Numbers, Source};
 
@@ -25,7 +26,7 @@ pub struct MaterialFile {
     preset: Option<Spanned<String>>,
     law: Option<Spanned<LawText>>,
     fibre: Option<Spanned<Numbers<3>>>,
-    density: Option<Spanned<f64>>,
+    density: Option<Positive>,
     frame: Option<Spanned<FrameName>>,
     criterion: Option<Spanned<CriterionName>>,
     #[serde(default)]
@@ -61,7 +62,7 @@ impl MaterialFile {
 
     /// Names and values of what the file itself gives. A fibre is a place rather than a yarn's property.
     fn own(&self) -> impl Iterator<Item = (&str, f64)> {
-        let density = self.density.as_ref().map(|value| ("density", *value.get_ref()));
+        let density = value(&self.density).map(|value| ("density", value));
         let properties = self.properties.iter().map(|(name, value)| (name.get_ref().as_str(), *value.get_ref()));
         density.into_iter().chain(properties)
     }
@@ -124,10 +125,7 @@ pub fn read_material(
         let of_preset = preset.as_ref().and_then(|preset| preset.error_at(index, &message));
         of_preset.unwrap_or_else(|| source.error(file.preset.as_ref().map_or(span, Spanned::span), &message))
     })?;
-    let density = match &file.density {
-        Some(density) => Some(source.positive("density", *density.get_ref(), density.span())?),
-        None => preset.as_ref().and_then(|preset| preset.density_in(units)),
-    };
+    let density = value(&file.density).or(preset.as_ref().and_then(|preset| preset.density_in(units)));
     let origin = preset.as_ref().map_or(Origin::default(), |preset| file.origin(preset));
     let label = preset.map_or_else(|| law_name.text().to_string(), |preset| preset.name);
     Ok(Material { law, density, label, own: file.own_text(law_name.table(), units), origin })

@@ -5,18 +5,19 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use crate::common::layers::layered;
+use toron_shared::checked::Positive;
 use toron_shared::field_names::field_names;
 
 #[derive(Clone, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct StrengthFile {
-    pub seed: Option<Spanned<i64>>,
+    pub seed: Option<u64>,
     pub cell: Option<Spanned<f64>>,
-    reference_length: Option<Spanned<f64>>,
+    reference_length: Option<Positive>,
     weibull_modulus: Option<Spanned<f64>>,
-    strain: Option<Spanned<f64>>,
-    stress: Option<Spanned<f64>>,
-    elastic_modulus: Option<Spanned<f64>>,
+    strain: Option<Spanned<Positive>>,
+    stress: Option<Spanned<Positive>>,
+    elastic_modulus: Option<Spanned<Positive>>,
     pub warp: Option<Spanned<LawFile>>,
     pub weft: Option<Spanned<LawFile>>,
 }
@@ -25,13 +26,13 @@ pub struct StrengthFile {
 #[derive(Clone, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct LawFile {
-    pub reference_length: Option<Spanned<f64>>,
+    pub reference_length: Option<Positive>,
     pub weibull_modulus: Option<Spanned<f64>>,
     /// The scale: a strain, or a stress.
-    pub strain: Option<Spanned<f64>>,
-    pub stress: Option<Spanned<f64>>,
+    pub strain: Option<Spanned<Positive>>,
+    pub stress: Option<Spanned<Positive>>,
     /// Makes a strain of the stress.
-    pub elastic_modulus: Option<Spanned<f64>>,
+    pub elastic_modulus: Option<Spanned<Positive>>,
 }
 
 impl StrengthFile {
@@ -47,7 +48,7 @@ impl StrengthFile {
     }
 
     /// The moduli that this table itself gives.
-    pub fn elastic_moduli(&self) -> impl Iterator<Item = &Spanned<f64>> {
+    pub fn elastic_moduli(&self) -> impl Iterator<Item = &Spanned<Positive>> {
         let families = self.families().into_iter().flatten().map(|family| &family.get_ref().elastic_modulus);
         families.chain([&self.elastic_modulus]).flatten()
     }

@@ -19,6 +19,7 @@ use crate::material::of_law::{Choice, FailureName, HYPERELASTIC, LINEAR_ELASTIC,
 use crate::material::smith::strike_speed;
 use crate::strength::file::{StrengthFile, complete_families};
 use toron::host::units::UnitSystem;
+use toron_shared::checked::{Checked, NotNegative, Positive, Whole, value};
 use toron_shared::error::Error;
 use toron_shared::toml_file::{Numbers, Source, Unused};
 
@@ -54,19 +55,19 @@ pub struct Keys {
     pub strength: Option<Spanned<StrengthFile>>,
     pub hyperelastic: Option<Spanned<MaterialFile>>,
     pub linear_elastic: Option<Spanned<MaterialFile>>,
-    pub speed: Option<Spanned<f64>>,
-    pub mass: Option<Spanned<f64>>,
-    pub radius: Option<Spanned<f64>>,
-    pub friction: Option<Spanned<f64>>,
-    pub contact_stiffness: Option<Spanned<f64>>,
-    pub hourglass: Option<Spanned<f64>>,
-    pub viscosity: Option<Spanned<Numbers<3>>>,
-    pub end: Option<Spanned<f64>>,
+    pub speed: Option<Spanned<Positive>>,
+    pub mass: Option<Spanned<Positive>>,
+    pub radius: Option<Spanned<Positive>>,
+    pub friction: Option<Spanned<NotNegative>>,
+    pub contact_stiffness: Option<Spanned<Positive>>,
+    pub hourglass: Option<NotNegative>,
+    pub viscosity: Option<Numbers<3, NotNegative>>,
+    pub end: Option<Positive>,
     pub until: Option<Until>,
-    pub sample: Option<Spanned<f64>>,
+    pub sample: Option<Spanned<Positive>>,
     pub pictures: Option<Spanned<Vec<f64>>>,
-    pub frames: Option<Spanned<i64>>,
-    pub checkpoints: Option<Spanned<i64>>,
+    pub frames: Option<Whole<0, MOST_FILES>>,
+    pub checkpoints: Option<Whole<0, MOST_FILES>>,
     pub precision: Option<Precision>,
 }
 
@@ -173,40 +174,18 @@ pub struct Reader<'a> {
 }
 
 impl Reader<'_> {
-    fn missing(&self, key: &str, allowed: &str) -> Error {
-        self.source.error(self.span.clone(), &format!("{key} is missing; allowed: {allowed}"))
-    }
-
-    pub fn positive(&self, key: &str, value: &Option<Spanned<f64>>) -> Result<f64, Error> {
-        match value {
-            Some(value) => self.source.positive(key, *value.get_ref(), value.span()),
-            None => Err(self.missing(key, "a finite number > 0")),
-        }
-    }
-
-    /// A whole number from `least` to `most`, or the default.
-    pub fn count(
-        &self,
-        key: &str,
-        value: &Option<Spanned<i64>>,
-        [least, most]: [usize; 2],
-        default: Option<usize>,
-    ) -> Result<usize, Error> {
-        let allowed = format!("a whole number from {least} to {most}");
-        let Some(count) = value else { return default.ok_or_else(|| self.missing(key, &allowed)) };
-        match usize::try_from(*count.get_ref()) {
-            Ok(number) if (least..=most).contains(&number) => Ok(number),
-            _ => Err(self.source.error(count.span(), &format!("{key} is {}; allowed: {allowed}", count.get_ref()))),
-        }
+    /// The value of a key that must be there.
+    pub fn needed<V: Checked>(&self, key: &str, given: &Option<V>) -> Result<V::Value, Error> {
+        self.source.needed(key, given, self.span.clone())
     }
 
     /// What the case of this name is going to do, with so many samples in its history where the file does not say
     /// otherwise.
     pub fn plan(&self, name: &str, samples: f64) -> Result<Plan, Error> {
         let keys = self.keys;
-        let end = self.positive("end", &keys.end)?;
-        let sample = if keys.sample.is_some() { self.positive("sample", &keys.sample)? } else { end / samples };
-        if let Some(given) = keys.sample.as_ref().filter(|given| *given.get_ref() > end) {
+        let end = self.needed("end", &keys.end)?;
+        let sample = value(&keys.sample).unwrap_or(end / samples);
+        if let Some(given) = keys.sample.as_ref().filter(|_| sample > end) {
             let message = format!("sample is {sample}; allowed: a number > 0, up to end = {end}");
             return Err(self.source.error(given.span(), &message));
         }
@@ -217,18 +196,18 @@ impl Reader<'_> {
             decides: keys.until == Some(Until::Decided),
             sample,
             pictures: self.source.pictures(&keys.pictures, name, end)?,
-            frames: self.count("frames", &keys.frames, [0, MOST_FILES], Some(0))?,
-            checkpoints: self.count("checkpoints", &keys.checkpoints, [0, MOST_FILES], Some(0))?,
+            frames: value(&keys.frames).unwrap_or(0),
+            checkpoints: value(&keys.checkpoints).unwrap_or(0),
         })
     }
 
-    pub fn control(&self) -> Result<Control, Error> {
-        control(self.source, &self.keys.hourglass, &self.keys.viscosity)
+    pub fn control(&self) -> Control {
+        control(&self.keys.hourglass, &self.keys.viscosity)
     }
 
     /// The speed of what strikes this material.
     pub fn speed(&self, material: &Material) -> Result<f64, Error> {
-        let speed = self.positive("speed", &self.keys.speed)?;
+        let speed = self.needed("speed", &self.keys.speed)?;
         let place = self.keys.speed.as_ref().map_or(self.span.clone(), Spanned::span);
         strike_speed(self.source, speed, place, material, self.units)
     }

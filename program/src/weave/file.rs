@@ -7,12 +7,14 @@ use serde::{Deserialize, Deserializer};
 use toml::Spanned;
 use toml::de::DeValue;
 
+use super::coarse::ROWS as COARSE_ROWS;
 use super::foreign::file::MeshFile;
 use super::geometry::Family;
 use super::panel::{Centre, Part};
 use super::section::Section;
 use crate::common::layers::layered;
 use crate::material::file::MaterialFile;
+use toron_shared::checked::{Positive, Whole};
 use toron_shared::error::Error;
 use toron_shared::toml_file::{Numbers, Source};
 
@@ -45,10 +47,10 @@ pub struct WeaveFile {
     pub pattern: Option<Spanned<PatternFile>>,
     pub warp: Option<Spanned<ThreadFile>>,
     pub weft: Option<Spanned<ThreadFile>>,
-    pub clearance: Option<Spanned<f64>>,
-    pub along: Option<Spanned<i64>>,
-    pub columns: Option<Spanned<i64>>,
-    pub rows: Option<Spanned<i64>>,
+    pub clearance: Option<Positive>,
+    pub along: Option<Spanned<Whole<2, 64>>>,
+    pub columns: Option<Whole<1, 40>>,
+    pub rows: Option<Whole<1, 20>>,
     pub panel: Option<Spanned<PanelFile>>,
 }
 
@@ -61,7 +63,7 @@ pub struct PlyFile {
     /// By which it is turned, in degrees.
     pub angle: Option<Spanned<f64>>,
     /// From the ply above it.
-    pub distance: Option<Spanned<f64>>,
+    pub distance: Option<Spanned<Positive>>,
     /// For who strikes the panel: what its yarns are made of, other than the rest.
     pub material: Option<Spanned<MaterialFile>>,
 }
@@ -125,10 +127,10 @@ fn check_panel_of_ply(source: &Source, weave: Option<&Spanned<DeValue>>) -> Resu
 #[derive(Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ThreadFile {
-    pub pitch: Option<Spanned<f64>>,
+    pub pitch: Option<Positive>,
     pub section: Option<Section>,
-    pub width: Option<Spanned<f64>>,
-    pub height: Option<Spanned<f64>>,
+    pub width: Option<Spanned<Positive>>,
+    pub height: Option<Spanned<Positive>>,
     /// For who strikes the panel: what these yarns are made of, other than the rest.
     pub material: Option<Spanned<MaterialFile>>,
 }
@@ -144,14 +146,14 @@ pub enum ShapeName {
 #[serde(deny_unknown_fields)]
 pub struct PanelFile {
     pub shape: Option<ShapeName>,
-    pub radius: Option<Spanned<f64>>,
-    pub half: Option<Spanned<Numbers<2>>>,
+    pub radius: Option<Spanned<Positive>>,
+    pub half: Option<Spanned<Numbers<2, Positive>>>,
     pub part: Option<Spanned<Part>>,
     pub centre: Option<Centre>,
     #[serde(rename = "coarse-radius")]
-    pub coarse_radius: Option<Spanned<f64>>,
+    pub coarse_radius: Option<Spanned<Positive>>,
     #[serde(rename = "coarse-rows")]
-    pub coarse_rows: Option<Spanned<i64>>,
+    pub coarse_rows: Option<Spanned<Whole<1, COARSE_ROWS>>>,
 }
 
 /// A pattern's name, or its rows.

@@ -4,6 +4,7 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use crate::weave::panel::Part;
+use toron_shared::checked::Positive;
 use toron_shared::toml_file::Numbers;
 
 #[derive(Deserialize)]
@@ -13,6 +14,6 @@ pub struct MeshFile {
     pub units: Option<Spanned<String>>,
     pub part: Option<Part>,
     pub shift: Option<Spanned<Numbers<2>>>,
-    pub clearance: Option<Spanned<f64>>,
-    pub height: Option<Spanned<f64>>,
+    pub clearance: Option<Positive>,
+    pub height: Option<Positive>,
 }
