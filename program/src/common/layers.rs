@@ -69,6 +69,15 @@ impl<T> Case<'_, T> {
     }
 }
 
+/// Reads the scene's table and the cases' alone.
+///
+/// # Errors
+/// A key or a value that one of them cannot have.
+pub fn check<T: CaseTable>(source: &Source, tables: &DeValue) -> Result<(), Error> {
+    let mut tables = tables.get("scene").into_iter().chain(entries(tables.get("case")));
+    tables.try_for_each(|table| T::read(source, table).map(|_| ()))
+}
+
 /// The cases of a file's tables, or the scene as the only one. The tables `beside` the scene's are beneath a case's own
 /// too. The files that cases have in common are called as `common` says, without their endings.
 ///

@@ -8,7 +8,7 @@ use toml::Spanned;
 
 use super::file::{PanelKeys, Rim, SceneFile, ShapeName};
 use super::scene::{Case, Scene, Striker};
-use crate::common::layers::Case as CaseTables;
+use crate::common::layers::{self, Case as CaseTables};
 use crate::common::units::{self, number};
 use crate::explicit::contact::{Rigid, Shape};
 use crate::explicit::medium::Control;
@@ -56,9 +56,10 @@ impl Scene {
     /// An input error that names file, line, value and what is allowed.
     pub fn parse(name: &str, text: &str) -> Result<Scene, Error> {
         let source = Source { name, text };
+        let tables = source.tables()?;
+        layers::check::<Table<PanelKeys>>(&source, tables.get_ref())?;
         let file: SceneFile = source.parse()?;
         let units = units::system(&source, &file.units)?;
-        let tables = source.tables()?;
         let cloth = Arc::new(read_cloth(&source, tables.get_ref(), &units, None)?);
         let beside = ["weave", "ply", "mesh"];
         let cases = read_cases((&source, &units), tables.get_ref(), &beside, &["summary"], |reader, case| {

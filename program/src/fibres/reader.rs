@@ -48,9 +48,10 @@ impl Scene {
     /// An input error that names file, line, value and what is allowed.
     pub fn parse(name: &str, text: &str) -> Result<Scene, Error> {
         let source = Source { name, text };
+        let tables = source.tables()?;
+        layers::check::<CaseFile>(&source, tables.get_ref())?;
         let file: SceneFile = source.parse()?;
         let units = units::system(&source, &file.units)?;
-        let tables = source.tables()?;
         let read = |case: CaseTables<CaseFile>| {
             if let Some(given) = case.own.name.as_ref().filter(|name| is_of_fit(name.get_ref())) {
                 let message =

@@ -6,11 +6,12 @@ use toml::Spanned;
 
 use super::file::{MOST_ELEMENTS, SceneFile, SectionName, StrikerName, YarnKeys};
 use super::scene::{Abscissa, Case, Outputs, Scene, Striker};
+use crate::common::layers;
 use crate::common::units;
 use crate::explicit::contact::{Rigid, Shape};
 use crate::explicit::mesh::{Section, Yarn};
 use crate::strength::scatter::Strength;
-use crate::struck::keys::{Reader, read_cases};
+use crate::struck::keys::{Reader, Table, read_cases};
 use crate::struck::shots::read_shots;
 use toron_shared::checked::{Checked, Whole, value};
 use toron_shared::error::Error;
@@ -39,9 +40,10 @@ impl Scene {
     /// An input error that names file, line, value and what is allowed.
     pub fn parse(name: &str, text: &str) -> Result<Scene, Error> {
         let source = Source { name, text };
+        let tables = source.tables()?;
+        layers::check::<Table<YarnKeys>>(&source, tables.get_ref())?;
         let file: SceneFile = source.parse()?;
         let units = units::system(&source, &file.units)?;
-        let tables = source.tables()?;
         let cases = read_cases((&source, &units), tables.get_ref(), &[], &COMMON, |reader, case| {
             reader.yarn_case(&case.table.target, case.name.clone())
         })?;
