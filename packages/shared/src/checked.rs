@@ -1,6 +1,5 @@
 //! Values that their types check: a key of such a type is refused where it is read, with its value and what is allowed.
 
-use std::fmt;
 use std::marker::PhantomData;
 
 use serde::de::{Deserialize, Deserializer, Error, Unexpected};
@@ -41,11 +40,14 @@ pub trait Bound {
 }
 
 /// A number within a bound.
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Number<B>(f64, PhantomData<B>);
 
 pub type Positive = Number<AboveZero>;
 pub type NotNegative = Number<FromZero>;
+pub type Fraction = Number<UpToOne>;
 
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum AboveZero {}
 
 impl Bound for AboveZero {
@@ -56,6 +58,7 @@ impl Bound for AboveZero {
     }
 }
 
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum FromZero {}
 
 impl Bound for FromZero {
@@ -63,6 +66,17 @@ impl Bound for FromZero {
 
     fn allows(number: f64) -> bool {
         number.is_finite() && number >= 0.0
+    }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum UpToOne {}
+
+impl Bound for UpToOne {
+    const ALLOWED: &'static str = "a number > 0, up to 1";
+
+    fn allows(number: f64) -> bool {
+        number > 0.0 && number <= 1.0
     }
 }
 
@@ -75,20 +89,6 @@ impl<B: Bound> Checked for Number<B> {
 
     fn value(&self) -> f64 {
         self.0
-    }
-}
-
-impl<B> Clone for Number<B> {
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-
-impl<B> Copy for Number<B> {}
-
-impl<B> fmt::Debug for Number<B> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.0.fmt(f)
     }
 }
 
@@ -131,13 +131,15 @@ impl<'de, const LEAST: usize, const MOST: usize> Deserialize<'de> for Whole<LEAS
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::toml_file::Source;
+    use crate::toml_file::{Numbers, Source};
 
     #[derive(serde::Deserialize)]
     #[serde(rename_all = "kebab-case")]
     struct Keys {
         half_length: Option<Spanned<Positive>>,
         friction: Option<NotNegative>,
+        part: Option<Fraction>,
+        half: Option<Numbers<2, Positive>>,
         rows: Option<Whole<2, 40>>,
         seed: Option<u64>,
     }
@@ -148,10 +150,11 @@ mod tests {
 
     #[test]
     fn what_is_allowed_is_read() {
-        let keys = read("half-length = 3\nfriction = 0.0\nrows = 40\nseed = 0").expect("all are allowed");
+        let keys = read("half-length = 3\nfriction = 0.0\npart = 1\nrows = 40\nseed = 0").expect("all are allowed");
         assert_eq!((value(&keys.half_length), value(&keys.friction)), (Some(3.0), Some(0.0)));
-        assert_eq!((value(&keys.rows), keys.seed), (Some(40), Some(0)));
-        assert_eq!(value(&read("").expect("no key").rows), None);
+        assert_eq!((value(&keys.part), value(&keys.rows), keys.seed), (Some(1.0), Some(40), Some(0)));
+        let none = read("").expect("no key");
+        assert!(value(&none.rows).is_none() && none.half.is_none());
     }
 
     #[test]
@@ -162,6 +165,9 @@ mod tests {
             ("half-length = nan", "half-length is nan; allowed: a finite number > 0"),
             ("half-length = \"3\"", "half-length is \"3\"; allowed: a number"),
             ("friction = -0.1", "friction is -0.1; allowed: a finite number >= 0"),
+            ("part = 1.5", "part is 1.5; allowed: a number > 0, up to 1"),
+            ("half = [1, 0]", "half is [1, 0]; allowed: each a finite number > 0"),
+            ("half = [1]", "half is [1]; allowed: a list of 2 numbers"),
             ("rows = 1", "rows is 1; allowed: a whole number from 2 to 40"),
             ("rows = 41", "rows is 41; allowed: a whole number from 2 to 40"),
             ("rows = 2.5", "rows is 2.5; allowed: a whole number"),

@@ -2,8 +2,8 @@
 //!
 //! - what a user is told: [`error`] with its exit codes, [`console`], [`progress`], [`text_table`], [`short_number`], [`nearest`] names;
 //! - arguments and the end of a program: [`command_line`];
-//! - files in TOML, with the places of what stands in them: [`toml_file`], [`toml_error`], tables over others in [`layers`], [`field_names`], [`checked`] values;
-//!   keyword files of solvers: [`keyword_file`];
+//! - files in TOML, with the places of what stands in them: [`toml_file`], [`toml_error`], tables over others in [`layers`],
+//!   a struct's [`field_names`], [`checked`] values; keyword files of solvers: [`keyword_file`];
 //! - where a program writes: [`run_directory`], [`kept_file`], [`file_names`], [`folder`];
 //! - what runs beside it: [`interrupt`], [`bound_child`], the [`shell`]'s words.
 

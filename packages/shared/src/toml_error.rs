@@ -45,7 +45,10 @@ fn explained(text: &str, error: &toml::de::Error) -> Option<String> {
     let tables = DeTable::parse(text).ok()?;
     let key = key_in(tables.get_ref(), &span)?;
     let allowed = allowed(error.message(), &key)?;
-    Some(format!("{key} is {}; allowed: {allowed}", shortened(text.get(span)?)))
+    let value = text.get(span)?;
+    // Where an entry of a list is not allowed, the place is the list's.
+    let each = if value.starts_with('[') && error.message().starts_with("invalid value") { "each " } else { "" };
+    Some(format!("{key} is {}; allowed: {each}{allowed}", shortened(value)))
 }
 
 /// The key whose value stands at this place of the file.

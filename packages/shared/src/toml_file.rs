@@ -137,14 +137,6 @@ impl Source<'_> {
         Err(self.error(name.span(), &message))
     }
 
-    /// The number, where it is finite and above 0.
-    pub fn positive(&self, what: &str, value: f64, span: Range<usize>) -> Result<f64, Error> {
-        if value.is_finite() && value > 0.0 {
-            return Ok(value);
-        }
-        Err(self.error(span, &format!("{what} is {value}; allowed: a finite number > 0")))
-    }
-
     /// The value of a key that must be there; `table` is the place that the error names.
     ///
     /// # Errors

@@ -4,7 +4,7 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use super::scene::Load;
-use toron_shared::checked::{Bound, Number, Positive, Whole};
+use toron_shared::checked::{Bound, Fraction, Number, Positive, Whole};
 
 pub const MOST_FIBRES: usize = 1000;
 
@@ -26,16 +26,6 @@ impl Bound for Friction {
 
     fn allows(number: f64) -> bool {
         (0.0..=2.0).contains(&number)
-    }
-}
-
-pub enum Fraction {}
-
-impl Bound for Fraction {
-    const ALLOWED: &'static str = "a number > 0, up to 1";
-
-    fn allows(number: f64) -> bool {
-        number > 0.0 && number <= 1.0
     }
 }
 
@@ -114,5 +104,5 @@ pub struct LoadsFile {
 pub struct YarnFile {
     pub name: Option<Spanned<String>>,
     pub source: Option<String>,
-    pub volume_fraction: Option<Number<Fraction>>,
+    pub volume_fraction: Option<Fraction>,
 }

@@ -9,7 +9,7 @@ use toml::de::DeValue;
 
 use super::scene::Walls;
 use crate::common::layers::CaseTable;
-use toron_shared::checked::{Bound, NotNegative, Number, Positive, Whole};
+use toron_shared::checked::{Bound, Fraction, NotNegative, Number, Positive, Whole};
 use toron_shared::error::Error;
 use toron_shared::toml_file::{Source, Unused};
 
@@ -48,16 +48,6 @@ pub struct SceneFile {
     _case: Option<Vec<IgnoredAny>>,
 }
 
-pub enum StrainOfFibre {}
-
-impl Bound for StrainOfFibre {
-    const ALLOWED: &'static str = "a number > 0, up to the stretch of a fibre = 1";
-
-    fn allows(number: f64) -> bool {
-        number > 0.0 && number <= 1.0
-    }
-}
-
 pub enum Share {}
 
 impl Bound for Share {
@@ -74,7 +64,7 @@ pub struct FibreFile {
     pub diameter: Option<Positive>,
     pub modulus: Option<Positive>,
     pub density: Option<Positive>,
-    pub strain_at_failure: Option<Number<StrainOfFibre>>,
+    pub strain_at_failure: Option<Fraction>,
 }
 
 /// The scene's table, or a case's.

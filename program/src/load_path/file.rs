@@ -20,6 +20,7 @@ use crate::material::file::MaterialFile;
 use crate::material::file::read_material;
 use crate::material::laws::Laws;
 use toron::host::units::UnitSystem;
+use toron_shared::checked::{Checked, Positive, value};
 use toron_shared::error::Error;
 use toron_shared::layers::entries;
 use toron_shared::toml_file::{self, Numbers, Source};
@@ -32,7 +33,7 @@ const MOST_INCREMENTS: usize = 1_000_000;
 struct PathFile {
     title: Option<String>,
     units: Spanned<String>,
-    element: Option<Spanned<Numbers<3>>>,
+    element: Option<Numbers<3, Positive>>,
     #[serde(rename = "material")]
     _material: Option<MaterialFile>,
     #[serde(default)]
@@ -62,7 +63,7 @@ struct PointFile {
 struct StepFile {
     name: Option<String>,
     increments: Option<Spanned<usize>>,
-    duration: Option<Spanned<f64>>,
+    duration: Option<Positive>,
     #[serde(default, rename = "F")]
     gradient: BTreeMap<Spanned<String>, Spanned<TargetFile>>,
     #[serde(default, rename = "P")]
@@ -115,7 +116,7 @@ impl LoadPath {
         let points = points(&source, laws, &file, &units)?;
         Ok(LoadPath {
             title: file.title.clone().unwrap_or_else(|| name.to_string()),
-            element: element(&source, file.element.as_ref())?,
+            element: element(&file.element),
             steps: steps(&source, &file.step)?,
             abscissa: abscissa(&source, &file.plot, &points)?,
             units,
@@ -124,12 +125,9 @@ impl LoadPath {
     }
 }
 
-fn element(source: &Source<'_>, size: Option<&Spanned<Numbers<3>>>) -> Result<Hexahedron, Error> {
-    let Some(size) = size else { return Ok(Hexahedron { size: Vector3::repeat(1.0) }) };
-    for length in size.get_ref().0 {
-        source.positive("an edge of the element", length, size.span())?;
-    }
-    Ok(Hexahedron { size: Vector3::from(size.get_ref().0) })
+fn element(size: &Option<Numbers<3, Positive>>) -> Hexahedron {
+    let edges = size.map_or([1.0; 3], |Numbers(edges)| edges.map(|edge| edge.value()));
+    Hexahedron { size: Vector3::from(edges) }
 }
 
 fn abscissa(source: &Source<'_>, plot: &PlotFile, points: &[Point]) -> Result<String, Error> {
@@ -237,10 +235,7 @@ fn read_step(
         Some(increments) if *increments.get_ref() > 0 => *increments.get_ref(),
         Some(increments) => return Err(source.error(increments.span(), "increments is 0; allowed: 1 or more")),
     };
-    let duration = match &file.duration {
-        None => 1.0,
-        Some(duration) => source.positive("duration", *duration.get_ref(), duration.span())?,
-    };
+    let duration = value(&file.duration).unwrap_or(1.0);
     let mut targets = [None; 9];
     for (name, target) in &file.gradient {
         let k = component(source, "F", name)?;
