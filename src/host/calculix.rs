@@ -230,7 +230,7 @@ impl Arguments<'_> {
         let mut answer = Answer::new([0.0; HYPERELASTIC_STATE]);
         let request = Request { stress: false, wave_modulus: false, ..Request::ALL };
         let tangent = SixBySix(request, Measure::Material);
-        let own = Own { fibre, limit: Some(&limit), ..Own::NONE };
+        let own = Own { limit: Some(&limit), ..Own::along(fibre) };
         // SAFETY: `properties` has refused a state_count below the law's number of variables, and there are as many.
         let state = unsafe { &*self.old_state.cast::<[Cell<f64>; HYPERELASTIC_STATE]>() };
         evaluate_call(Call { source: properties, f: self.f, own, state, tangent, sink: &mut answer }, Level::Avx512)?;

@@ -237,10 +237,7 @@ unsafe fn evaluate_from<T: Registers, L: Source<T>>(source: L, point: *const Poi
         // What most callers want is compiled for them.
         if state_new.is_null() {
             let sink = StressAnswer::<T, false> { stress, state: state_new, status: &mut status };
-            evaluate_call(
-                Call { source, f, own: Own { fibre, ..Own::NONE }, state, tangent: Stress::<false>, sink },
-                level,
-            )?;
+            evaluate_call(Call { source, f, own: Own::along(fibre), state, tangent: Stress::<false>, sink }, level)?;
         } else {
             // SAFETY: the caller's point.
             let own = Own { fibre, limit: unsafe { limit(point) } };

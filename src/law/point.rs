@@ -85,7 +85,7 @@ impl<T: Real<Mask = bool> + Into<f64>> Hyperelastic<T> {
         state: &[T; HYPERELASTIC_STATE],
         tangent: D,
     ) -> (Point<T>, [T; N]) {
-        self.point_with_own(f, Own { fibre, ..Own::NONE }, state, tangent)
+        self.point_with_own(f, Own::along(fibre), state, tangent)
     }
 
     /// As [`point_with`](Self::point_with), for a point with numbers of its own.
@@ -306,6 +306,15 @@ pub(crate) struct Own<'a, T> {
 
 impl<T> Own<'_, T> {
     pub const NONE: Self = Own { fibre: None, limit: None };
+
+    /// A fibre direction, or that of the properties, and nothing else.
+    #[inline(always)]
+    pub const fn along(fibre: Option<[T; 3]>) -> Self
+    where
+        T: Copy,
+    {
+        Own { fibre, limit: None }
+    }
 }
 
 /// A call from a host: the properties or a law prepared from them, a point, and what becomes of the results.

@@ -3,20 +3,24 @@
 //! - what a user is told: [`error`] with its exit codes, [`console`], [`progress`], [`text_table`], [`numbers`], [`short_number`],
 //!   [`nearest`] names;
 //! - arguments and the end of a program: [`command_line`];
-//! - files in TOML, with the places of what stands in them: [`toml_file`], [`toml_error`]; keyword files of solvers: [`keyword_file`];
+//! - files in TOML, with the places of what stands in them: [`toml_file`], [`toml_error`], tables over others in [`layers`],
+//!   a struct's [`field_names`], [`checked`] values; keyword files of solvers: [`keyword_file`];
 //! - where a program writes: [`run_directory`], [`kept_file`], [`file_names`], [`folder`];
 //! - which program it is: the [`mod@build`]; what runs beside it: [`interrupt`], [`bound_child`], the [`shell`]'s words.
 
 pub mod bound_child;
 pub mod build;
+pub mod checked;
 pub mod command_line;
 pub mod console;
 pub mod error;
+pub mod field_names;
 pub mod file_names;
 pub mod folder;
 pub mod interrupt;
 pub mod kept_file;
 pub mod keyword_file;
+pub mod layers;
 pub mod nearest;
 pub mod numbers;
 pub mod progress;

@@ -16,23 +16,39 @@ pub fn message(text: &str, error: &toml::de::Error) -> String {
     explained(text, error).unwrap_or_else(|| with_hint(error.message().trim_end()))
 }
 
+/// How messages about a key begin that is not known.
+const UNKNOWN: &str = "unknown field `";
+
 /// The message, with what an unknown key may have been meant to be: `unknown field `sped`, did you mean speed? expected
 /// one of …`.
 fn with_hint(message: &str) -> String {
     let parts = || {
-        let (name, expected) = message.strip_prefix("unknown field `")?.split_once("`, ")?;
+        let (name, expected) = message.strip_prefix(UNKNOWN)?.split_once("`, ")?;
         let hint = nearest::hint(name, expected.split('`').skip(1).step_by(2));
         (!hint.is_empty()).then(|| format!("unknown field `{name}`{hint} {expected}"))
     };
     parts().unwrap_or_else(|| message.to_string())
 }
 
+/// The message for a key that is none of these.
+pub fn unknown_key(name: &str, known: &[&str]) -> String {
+    let known: Vec<String> = known.iter().map(|known| format!("`{known}`")).collect();
+    with_hint(&format!("{UNKNOWN}{name}`, expected one of {}", known.join(", ")))
+}
+
 fn explained(text: &str, error: &toml::de::Error) -> Option<String> {
+    // The name of a table is its value's place too.
+    if error.message().starts_with(UNKNOWN) {
+        return None;
+    }
     let span = error.span()?;
     let tables = DeTable::parse(text).ok()?;
     let key = key_in(tables.get_ref(), &span)?;
     let allowed = allowed(error.message(), &key)?;
-    Some(format!("{key} is {}; allowed: {allowed}", shortened(text.get(span)?)))
+    let value = text.get(span)?;
+    // Where an entry of a list is not allowed, the place is the list's.
+    let each = if value.starts_with('[') && error.message().starts_with("invalid value") { "each " } else { "" };
+    Some(format!("{key} is {}; allowed: {each}{allowed}", shortened(value)))
 }
 
 /// The key whose value stands at this place of the file.
@@ -64,7 +80,7 @@ fn allowed(message: &str, key: &str) -> Option<String> {
     let length = expected.strip_prefix("an array of length ").map(|length| format!("a list of {length} numbers"));
     let words = match expected {
         "i64" => "a whole number",
-        "usize" => "a whole number >= 0",
+        "usize" | "u64" => "a whole number >= 0",
         "f64" => "a number",
         "a boolean" => "true or false",
         "a string" => "text in quotes",
@@ -81,4 +97,55 @@ fn allowed(message: &str, key: &str) -> Option<String> {
 pub fn shortened(value: &str) -> String {
     let line = value.split_whitespace().collect::<Vec<_>>().join(" ");
     if line.chars().count() <= LONGEST { line } else { line.chars().take(LONGEST).chain(['…']).collect() }
+}
+
+#[cfg(test)]
+mod tests {
+    use serde::Deserialize;
+
+    use crate::toml_file::Source;
+
+    #[derive(Debug, Deserialize)]
+    #[serde(deny_unknown_fields)]
+    #[expect(dead_code, reason = "only what is wrong is looked at")]
+    struct Tables {
+        scene: Option<Keys>,
+        title: Option<String>,
+    }
+
+    #[derive(Debug, Deserialize)]
+    struct Keys {
+        speed: Option<f64>,
+    }
+
+    #[derive(Debug, Deserialize)]
+    struct OtherKeys {
+        radius: Option<i64>,
+    }
+
+    #[test]
+    fn an_unknown_key_is_named_with_what_it_may_have_meant() {
+        let parse = |text: &str| {
+            let source = Source { name: "x.toml", text };
+            source.parse::<Tables>().expect_err("a mistake").to_string()
+        };
+        let expected = "did you mean scene? expected `scene` or `title`";
+        assert_eq!(parse("\n[scne]\nspeed = 1"), format!("x.toml:2: unknown field `scne`, {expected}"));
+        assert_eq!(parse("scne = 1"), format!("x.toml:1: unknown field `scne`, {expected}"));
+        assert_eq!(parse("[scene]\nspeed = \"fast\""), "x.toml:2: speed is \"fast\"; allowed: a number");
+    }
+
+    #[test]
+    fn two_structs_share_a_table_and_no_key_is_of_neither() {
+        let read = |text: &str| {
+            let source = Source { name: "x.toml", text };
+            source.read_both::<Keys, OtherKeys>(&source.tables()?)
+        };
+        let (keys, other) = read("radius = 3\nspeed = 2.5").expect("keys of both");
+        assert_eq!((keys.speed, other.radius), (Some(2.5), Some(3)));
+        let error = |text: &str| read(text).map(|_| ()).expect_err("a mistake").to_string();
+        let expected = "x.toml:2: unknown field `radus`, did you mean radius? expected one of `speed`, `radius`";
+        assert_eq!(error("speed = 1\nradus = 3"), expected);
+        assert_eq!(error("speed = 1\nradius = 3.5"), "x.toml:2: radius is 3.5; allowed: a whole number");
+    }
 }

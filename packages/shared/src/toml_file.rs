@@ -7,9 +7,11 @@ use std::sync::OnceLock;
 use serde::de::{DeserializeOwned, Error as _};
 use serde::{Deserialize, Deserializer};
 use toml::Spanned;
-use toml::de::DeTable;
+use toml::de::{DeTable, DeValue, ValueDeserializer};
 
+use super::checked::{Checked, value};
 use super::error::Error;
+use super::field_names::field_names;
 use super::file_names::collide;
 use super::toml_error;
 
@@ -22,15 +24,11 @@ pub struct Source<'a> {
 /// A table's key that no case reads: its place, and the message.
 pub type Unused = Option<(Range<usize>, String)>;
 
-/// A table with the keys of `base` where it has none.
-pub fn over<T: Clone>(
-    own: &Option<Spanned<T>>,
-    base: &Option<Spanned<T>>,
-    keys: impl Fn(&T, &T) -> T,
-) -> Option<Spanned<T>> {
-    match (own, base) {
-        (Some(own), Some(base)) => Some(Spanned::new(own.span(), keys(own.get_ref(), base.get_ref()))),
-        (own, base) => own.clone().or(base.clone()),
+impl<'t> Source<'t> {
+    /// The file's tables as data, in which every value keeps its place.
+    pub fn tables(&self) -> Result<Spanned<DeValue<'t>>, Error> {
+        let tables = DeTable::parse(self.text).map_err(|error| self.parse_error(&error))?;
+        Ok(Spanned::new(tables.span(), DeValue::Table(tables.into_inner())))
     }
 }
 
@@ -43,9 +41,29 @@ impl Source<'_> {
 
     /// The file's tables.
     pub fn parse<F: DeserializeOwned>(&self) -> Result<F, Error> {
-        let parse_error =
-            |error: toml::de::Error| self.error(error.span().unwrap_or(0..0), &toml_error::message(self.text, &error));
-        toml::from_str(self.text).map_err(parse_error)
+        toml::from_str(self.text).map_err(|error| self.parse_error(&error))
+    }
+
+    /// A table of the file's data.
+    pub fn read<F: DeserializeOwned>(&self, table: &Spanned<DeValue>) -> Result<F, Error> {
+        F::deserialize(ValueDeserializer::from(table.clone())).map_err(|error| self.parse_error(&error))
+    }
+
+    /// A table whose keys are those of two structs, neither of which refuses the other's.
+    pub fn read_both<F: DeserializeOwned, G: DeserializeOwned>(
+        &self,
+        table: &Spanned<DeValue>,
+    ) -> Result<(F, G), Error> {
+        let known = [field_names::<F>(), field_names::<G>()].concat();
+        let keys = table.get_ref().as_table().into_iter().flat_map(DeTable::keys);
+        match keys.into_iter().find(|key| !known.contains(&&**key.get_ref())) {
+            None => Ok((self.read(table)?, self.read(table)?)),
+            Some(key) => Err(self.error(key.span(), &toml_error::unknown_key(key.get_ref(), &known))),
+        }
+    }
+
+    fn parse_error(&self, error: &toml::de::Error) -> Error {
+        self.error(error.span().unwrap_or(0..0), &toml_error::message(self.text, error))
     }
 
     /// The name of a case, or of another of several `what`, out of which its files' names are made; `taken` are the
@@ -81,7 +99,7 @@ impl Source<'_> {
 
     /// Where the value of a table's key stands; the file's beginning where it is not there.
     pub fn place(&self, table: &str, key: &str) -> Range<usize> {
-        let tables = DeTable::parse(self.text).ok();
+        let tables = self.tables().ok();
         let value = tables.as_ref().and_then(|tables| tables.get_ref().get(table)?.get_ref().get(key));
         value.map_or(0..0, Spanned::span)
     }
@@ -119,21 +137,12 @@ impl Source<'_> {
         Err(self.error(name.span(), &message))
     }
 
-    /// The number, where it is finite and above 0.
-    pub fn positive(&self, what: &str, value: f64, span: Range<usize>) -> Result<f64, Error> {
-        if value.is_finite() && value > 0.0 {
-            return Ok(value);
-        }
-        Err(self.error(span, &format!("{what} is {value}; allowed: a finite number > 0")))
-    }
-
-    /// The number from which chance begins.
+    /// The value of a key that must be there; `table` is the place that the error names.
     ///
     /// # Errors
-    /// It is negative.
-    pub fn seed(&self, seed: &Spanned<i64>) -> Result<u64, Error> {
-        u64::try_from(*seed.get_ref())
-            .map_err(|_| self.error(seed.span(), &format!("seed is {}; allowed: a whole number >= 0", seed.get_ref())))
+    /// It is missing.
+    pub fn needed<T: Checked>(&self, key: &str, given: &Option<T>, table: Range<usize>) -> Result<T::Value, Error> {
+        value(given).ok_or_else(|| self.error(table, &format!("{key} is missing; allowed: {}", T::allowed())))
     }
 
     /// Times at which pictures are drawn. The case is named: the times may be the scene's, the end its own.
@@ -191,14 +200,14 @@ pub fn read(path: &Path) -> Result<(String, String), Error> {
 
 /// A list of so many numbers. The parser would pass over what comes after them.
 #[derive(Clone, Copy)]
-pub struct Numbers<const N: usize>(pub [f64; N]);
+pub struct Numbers<const N: usize, T = f64>(pub [T; N]);
 
-impl<'de, const N: usize> Deserialize<'de> for Numbers<N> {
+impl<'de, const N: usize, T: Deserialize<'de>> Deserialize<'de> for Numbers<N, T> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let list = Vec::<f64>::deserialize(deserializer)?;
+        let list = Vec::<T>::deserialize(deserializer)?;
         let wanted = format!("an array of length {N}");
-        let numbers = list.as_slice().try_into().map_err(|_| D::Error::invalid_length(list.len(), &wanted.as_str()))?;
-        Ok(Numbers(numbers))
+        let wrong = |list: Vec<T>| D::Error::invalid_length(list.len(), &wanted.as_str());
+        list.try_into().map(Numbers).map_err(wrong)
     }
 }
 

@@ -8,6 +8,7 @@ use toml::Spanned;
 
 use super::finding::Question;
 use super::material::{DEFAULT_NAME, Explicit, Material, Traits};
+use toron_shared::checked::{Checked, Positive, value};
 use toron_shared::error::Error;
 use toron_shared::toml_file::{Source, read};
 
@@ -21,18 +22,18 @@ struct File {
     initial: Option<Spanned<Vec<f64>>>,
     ntens: Option<Spanned<usize>>,
     stretch: Option<Spanned<Vec<f64>>>,
-    increment: Option<Spanned<f64>>,
+    increment: Option<Positive>,
     temperature: Option<Spanned<f64>>,
-    dtime: Option<Spanned<f64>>,
+    dtime: Option<Positive>,
     traits: Option<Spanned<Vec<String>>>,
     orientation: Option<bool>,
     fibres: Option<Spanned<Vec<Vec<f64>>>>,
     seed: Option<u64>,
-    density: Option<Spanned<f64>>,
+    density: Option<Positive>,
     deletion: Option<Spanned<usize>>,
     defgrad: Option<Spanned<String>>,
     #[serde(default)]
-    allow: BTreeMap<String, Spanned<f64>>,
+    allow: BTreeMap<String, Spanned<Positive>>,
     #[serde(default, rename = "material")]
     materials: Vec<Own>,
 }
@@ -95,7 +96,7 @@ fn parse(source: &Source, over: &Over) -> Result<Input, Error> {
             let names = Question::names();
             return Err(source.error(value.span(), &format!("allow has {key}; allowed: {names}")));
         }
-        allowed.insert(key.clone(), source.positive(&format!("allow.{key}"), *value.get_ref(), value.span())?);
+        allowed.insert(key.clone(), value.value());
     }
     let owns = if file.materials.is_empty() { vec![Own::default()] } else { file.materials.clone() };
     let materials: Result<Vec<Material>, Error> = owns.iter().map(|own| material(source, &file, own, over)).collect();
@@ -135,10 +136,6 @@ fn material(source: &Source, file: &File, own: &Own, over: &Over) -> Result<Mate
     let key = if over.properties.is_some() { "--props" } else { "properties" };
     all_finite(key, &properties)?;
     all_finite("initial", &initial)?;
-    let positive = |key: &str, value: &Option<Spanned<f64>>, default: f64| match value {
-        Some(value) => source.positive(key, *value.get_ref(), value.span()),
-        None => Ok(default),
-    };
     let stretch = match &file.stretch {
         None => [0.9, 1.1],
         Some(stretch) => match stretch.get_ref()[..] {
@@ -155,12 +152,12 @@ fn material(source: &Source, file: &File, own: &Own, over: &Over) -> Result<Mate
         initial,
         components,
         stretch,
-        increment: positive("increment", &file.increment, 0.01)?,
+        increment: value(&file.increment).unwrap_or(0.01),
         temperature: match &file.temperature {
             Some(value) => source.finite("temperature", *value.get_ref(), value.span())?,
             None => 0.0,
         },
-        time_step: positive("dtime", &file.dtime, 1.0)?,
+        time_step: value(&file.dtime).unwrap_or(1.0),
         traits: traits(source, own.traits.as_ref().or(file.traits.as_ref()), over)?,
         orientation: over.orientation || file.orientation.unwrap_or(false),
         fibres: fibres(source, own.fibres.as_ref().or(file.fibres.as_ref()))?,
@@ -187,10 +184,6 @@ fn allowed_name(name: &str) -> Result<String, String> {
 const DENSITY: f64 = 2.0;
 
 fn explicit(source: &Source, file: &File, states: usize) -> Result<Explicit, Error> {
-    let density = match &file.density {
-        Some(density) => source.positive("density", *density.get_ref(), density.span())?,
-        None => DENSITY,
-    };
     if let Some(deletion) = &file.deletion
         && !(1..=states).contains(deletion.get_ref())
     {
@@ -206,6 +199,7 @@ fn explicit(source: &Source, file: &File, states: usize) -> Result<Explicit, Err
         },
     };
     let deletion = file.deletion.as_ref().map(|deletion| *deletion.get_ref());
+    let density = value(&file.density).unwrap_or(DENSITY);
     Ok(Explicit { called: false, density, deletion, stretch_alone, single: None })
 }
 
@@ -280,7 +274,7 @@ mod tests {
             ("properties = [1.0, nan]", "properties: number 2 is NaN; allowed: finite numbers"),
             ("deletion = 1", "law.toml:1: deletion is 1; allowed: a state variable, 1 to 0"),
             ("defgrad = \"R\"", "law.toml:1: defgrad is \"R\"; allowed: \"RU\", \"U\""),
-            ("dtime = 0.0", "law.toml:1: dtime is 0; allowed: a finite number > 0"),
+            ("dtime = 0.0", "law.toml:1: dtime is 0.0; allowed: a finite number > 0"),
         ] {
             let error = of(text).expect_err(text);
             assert!(error.starts_with(message), "{error}");

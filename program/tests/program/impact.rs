@@ -441,7 +441,10 @@ fn errors_say_what_is_wrong() {
         let expected = format!("scene.toml:13: layers is {wrong}; allowed: a whole number from 1 to 10000000");
         assert_eq!(scene(&format!("layers = {wrong}")), expected);
     }
-    assert_eq!(scene("layers = 100\nfriction = -1.0"), "scene.toml:14: friction is -1; allowed: a finite number >= 0");
+    assert_eq!(
+        scene("layers = 100\nfriction = -1.0"),
+        "scene.toml:14: friction is -1.0; allowed: a finite number >= 0"
+    );
     let unknown = scene("layers = 100\nspeeed = 3.0");
     assert!(
         unknown.starts_with("scene.toml:14: unknown field `speeed`, did you mean speed? expected one of `name`"),

@@ -8,17 +8,21 @@ use std::path::Path;
 use nalgebra::{Unit, Vector3};
 use serde::Deserialize;
 use toml::Spanned;
+use toml::de::DeValue;
 
 use super::columns;
 use super::element::Hexahedron;
 use super::newton::COMPONENT_NAMES;
 use super::path::{LoadPath, Point, Step, Target, equal_parts};
+use crate::layers::layered;
 use crate::material::file::MaterialFile;
 use crate::material::file::read_material;
 use crate::material::laws::Laws;
 use crate::units;
 use toron::host::units::UnitSystem;
+use toron_shared::checked::{Checked, Positive, value};
 use toron_shared::error::Error;
+use toron_shared::layers::entries;
 use toron_shared::toml_file::{self, Numbers, Source};
 
 /// Most increments that a path may have, all cycles counted: a point's history is kept in memory until it is written.
@@ -29,8 +33,9 @@ const MOST_INCREMENTS: usize = 1_000_000;
 struct PathFile {
     title: Option<String>,
     units: Spanned<String>,
-    element: Option<Spanned<Numbers<3>>>,
-    material: Option<Spanned<MaterialFile>>,
+    element: Option<Numbers<3, Positive>>,
+    #[serde(rename = "material")]
+    _material: Option<MaterialFile>,
     #[serde(default)]
     point: Vec<Spanned<PointFile>>,
     #[serde(default)]
@@ -49,8 +54,8 @@ struct PlotFile {
 #[serde(deny_unknown_fields)]
 struct PointFile {
     name: Spanned<String>,
-    #[serde(default)]
-    material: MaterialFile,
+    #[serde(rename = "material")]
+    _material: Option<MaterialFile>,
 }
 
 #[derive(Deserialize)]
@@ -58,7 +63,7 @@ struct PointFile {
 struct StepFile {
     name: Option<String>,
     increments: Option<Spanned<usize>>,
-    duration: Option<Spanned<f64>>,
+    duration: Option<Positive>,
     #[serde(default, rename = "F")]
     gradient: BTreeMap<Spanned<String>, Spanned<TargetFile>>,
     #[serde(default, rename = "P")]
@@ -111,7 +116,7 @@ impl LoadPath {
         let points = points(&source, laws, &file, &units)?;
         Ok(LoadPath {
             title: file.title.clone().unwrap_or_else(|| name.to_string()),
-            element: element(&source, file.element.as_ref())?,
+            element: element(&file.element),
             steps: steps(&source, &file.step)?,
             abscissa: abscissa(&source, &file.plot, &points)?,
             units,
@@ -120,12 +125,9 @@ impl LoadPath {
     }
 }
 
-fn element(source: &Source<'_>, size: Option<&Spanned<Numbers<3>>>) -> Result<Hexahedron, Error> {
-    let Some(size) = size else { return Ok(Hexahedron { size: Vector3::repeat(1.0) }) };
-    for length in size.get_ref().0 {
-        source.positive("an edge of the element", length, size.span())?;
-    }
-    Ok(Hexahedron { size: Vector3::from(size.get_ref().0) })
+fn element(size: &Option<Numbers<3, Positive>>) -> Hexahedron {
+    let edges = size.map_or([1.0; 3], |Numbers(edges)| edges.map(|edge| edge.value()));
+    Hexahedron { size: Vector3::from(edges) }
 }
 
 fn abscissa(source: &Source<'_>, plot: &PlotFile, points: &[Point]) -> Result<String, Error> {
@@ -142,19 +144,21 @@ fn abscissa(source: &Source<'_>, plot: &PlotFile, points: &[Point]) -> Result<St
 }
 
 fn points(source: &Source<'_>, laws: Laws, file: &PathFile, units: &UnitSystem) -> Result<Vec<Point>, Error> {
-    let (base, span) = match &file.material {
-        Some(material) => (material.get_ref().clone(), material.span()),
-        None => (MaterialFile::default(), 0..0),
+    let tables = source.tables()?;
+    let base = tables.get_ref().get("material");
+    let read = |table: Option<Spanned<DeValue>>, span| {
+        let file = table.map_or(Ok(MaterialFile::default()), |table| source.read(&table))?;
+        read_material(source, laws, &file, units, span)
     };
     if file.point.is_empty() {
-        let material = read_material(source, laws, &base, units, span)?;
+        let material = read(base.cloned(), base.map_or(0..0, Spanned::span))?;
         return Ok(vec![Point { name: material.label.clone(), material }]);
     }
     let mut points: Vec<Point> = Vec::new();
-    for point in &file.point {
-        let (name, span) = (&point.get_ref().name, point.span());
+    for (point, table) in file.point.iter().zip(entries(tables.get_ref().get("point"))) {
+        let name = &point.get_ref().name;
         let name = source.name_of("point", Some(name), name.span(), points.iter().map(|other| other.name.as_str()))?;
-        let material = read_material(source, laws, &point.get_ref().material.over(&base), units, span)?;
+        let material = read(layered("material", [table.get_ref().get("material"), base]), point.span())?;
         points.push(Point { name, material });
     }
     Ok(points)
@@ -231,10 +235,7 @@ fn read_step(
         Some(increments) if *increments.get_ref() > 0 => *increments.get_ref(),
         Some(increments) => return Err(source.error(increments.span(), "increments is 0; allowed: 1 or more")),
     };
-    let duration = match &file.duration {
-        None => 1.0,
-        Some(duration) => source.positive("duration", *duration.get_ref(), duration.span())?,
-    };
+    let duration = value(&file.duration).unwrap_or(1.0);
     let mut targets = [None; 9];
     for (name, target) in &file.gradient {
         let k = component(source, "F", name)?;

@@ -15,6 +15,7 @@ use crate::units::with_unit;
 use toron::host::units::UnitSystem;
 use toron::law::parameters::{DENSITY, NUMBER, Property};
 use toron::{Criterion, Rotation};
+use toron_shared::checked::{Positive, value};
 use toron_shared::error::Error;
 use toron_shared::numbers::plain;
 use toron_shared::toml_file::{Numbers, Source};
@@ -26,7 +27,7 @@ pub struct MaterialFile {
     preset: Option<Spanned<String>>,
     law: Option<Spanned<LawText>>,
     fibre: Option<Spanned<Numbers<3>>>,
-    density: Option<Spanned<f64>>,
+    density: Option<Positive>,
     frame: Option<Spanned<FrameName>>,
     criterion: Option<Spanned<CriterionName>>,
     #[serde(default)]
@@ -62,7 +63,7 @@ impl MaterialFile {
 
     /// Names and values of what the file itself gives. A fibre is a place rather than a yarn's property.
     fn own(&self) -> impl Iterator<Item = (&str, f64)> {
-        let density = self.density.as_ref().map(|value| ("density", *value.get_ref()));
+        let density = value(&self.density).map(|value| ("density", value));
         let properties = self.properties.iter().map(|(name, value)| (name.get_ref().as_str(), *value.get_ref()));
         density.into_iter().chain(properties)
     }
@@ -84,23 +85,12 @@ impl MaterialFile {
         Origin { source: preset.source.clone(), guesses }
     }
 
-    /// The table that names a preset and nothing else.
-    pub fn of_preset(name: &str, span: Range<usize>) -> MaterialFile {
-        MaterialFile { preset: Some(Spanned::new(span, name.to_string())), ..MaterialFile::default() }
-    }
-
-    /// This table completed by `base`; one that names its own preset or law starts afresh.
-    pub fn over(&self, base: &MaterialFile) -> MaterialFile {
-        if self.preset.is_some() || self.law.is_some() {
-            return self.clone();
+    /// This table, with this preset where it names neither a preset nor a law.
+    pub fn or_preset(mut self, name: &str, span: Range<usize>) -> MaterialFile {
+        if self.yarn().is_none() {
+            self.preset = Some(Spanned::new(span, name.to_string()));
         }
-        let mut merged = base.clone();
-        merged.fibre = self.fibre.clone().or(merged.fibre);
-        merged.density = self.density.clone().or(merged.density);
-        merged.frame = self.frame.clone().or(merged.frame);
-        merged.criterion = self.criterion.clone().or(merged.criterion);
-        merged.properties.extend(self.properties.clone());
-        merged
+        self
     }
 }
 
@@ -136,10 +126,7 @@ pub fn read_material(
         let of_preset = preset.as_ref().and_then(|preset| preset.error_at(index, &message));
         of_preset.unwrap_or_else(|| source.error(file.preset.as_ref().map_or(span, Spanned::span), &message))
     })?;
-    let density = match &file.density {
-        Some(density) => Some(source.positive("density", *density.get_ref(), density.span())?),
-        None => preset.as_ref().and_then(|preset| preset.density_in(units)),
-    };
+    let density = value(&file.density).or(preset.as_ref().and_then(|preset| preset.density_in(units)));
     let origin = preset.as_ref().map_or(Origin::default(), |preset| file.origin(preset));
     let label = preset.map_or_else(|| law_name.text().to_string(), |preset| preset.name);
     Ok(Material { law, density, label, own: file.own_text(law_name.table(), units), origin })

@@ -157,11 +157,11 @@ pub fn material_of_law(
         );
         return Err(source.error(span, &message));
     }
-    let default = MaterialFile::of_preset(preset, choice.span.clone());
     let (file, span) = match table {
-        Some(table) => (table.get_ref().over(&default), table.span()),
-        None => (default, choice.span.clone()),
+        Some(table) => (table.get_ref().clone(), table.span()),
+        None => (MaterialFile::default(), choice.span.clone()),
     };
+    let file = file.or_preset(preset, choice.span.clone());
     let mut material = read_material(source, Laws::Toron, &file, units, span.clone())?;
     let found = material.law.name().text();
     if found != law {

@@ -13,6 +13,7 @@ use crate::units::{self, with_unit};
 use toron::host::units::UnitSystem;
 use toron::law::bounds;
 use toron::law::parameters::{self, DENSITY, Dimension, Property};
+use toron_shared::checked::{Positive, value};
 use toron_shared::error::Error;
 use toron_shared::nearest;
 use toron_shared::numbers::plain;
@@ -86,7 +87,7 @@ struct PresetFile {
     source: Option<Spanned<String>>,
     units: Spanned<String>,
     law: Option<Spanned<LawText>>,
-    density: Option<Spanned<f64>>,
+    density: Option<Positive>,
     #[serde(default)]
     properties: BTreeMap<Spanned<String>, Spanned<f64>>,
     #[serde(default)]
@@ -147,8 +148,6 @@ impl Preset {
         let file: PresetFile = source.parse()?;
         let law = file.law.as_ref().map(|name| law(&source, laws, name)).transpose()?.unwrap_or(laws.first());
         let (values, properties) = preset_values(&source, &file, law.table())?;
-        let density = file.density.as_ref();
-        let density = density.map(|value| source.positive("density", *value.get_ref(), value.span())).transpose()?;
         let label = preset_name(&source, &file)?;
         let given = file.source.as_ref().map(|text| one_line(&source, "source", text)).transpose()?;
         Ok(Preset {
@@ -158,7 +157,7 @@ impl Preset {
             law,
             units: units::system(&source, &file.units)?,
             values,
-            density,
+            density: value(&file.density),
             file: Some(properties),
         })
     }

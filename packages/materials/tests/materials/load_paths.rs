@@ -276,7 +276,7 @@ fn input_errors_name_file_line_and_what_was_expected() {
             3,
             "belongs to the other law",
         ),
-        (format!("element = [1, 0, 1]\n{HEAD}{step}"), 1, "an edge of the element is 0; allowed: a finite number > 0"),
+        (format!("element = [1, 0, 1]\n{HEAD}{step}"), 1, "element is [1, 0, 1]; allowed: each a finite number > 0"),
         ("units = \"si\"\nsteps = [\n".to_string(), 2, ""),
     ];
     for (text, line, wanted) in cases {

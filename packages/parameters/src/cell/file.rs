@@ -4,6 +4,30 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use super::scene::Load;
+use toron_shared::checked::{Bound, Fraction, Number, Positive, Whole};
+
+pub const MOST_FIBRES: usize = 1000;
+
+/// Fibres pressed further than this have no voids left between them.
+pub enum Invariant {}
+
+impl Bound for Invariant {
+    const ALLOWED: &'static str = "a number > 0, up to 0.2";
+
+    fn allows(number: f64) -> bool {
+        number > 0.0 && number <= 0.2
+    }
+}
+
+pub enum Friction {}
+
+impl Bound for Friction {
+    const ALLOWED: &'static str = "a number from 0 to 2";
+
+    fn allows(number: f64) -> bool {
+        (0.0..=2.0).contains(&number)
+    }
+}
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -19,15 +43,15 @@ pub struct SceneFile {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct FibreFile {
-    pub diameter: Spanned<f64>,
-    pub e_1: Spanned<f64>,
-    pub e_2: Spanned<f64>,
+    pub diameter: Positive,
+    pub e_1: Positive,
+    pub e_2: Positive,
     pub nu_12: Spanned<f64>,
     pub nu_23: Spanned<f64>,
-    pub g_12: Spanned<f64>,
-    pub g_23: Option<Spanned<f64>>,
-    pub density: Option<Spanned<f64>>,
-    pub strain_at_failure: Option<Spanned<f64>>,
+    pub g_12: Positive,
+    pub g_23: Option<Spanned<Positive>>,
+    pub density: Option<Positive>,
+    pub strain_at_failure: Option<Positive>,
 }
 
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
@@ -53,25 +77,25 @@ pub struct CellFile {
     pub host: Option<Spanned<HostName>>,
     #[serde(rename = "box")]
     pub walls: Option<Spanned<BoxFile>>,
-    pub friction: Option<Spanned<f64>>,
-    pub elements: Option<Spanned<i64>>,
+    pub friction: Option<Number<Friction>>,
+    pub elements: Option<Whole<1, 40>>,
 }
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct BoxFile {
-    pub rows: Option<Spanned<i64>>,
-    pub fibres_in_row: Option<Spanned<i64>>,
-    pub fibres: Option<Spanned<i64>>,
-    pub seed: Option<Spanned<i64>>,
+    pub rows: Option<Spanned<Whole<1, MOST_FIBRES>>>,
+    pub fibres_in_row: Option<Spanned<Whole<2, MOST_FIBRES>>>,
+    pub fibres: Option<Spanned<Whole<1, MOST_FIBRES>>>,
+    pub seed: Option<Spanned<u64>>,
 }
 
 #[derive(Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct LoadsFile {
-    pub largest: Option<Spanned<f64>>,
-    pub largest_distortion: Option<Spanned<f64>>,
-    pub increments: Option<Spanned<i64>>,
+    pub largest: Option<Number<Invariant>>,
+    pub largest_distortion: Option<Number<Invariant>>,
+    pub increments: Option<Whole<1, 1000>>,
     pub kinds: Option<Spanned<Vec<Load>>>,
 }
 
@@ -80,5 +104,5 @@ pub struct LoadsFile {
 pub struct YarnFile {
     pub name: Option<Spanned<String>>,
     pub source: Option<String>,
-    pub volume_fraction: Option<Spanned<f64>>,
+    pub volume_fraction: Option<Fraction>,
 }

@@ -1,10 +1,17 @@
 //! The tables of a scene's TOML file: the scene's own and its cases', and which of their keys nothing reads.
 
+use std::ops::Range;
+
 use serde::Deserialize;
+use serde::de::IgnoredAny;
 use toml::Spanned;
+use toml::de::DeValue;
 
 use super::scene::Walls;
-use toron_shared::toml_file::{Unused, over};
+use toron_materials::layers::CaseTable;
+use toron_shared::checked::{Bound, Fraction, NotNegative, Number, Positive, Whole};
+use toron_shared::error::Error;
+use toron_shared::toml_file::{Source, Unused};
 
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
 #[serde(rename_all = "kebab-case")]
@@ -34,67 +41,67 @@ pub enum StrikerName {
 pub struct SceneFile {
     pub title: Option<String>,
     pub units: Spanned<String>,
-    pub scene: Spanned<CaseFile>,
-    #[serde(default)]
-    pub case: Vec<Spanned<CaseFile>>,
+    // Scene and cases are read in layers.
+    #[serde(rename = "scene")]
+    _scene: IgnoredAny,
+    #[serde(rename = "case")]
+    _case: Option<Vec<IgnoredAny>>,
 }
 
-#[derive(Clone, Deserialize)]
+pub enum Share {}
+
+impl Bound for Share {
+    const ALLOWED: &'static str = "a number > 0 and < 1";
+
+    fn allows(number: f64) -> bool {
+        number > 0.0 && number < 1.0
+    }
+}
+
+#[derive(Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct FibreFile {
-    pub diameter: Option<Spanned<f64>>,
-    pub modulus: Option<Spanned<f64>>,
-    pub density: Option<Spanned<f64>>,
-    pub strain_at_failure: Option<Spanned<f64>>,
+    pub diameter: Option<Positive>,
+    pub modulus: Option<Positive>,
+    pub density: Option<Positive>,
+    pub strain_at_failure: Option<Fraction>,
 }
 
-/// The scene's table, and what a case has otherwise.
-#[derive(Clone, Deserialize)]
+/// The scene's table, or a case's.
+#[derive(Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct CaseFile {
     pub name: Option<Spanned<String>>,
     pub fibre: Option<Spanned<FibreFile>>,
-    pub half_length: Option<Spanned<f64>>,
-    pub spacing: Option<Spanned<f64>>,
-    pub fibres: Option<Spanned<i64>>,
+    pub half_length: Option<Spanned<Positive>>,
+    pub spacing: Option<Spanned<Positive>>,
+    pub fibres: Option<Spanned<Whole<1, 100_000>>>,
     pub section: Option<SectionName>,
-    pub aspect: Option<Spanned<f64>>,
-    pub width: Option<Spanned<f64>>,
-    pub height: Option<Spanned<f64>>,
+    pub aspect: Option<Spanned<Positive>>,
+    pub width: Option<Spanned<Positive>>,
+    pub height: Option<Spanned<Positive>>,
     pub packing: Option<PackingName>,
-    pub seed: Option<Spanned<i64>>,
+    pub seed: Option<Spanned<u64>>,
     pub contact: Option<Spanned<Vec<f64>>>,
-    pub contact_length: Option<Spanned<f64>>,
-    pub friction: Option<Spanned<f64>>,
+    pub contact_length: Option<Positive>,
+    pub friction: Option<NotNegative>,
     pub striker: Option<StrikerName>,
-    pub speed: Option<Spanned<f64>>,
-    pub ramp: Option<Spanned<f64>>,
-    pub radius: Option<Spanned<f64>>,
-    pub mass: Option<Spanned<f64>>,
+    pub speed: Option<Spanned<Positive>>,
+    pub ramp: Option<Spanned<NotNegative>>,
+    pub radius: Option<Spanned<Positive>>,
+    pub mass: Option<Spanned<Positive>>,
     pub held: Option<Spanned<bool>>,
-    pub projectile_friction: Option<Spanned<f64>>,
-    pub projectile_stiffness: Option<Spanned<f64>>,
-    pub end: Option<Spanned<f64>>,
+    pub projectile_friction: Option<Spanned<NotNegative>>,
+    pub projectile_stiffness: Option<Spanned<Positive>>,
+    pub end: Option<Positive>,
     pub sample: Option<Spanned<f64>>,
     pub pictures: Option<Spanned<Vec<f64>>>,
     pub step: Option<Spanned<f64>>,
     pub walls: Option<Spanned<Walls>>,
-    pub closing: Option<Spanned<f64>>,
-    pub damping: Option<Spanned<f64>>,
+    pub closing: Option<Spanned<Number<Share>>>,
+    pub damping: Option<Spanned<NotNegative>>,
     pub preset: Option<Spanned<String>>,
     pub law: Option<Spanned<String>>,
-}
-
-impl FibreFile {
-    fn over(&self, base: &FibreFile) -> FibreFile {
-        let (own, base) = (self.clone(), base.clone());
-        FibreFile {
-            diameter: own.diameter.or(base.diameter),
-            modulus: own.modulus.or(base.modulus),
-            density: own.density.or(base.density),
-            strain_at_failure: own.strain_at_failure.or(base.strain_at_failure),
-        }
-    }
 }
 
 impl CaseFile {
@@ -109,10 +116,18 @@ impl CaseFile {
     pub fn packing(&self) -> PackingName {
         self.packing.unwrap_or(PackingName::Hexagonal)
     }
+}
 
-    /// A key of this table that none of these cases reads: its place, and the message.
-    pub fn unused(&self, cases: &[&CaseFile]) -> Unused {
-        let number = |value: &Option<Spanned<f64>>| value.as_ref().map(Spanned::span);
+impl CaseTable for CaseFile {
+    fn read(source: &Source, table: &Spanned<DeValue>) -> Result<CaseFile, Error> {
+        source.read(table)
+    }
+
+    fn name(&self) -> Option<&Spanned<String>> {
+        self.name.as_ref()
+    }
+
+    fn unused(&self, cases: &[&CaseFile]) -> Unused {
         let strikers = |allowed: &[StrikerName]| cases.iter().any(|case| allowed.contains(&case.striker()));
         let strikes = strikers(&[StrikerName::Cylinder]);
         let drives = strikers(&[StrikerName::Driven]);
@@ -129,64 +144,30 @@ impl CaseFile {
         let long = "an ellipse or a box; allowed: with section = \"ellipse\" or \"box\"";
         let random = "a random packing; allowed: with packing = \"random\"";
         let keys = [
-            ("mass", number(&self.mass), strikes, cylinder),
-            ("radius", number(&self.radius), strikes, cylinder),
-            ("held", self.held.as_ref().map(Spanned::span), strikes, cylinder),
-            ("projectile-friction", number(&self.projectile_friction), strikes, cylinder),
-            ("projectile-stiffness", number(&self.projectile_stiffness), strikes, cylinder),
-            ("law", self.law.as_ref().map(Spanned::span), strikes, cylinder),
-            ("ramp", number(&self.ramp), drives, driven),
-            ("half-length", number(&self.half_length), along, struck),
-            ("spacing", number(&self.spacing), along, struck),
-            ("speed", number(&self.speed), along, struck),
-            ("walls", self.walls.as_ref().map(Spanned::span), presses, walls),
-            ("closing", number(&self.closing), presses, walls),
-            ("damping", number(&self.damping), presses, walls),
-            ("preset", self.preset.as_ref().map(Spanned::span), presses, walls),
-            ("width", number(&self.width), sections(&[SectionName::Circle, SectionName::Ellipse]), round),
-            ("height", number(&self.height), sections(&[SectionName::Ellipse]), ellipse),
-            ("aspect", number(&self.aspect), sections(&[SectionName::Ellipse, SectionName::Box]), long),
-            ("seed", self.seed.as_ref().map(Spanned::span), is_random, random),
+            ("mass", place(&self.mass), strikes, cylinder),
+            ("radius", place(&self.radius), strikes, cylinder),
+            ("held", place(&self.held), strikes, cylinder),
+            ("projectile-friction", place(&self.projectile_friction), strikes, cylinder),
+            ("projectile-stiffness", place(&self.projectile_stiffness), strikes, cylinder),
+            ("law", place(&self.law), strikes, cylinder),
+            ("ramp", place(&self.ramp), drives, driven),
+            ("half-length", place(&self.half_length), along, struck),
+            ("spacing", place(&self.spacing), along, struck),
+            ("speed", place(&self.speed), along, struck),
+            ("walls", place(&self.walls), presses, walls),
+            ("closing", place(&self.closing), presses, walls),
+            ("damping", place(&self.damping), presses, walls),
+            ("preset", place(&self.preset), presses, walls),
+            ("width", place(&self.width), sections(&[SectionName::Circle, SectionName::Ellipse]), round),
+            ("height", place(&self.height), sections(&[SectionName::Ellipse]), ellipse),
+            ("aspect", place(&self.aspect), sections(&[SectionName::Ellipse, SectionName::Box]), long),
+            ("seed", place(&self.seed), is_random, random),
         ];
         let (key, span, _, message) = keys.into_iter().find(|(_, span, is_read, _)| span.is_some() && !is_read)?;
         Some((span?, format!("{key} belongs to {message}")))
     }
+}
 
-    /// This table, with the keys of `base` where it has none.
-    pub fn over(&self, base: &CaseFile) -> CaseFile {
-        let (own, base) = (self.clone(), base.clone());
-        CaseFile {
-            name: own.name,
-            fibre: over(&own.fibre, &base.fibre, FibreFile::over),
-            half_length: own.half_length.or(base.half_length),
-            spacing: own.spacing.or(base.spacing),
-            fibres: own.fibres.or(base.fibres),
-            section: own.section.or(base.section),
-            aspect: own.aspect.or(base.aspect),
-            width: own.width.or(base.width),
-            height: own.height.or(base.height),
-            packing: own.packing.or(base.packing),
-            seed: own.seed.or(base.seed),
-            contact: own.contact.or(base.contact),
-            contact_length: own.contact_length.or(base.contact_length),
-            friction: own.friction.or(base.friction),
-            striker: own.striker.or(base.striker),
-            speed: own.speed.or(base.speed),
-            ramp: own.ramp.or(base.ramp),
-            radius: own.radius.or(base.radius),
-            mass: own.mass.or(base.mass),
-            held: own.held.or(base.held),
-            projectile_friction: own.projectile_friction.or(base.projectile_friction),
-            projectile_stiffness: own.projectile_stiffness.or(base.projectile_stiffness),
-            end: own.end.or(base.end),
-            sample: own.sample.or(base.sample),
-            pictures: own.pictures.or(base.pictures),
-            step: own.step.or(base.step),
-            walls: own.walls.or(base.walls),
-            closing: own.closing.or(base.closing),
-            damping: own.damping.or(base.damping),
-            preset: own.preset.or(base.preset),
-            law: own.law.or(base.law),
-        }
-    }
+fn place<T>(value: &Option<Spanned<T>>) -> Option<Range<usize>> {
+    value.as_ref().map(Spanned::span)
 }

@@ -8,16 +8,16 @@ use toml::Spanned;
 use super::file::{CaseFile, FibreFile, PackingName, SceneFile, SectionName, StrikerName};
 use super::scene::{Case, Contact, Fibre, Outline, Packing, Scene, SectionLaw, Striker, Walls};
 use toron::host::units::UnitSystem;
-use toron_explicit_host::control_keys::zero_or_more;
+use toron_materials::layers::{self, Case as CaseTables};
 use toron_materials::material::laws::Laws;
 use toron_materials::material::preset::Preset;
 use toron_materials::units::{self, SPEED};
+use toron_shared::checked::{Checked, value};
 use toron_shared::error::Error;
 use toron_shared::toml_file::{self, Source};
 
 /// A bead takes some 600 bytes in LAMMPS, and its identifiers have 31 bits.
 const MOST_BEADS: f64 = 1e9;
-const MOST_FIBRES: i64 = 100_000;
 /// Samples of a history where the file does not say otherwise.
 const SAMPLES: f64 = 200.0;
 /// The step as a part of the largest that is stable, where the file does not say otherwise.
@@ -48,36 +48,27 @@ impl Scene {
     /// An input error that names file, line, value and what is allowed.
     pub fn parse(name: &str, text: &str) -> Result<Scene, Error> {
         let source = Source { name, text };
+        let tables = source.tables()?;
+        layers::check::<CaseFile>(&source, tables.get_ref())?;
         let file: SceneFile = source.parse()?;
         let units = units::system(&source, &file.units)?;
-        let base = file.scene.get_ref();
-        if let Some(name) = &base.name {
-            return Err(source.error(name.span(), "name in [scene]; allowed: in a [[case]]"));
-        }
-        let tables: Vec<CaseFile> = file.case.iter().map(|case| case.get_ref().over(base)).collect();
-        let mut cases: Vec<Case> = Vec::new();
-        if file.case.is_empty() {
-            source.refuse_unused(base.unused(&[base]))?;
-            cases.push(
-                Reader { source: &source, units: &units, file: base, span: file.scene.span() }
-                    .case("scene".to_string())?,
-            );
-        } else {
-            source.refuse_unused(base.unused(&tables.iter().collect::<Vec<_>>()))?;
-        }
-        for (case, table) in file.case.iter().zip(&tables) {
-            let taken = COMMON.into_iter().chain(cases.iter().map(|other| other.name.as_str()));
-            let given = case.get_ref().name.as_ref();
-            let name = source.name_of("case", given, case.span(), taken)?;
-            if name.to_ascii_lowercase().starts_with("fit-") {
-                let message = format!("case \"{name}\", as tables of the fit are called; allowed: another beginning");
-                return Err(source.error(given.map_or(case.span(), Spanned::span), &message));
+        let read = |case: CaseTables<CaseFile>| {
+            if let Some(given) = case.own.name.as_ref().filter(|name| is_of_fit(name.get_ref())) {
+                let message =
+                    format!("case \"{}\", as tables of the fit are called; allowed: another beginning", case.name);
+                return Err(source.error(given.span(), &message));
             }
-            source.refuse_unused(case.get_ref().unused(&[table]))?;
-            cases.push(Reader { source: &source, units: &units, file: table, span: case.span() }.case(name)?);
-        }
+            Reader { source: &source, units: &units, file: &case.table, span: case.span() }.case(case.name.clone())
+        };
+        let cases = layers::cases(&source, tables.get_ref(), &[], &COMMON)?;
+        let cases = cases.into_iter().map(read).collect::<Result<Vec<Case>, Error>>()?;
         Ok(Scene { title: file.title.unwrap_or_else(|| name.to_string()), units, cases })
     }
+}
+
+/// Whether a table of the fit may be called so.
+fn is_of_fit(name: &str) -> bool {
+    name.to_ascii_lowercase().starts_with("fit-")
 }
 
 /// A case's table and what is needed to read it.
@@ -94,11 +85,8 @@ impl Reader<'_> {
         self.source.error(self.span.clone(), &format!("{key} is missing; allowed: {allowed}"))
     }
 
-    fn positive(&self, key: &str, value: &Option<Spanned<f64>>) -> Result<f64, Error> {
-        match value {
-            Some(value) => self.source.positive(key, *value.get_ref(), value.span()),
-            None => Err(self.missing(key, "a finite number > 0")),
-        }
+    fn needed<V: Checked>(&self, key: &str, given: &Option<V>) -> Result<V::Value, Error> {
+        self.source.needed(key, given, self.span.clone())
     }
 
     /// A number above 0, up to a value that a key of this name has; or the default.
@@ -114,7 +102,7 @@ impl Reader<'_> {
 
     fn case(&self, name: String) -> Result<Case, Error> {
         let file = self.file;
-        let end = self.positive("end", &file.end)?;
+        let end = self.needed("end", &file.end)?;
         let fibre = self.fibre()?;
         let [half_length, spacing] = self.lengths(&fibre)?;
         let fibres = self.fibres(half_length / spacing)?;
@@ -125,11 +113,11 @@ impl Reader<'_> {
             spacing,
             fibres,
             outline: self.outline()?,
-            packing: self.packing()?,
+            packing: self.packing(),
             contact: self.contact(&fibre, fibres)?,
-            friction: zero_or_more(self.source, "friction", &file.friction, 0.0)?,
+            friction: value(&file.friction).unwrap_or(0.0),
             striker: self.striker(&fibre, spacing)?,
-            speed: if is_pressed { 0.0 } else { self.positive("speed", &file.speed)? },
+            speed: if is_pressed { 0.0 } else { self.needed("speed", &file.speed)? },
             end,
             sample: self.up_to("sample", &file.sample, ("end", end), end / SAMPLES)?,
             pictures: self.source.pictures(&file.pictures, &name, end)?,
@@ -146,8 +134,8 @@ impl Reader<'_> {
         if file.striker() == StrikerName::Walls {
             return Ok([fibre.diameter; 2]);
         }
-        let half_length = self.positive("half-length", &file.half_length)?;
-        let spacing = self.positive("spacing", &file.spacing)?;
+        let half_length = self.needed("half-length", &file.half_length)?;
+        let spacing = self.needed("spacing", &file.spacing)?;
         if spacing > 0.5 * half_length {
             let message =
                 format!("spacing is {spacing}; allowed: a number > 0, up to half of half-length = {half_length}");
@@ -161,7 +149,7 @@ impl Reader<'_> {
             return Err(self.missing("fibre", "{ diameter, modulus, density, strain-at-failure }"));
         };
         let FibreFile { diameter, modulus, density, strain_at_failure } = table.get_ref();
-        let [modulus, density] = [self.positive("modulus", modulus)?, self.positive("density", density)?];
+        let [modulus, density] = [self.needed("modulus", modulus)?, self.needed("density", density)?];
         // Outside of this no fibre is, and the units are not those that were meant.
         let wave = (modulus / density).sqrt() / self.units.from_si(1.0, SPEED);
         if !WAVES.contains(&wave) {
@@ -172,72 +160,50 @@ impl Reader<'_> {
             return Err(self.source.error(table.span(), &message));
         }
         Ok(Fibre {
-            diameter: self.positive("diameter", diameter)?,
+            diameter: self.needed("diameter", diameter)?,
             modulus,
             density,
-            strain_at_failure: match strain_at_failure {
-                None => None,
-                Some(_) => {
-                    Some(self.up_to("strain-at-failure", strain_at_failure, ("the stretch of a fibre", 1.0), 1.0)?)
-                }
-            },
+            strain_at_failure: value(strain_at_failure),
         })
     }
 
     fn fibres(&self, beads: f64) -> Result<usize, Error> {
-        let allowed = format!("a whole number from 1 to {MOST_FIBRES}");
-        let Some(fibres) = &self.file.fibres else { return Err(self.missing("fibres", &allowed)) };
-        let count = *fibres.get_ref();
-        if !(1..=MOST_FIBRES).contains(&count) {
-            return Err(self.source.error(fibres.span(), &format!("fibres is {count}; allowed: {allowed}")));
-        }
+        let count = self.needed("fibres", &self.file.fibres)?;
         let all = count as f64 * beads;
-        if all > MOST_BEADS {
+        if let Some(given) = self.file.fibres.as_ref().filter(|_| all > MOST_BEADS) {
             let message = format!("fibres of this spacing make {all:.2e} beads; allowed: up to {MOST_BEADS:.0e}");
-            return Err(self.source.error(fibres.span(), &message));
+            return Err(self.source.error(given.span(), &message));
         }
-        Ok(count as usize)
+        Ok(count)
     }
 
     fn outline(&self) -> Result<Outline, Error> {
         let file = self.file;
-        match file.section() {
-            SectionName::Circle if file.width.is_some() => Ok(Outline::Size([self.positive("width", &file.width)?; 2])),
-            SectionName::Circle => Ok(Outline::Aspect(1.0)),
-            SectionName::Box => match &file.aspect {
-                None => Ok(Outline::Box(1.0)),
-                Some(_) => Ok(Outline::Box(self.positive("aspect", &file.aspect)?)),
-            },
-            SectionName::Ellipse => match (&file.aspect, &file.width, &file.height) {
-                (None, Some(_), Some(_)) => {
-                    Ok(Outline::Size([self.positive("width", &file.width)?, self.positive("height", &file.height)?]))
-                }
-                (Some(_), None, None) => Ok(Outline::Aspect(self.positive("aspect", &file.aspect)?)),
-                _ => Err(self
-                    .source
-                    .error(self.span.clone(), "section is ellipse; allowed: with aspect, or with width and height")),
-            },
+        let [aspect, width, height] = [value(&file.aspect), value(&file.width), value(&file.height)];
+        match (file.section(), aspect, width, height) {
+            (SectionName::Circle, _, Some(width), _) => Ok(Outline::Size([width; 2])),
+            (SectionName::Circle, ..) => Ok(Outline::Aspect(1.0)),
+            (SectionName::Box, aspect, ..) => Ok(Outline::Box(aspect.unwrap_or(1.0))),
+            (SectionName::Ellipse, None, Some(width), Some(height)) => Ok(Outline::Size([width, height])),
+            (SectionName::Ellipse, Some(aspect), None, None) => Ok(Outline::Aspect(aspect)),
+            (SectionName::Ellipse, ..) => {
+                let message = "section is ellipse; allowed: with aspect, or with width and height";
+                Err(self.source.error(self.span.clone(), message))
+            }
         }
     }
 
-    fn packing(&self) -> Result<Packing, Error> {
-        match (self.file.packing(), &self.file.seed) {
-            (PackingName::Hexagonal, _) => Ok(Packing::Hexagonal),
-            (PackingName::Random, None) => Ok(Packing::Random { seed: 1 }),
-            (PackingName::Random, Some(seed)) => {
-                let number = self.source.seed(seed)?;
-                Ok(Packing::Random { seed: number })
-            }
+    fn packing(&self) -> Packing {
+        match self.file.packing() {
+            PackingName::Hexagonal => Packing::Hexagonal,
+            PackingName::Random => Packing::Random { seed: self.file.seed.as_ref().map_or(1, |seed| *seed.get_ref()) },
         }
     }
 
     /// The force rises with the depth, up to half a fibre.
     fn contact(&self, fibre: &Fibre, fibres: usize) -> Result<Contact, Error> {
         let allowed = "one to three coefficients of a force that rises with the depth, up to a fibre's radius";
-        let length = match self.file.contact_length {
-            None => fibre.diameter,
-            Some(_) => self.positive("contact-length", &self.file.contact_length)?,
-        };
+        let length = value(&self.file.contact_length).unwrap_or(fibre.diameter);
         let Some(given) = &self.file.contact else {
             // A single fibre meets no other.
             let none = Contact { coefficients: [0.0; 3], length };
@@ -278,29 +244,23 @@ impl Reader<'_> {
         let file = self.file;
         if file.striker() == StrikerName::Driven {
             let default = RAMP * spacing / (fibre.modulus / fibre.density).sqrt();
-            return Ok(Striker::Driven { ramp: zero_or_more(self.source, "ramp", &file.ramp, default)? });
+            return Ok(Striker::Driven { ramp: value(&file.ramp).unwrap_or(default) });
         }
         if file.striker() == StrikerName::Walls {
-            let closing = file.closing.as_ref();
-            let share = self.positive("closing", &file.closing)?;
-            if share >= 1.0 {
-                let message = format!("closing is {share}; allowed: a number > 0 and < 1");
-                return Err(self.source.error(closing.map_or(self.span.clone(), Spanned::span), &message));
-            }
             return Ok(Striker::Walls {
                 walls: file.walls.as_ref().map_or(Walls::AllSides, |walls| *walls.get_ref()),
-                closing: share,
-                damping: zero_or_more(self.source, "damping", &file.damping, DAMPING)?,
+                closing: self.needed("closing", &file.closing)?,
+                damping: value(&file.damping).unwrap_or(DAMPING),
                 law: file.preset.as_ref().map(|name| self.law(name)).transpose()?,
             });
         }
         let held = file.held.as_ref().is_some_and(|held| *held.get_ref());
         Ok(Striker::Cylinder {
-            radius: self.positive("radius", &file.radius)?,
-            mass: if held && file.mass.is_none() { 0.0 } else { self.positive("mass", &file.mass)? },
+            radius: self.needed("radius", &file.radius)?,
+            mass: if held && file.mass.is_none() { 0.0 } else { self.needed("mass", &file.mass)? },
             held,
-            friction: zero_or_more(self.source, "projectile-friction", &file.projectile_friction, 0.0)?,
-            stiffness: self.positive("projectile-stiffness", &file.projectile_stiffness)?,
+            friction: value(&file.projectile_friction).unwrap_or(0.0),
+            stiffness: self.needed("projectile-stiffness", &file.projectile_stiffness)?,
         })
     }
 }

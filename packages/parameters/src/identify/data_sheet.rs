@@ -9,6 +9,7 @@ use toron::host::units::UnitSystem;
 use toron::law::parameters::{DENSITY, Dimension, NUMBER, STRESS};
 use toron_materials::unit_expression::{self, Unit};
 use toron_materials::units::{LENGTH, unit};
+use toron_shared::checked::{Checked, Positive, value};
 use toron_shared::error::Error;
 use toron_shared::toml_file::Source;
 
@@ -59,8 +60,8 @@ pub(super) struct DataSheetFile {
     tenacity: Option<Spanned<String>>,
     linear_density: Option<Spanned<String>>,
     filaments: Option<Spanned<u32>>,
-    volume_fraction: Option<Spanned<f64>>,
-    volume_fraction_deviation: Option<Spanned<f64>>,
+    volume_fraction: Option<Spanned<Positive>>,
+    volume_fraction_deviation: Option<Positive>,
     /// Of the yarn's section, voids included.
     area: Option<Spanned<String>>,
 }
@@ -108,9 +109,7 @@ impl DataSheet {
         let solid = linear_density.map(|linear_density| linear_density / density);
         let area = file.area.as_ref().map(|text| one("area", text, AREA)).transpose()?;
         let (fraction, span) = match (&file.volume_fraction, &file.area, solid.zip(area)) {
-            (Some(value), None, _) => {
-                (source.positive("volume_fraction", *value.get_ref(), value.span())?, value.span())
-            }
+            (Some(given), None, _) => (given.value(), given.span()),
             (None, Some(text), Some((solid, area))) => (solid / area, text.span()),
             (None, Some(text), None) => {
                 return Err(
@@ -127,10 +126,7 @@ impl DataSheet {
             let message = format!("the fibres would be {fraction:.4} of the yarn's section; allowed: at most 1");
             return Err(source.error(span, &message));
         }
-        let deviation = file
-            .volume_fraction_deviation
-            .as_ref()
-            .map_or(Ok(0.0), |value| source.positive("volume_fraction_deviation", *value.get_ref(), value.span()))?;
+        let deviation = value(&file.volume_fraction_deviation).unwrap_or(0.0);
         let modulus_deviation =
             file.modulus_deviation.as_ref().map_or(Ok(0.0), |text| stress("modulus_deviation", text))?;
         if let Some(filaments) = file.filaments.as_ref().filter(|filaments| *filaments.get_ref() == 0) {

@@ -19,6 +19,7 @@ use toron::law::parameters::HYPERELASTIC;
 use toron_materials::material::laws::{LawName, Laws};
 use toron_materials::material::preset::{LONGEST_NAME, Preset};
 use toron_materials::units;
+use toron_shared::checked::{Checked, Fraction, Positive, value};
 use toron_shared::error::Error;
 use toron_shared::nearest;
 use toron_shared::toml_file::{self, Numbers, Source};
@@ -54,7 +55,7 @@ impl FitFile {
 struct YarnFile {
     name: Option<Spanned<String>>,
     source: Option<Spanned<String>>,
-    density: Option<Spanned<f64>>,
+    density: Option<Spanned<Positive>>,
     preset: Option<Spanned<String>>,
     #[serde(default)]
     properties: BTreeMap<Spanned<String>, Spanned<f64>>,
@@ -63,12 +64,12 @@ struct YarnFile {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct FibreFile {
-    modulus: Spanned<f64>,
-    volume_fraction: Spanned<f64>,
-    strain_at_failure: Spanned<f64>,
-    modulus_deviation: Option<Spanned<f64>>,
-    volume_fraction_deviation: Option<Spanned<f64>>,
-    strain_at_failure_deviation: Option<Spanned<f64>>,
+    modulus: Positive,
+    volume_fraction: Fraction,
+    strain_at_failure: Fraction,
+    modulus_deviation: Option<Positive>,
+    volume_fraction_deviation: Option<Positive>,
+    strain_at_failure_deviation: Option<Positive>,
 }
 
 /// A data set.
@@ -83,8 +84,8 @@ pub(super) struct DataFile {
     pub ordinate: Option<Spanned<String>>,
     #[serde(default)]
     pub columns: BTreeMap<Spanned<String>, Spanned<String>>,
-    pub length: Option<Spanned<f64>>,
-    pub area: Option<Spanned<f64>>,
+    pub length: Option<Spanned<Positive>>,
+    pub area: Option<Spanned<Positive>>,
     /// Where on the abscissa the specimen is at rest: the slack that a test begins with.
     pub zero: Option<Spanned<f64>>,
     pub range: Option<Spanned<Numbers<2>>>,
@@ -155,18 +156,18 @@ impl Job {
             return Err(source.error(sheet.span(), message));
         }
         let sheet = file.data_sheet.as_ref().map(|sheet| DataSheet::read(&source, sheet)).transpose()?;
-        let fibre = file.fibre.as_ref().map(|fibre| known_fibre(&source, fibre)).transpose()?;
+        let fibre = file.fibre.as_ref().map(|fibre| known_fibre(fibre.get_ref()));
         let fibre = fibre.or_else(|| sheet.as_ref().map(|sheet| sheet.fibre(&units)));
         let base = file.yarn.preset.as_ref().map(|name| base(&source, name, folder)).transpose()?;
         let mut preset = preset_to_be(&source, &file, units)?;
         if let Some(sheet) = &sheet {
             let of_sheet = sheet.density(&units);
             if let Some(given) =
-                file.yarn.density.as_ref().filter(|given| (*given.get_ref() / of_sheet - 1.0).abs() > SAME_DENSITY)
+                file.yarn.density.as_ref().filter(|given| (given.value() / of_sheet - 1.0).abs() > SAME_DENSITY)
             {
                 let message = format!(
                     "density is {}, and by [data_sheet] {of_sheet:.4e}, the fibre's times the volume fraction; allowed: one of them",
-                    given.get_ref()
+                    given.value()
                 );
                 return Err(source.error(given.span(), &message));
             }
@@ -219,29 +220,13 @@ fn start(known: &[Option<f64>; PARAMETERS], base: Option<&Preset>, units: &UnitS
     ALL.map(value)
 }
 
-fn known_fibre(source: &Source<'_>, file: &Spanned<FibreFile>) -> Result<Fibre, Error> {
-    let file = file.get_ref();
-    let constant = |name: &str, value: &Spanned<f64>, deviation: &Option<Spanned<f64>>| {
-        let number = source.positive(name, *value.get_ref(), value.span())?;
-        let deviation = deviation.as_ref().map_or(Ok(0.0), |deviation| {
-            source.positive(&format!("{name}_deviation"), *deviation.get_ref(), deviation.span())
-        })?;
-        Ok(Constant { value: number, deviation })
-    };
-    let fibre = Fibre {
-        modulus: constant("modulus", &file.modulus, &file.modulus_deviation)?,
-        volume_fraction: constant("volume_fraction", &file.volume_fraction, &file.volume_fraction_deviation)?,
-        strain_at_failure: constant("strain_at_failure", &file.strain_at_failure, &file.strain_at_failure_deviation)?,
-    };
-    for (name, value, span) in [
-        ("volume_fraction", fibre.volume_fraction.value, file.volume_fraction.span()),
-        ("strain_at_failure", fibre.strain_at_failure.value, file.strain_at_failure.span()),
-    ] {
-        if value > 1.0 {
-            return Err(source.error(span, &format!("{name} is {value}; allowed: a number > 0, at most 1")));
-        }
+fn known_fibre(file: &FibreFile) -> Fibre {
+    let constant = |number: f64, deviation| Constant { value: number, deviation: value(deviation).unwrap_or(0.0) };
+    Fibre {
+        modulus: constant(file.modulus.value(), &file.modulus_deviation),
+        volume_fraction: constant(file.volume_fraction.value(), &file.volume_fraction_deviation),
+        strain_at_failure: constant(file.strain_at_failure.value(), &file.strain_at_failure_deviation),
     }
-    Ok(fibre)
 }
 
 /// The preset that fills in what nothing else gives.
@@ -266,9 +251,7 @@ fn preset_to_be(source: &Source<'_>, file: &FitFile, units: UnitSystem) -> Resul
     }
     let origin = text(&file.yarn.source).or_else(|| file.title.clone());
     let mut preset = Preset::new(&name, &origin.unwrap_or_else(|| name.clone()), LawName::Hyperelastic, units);
-    if let Some(density) = &file.yarn.density {
-        preset.density = Some(source.positive("density", *density.get_ref(), density.span())?);
-    }
+    preset.density = value(&file.yarn.density);
     for (name, value) in &file.yarn.properties {
         let index = property(source, name.get_ref(), name.span())?;
         let (property, number) = (&HYPERELASTIC[index], *value.get_ref());

@@ -18,6 +18,7 @@ use toron::host::units::UnitSystem;
 use toron::law::parameters::{Dimension, ENERGY_DENSITY, NUMBER};
 use toron_materials::data_table::DataTable;
 use toron_materials::units::unit;
+use toron_shared::checked::{AboveZero, Bound, Checked, Positive};
 use toron_shared::error::Error;
 use toron_shared::toml_file::Source;
 
@@ -340,7 +341,7 @@ impl Reader<'_> {
     pub(super) fn given(
         &self,
         key: &str,
-        value: &Option<Spanned<f64>>,
+        value: &Option<Spanned<Positive>>,
         needed: bool,
         file: &DataFile,
     ) -> Result<f64, Error> {
@@ -349,7 +350,7 @@ impl Reader<'_> {
                 let message = format!("{key} has no use with these quantities; allowed: without it");
                 Err(self.source.error(value.span(), &message))
             }
-            Some(value) => self.source.positive(key, *value.get_ref(), value.span()),
+            Some(given) => Ok(given.value()),
             None if !needed => Ok(1.0),
             None => {
                 let message = format!("{key} is missing: that of the specimen at rest; allowed: a finite number > 0");
@@ -386,9 +387,10 @@ impl Reader<'_> {
     ) -> Result<Option<Vec<f64>>, Error> {
         let Some(deviation) = &file.deviation else { return Ok(None) };
         match deviation.get_ref() {
+            DeviationFile::Number(value) if AboveZero::allows(*value) => Ok(Some(vec![*value; rows.len()])),
             DeviationFile::Number(value) => {
-                let value = self.source.positive("deviation", *value, deviation.span())?;
-                Ok(Some(vec![value; rows.len()]))
+                let message = format!("deviation is {value}; allowed: {}", AboveZero::ALLOWED);
+                Err(self.source.error(deviation.span(), &message))
             }
             DeviationFile::Column(name) => {
                 let values = table.values(name, dimension, self.units)?;

@@ -1,13 +1,15 @@
 //! The tables of a scene's TOML file: the weave, the scene's own table and its cases'.
 
 use serde::Deserialize;
+use serde::de::IgnoredAny;
 use toml::Spanned;
 
-use crate::struck::keys::{Keys, case_file, with_common_keys};
+use crate::struck::keys::{Keys, Table, Target};
 use crate::struck::shots::ShotsFile;
 use crate::weave::file::{PlyFile, WeaveFile};
 use crate::weave::foreign::file::MeshFile;
 use toron_materials::material::of_law::LawName;
+use toron_shared::checked::{Checked, NotNegative, Positive};
 use toron_shared::toml_file::{Numbers, Unused};
 
 #[derive(Deserialize)]
@@ -15,30 +17,35 @@ use toron_shared::toml_file::{Numbers, Unused};
 pub struct SceneFile {
     pub title: Option<String>,
     pub units: Spanned<String>,
-    pub weave: Option<Spanned<WeaveFile>>,
-    #[serde(default)]
-    pub ply: Vec<Spanned<PlyFile>>,
-    pub mesh: Option<Spanned<MeshFile>>,
-    pub scene: Spanned<CaseFile>,
+    // These are read in layers; here only what is wrong in them is found.
+    #[serde(rename = "weave")]
+    _weave: Option<WeaveFile>,
+    #[serde(rename = "ply")]
+    _ply: Option<Vec<PlyFile>>,
+    #[serde(rename = "mesh")]
+    _mesh: Option<MeshFile>,
+    #[serde(rename = "scene")]
+    _scene: IgnoredAny,
     pub shots: Option<ShotsFile>,
-    #[serde(default)]
-    pub case: Vec<Spanned<CaseFile>>,
+    #[serde(rename = "case")]
+    _case: Option<Vec<IgnoredAny>>,
 }
 
-with_common_keys!(case_file! {
-    {
-        weave: Spanned<WeaveFile>,
-        ply: Vec<Spanned<PlyFile>>,
-        mesh: Spanned<MeshFile>,
-        shape: ShapeName,
-        length: Spanned<f64>,
-        aim: Spanned<Numbers<2>>,
-        striker_density: Spanned<f64>,
-        hyperelastic_radius: Spanned<f64>,
-        rim: Rim,
-        yarn_friction: Spanned<f64>,
-    }
-});
+/// The keys of a panel and of what strikes it.
+#[derive(Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub struct PanelKeys {
+    pub weave: Option<Spanned<WeaveFile>>,
+    pub ply: Option<Vec<PlyFile>>,
+    pub mesh: Option<Spanned<MeshFile>>,
+    shape: Option<ShapeName>,
+    pub length: Option<Spanned<Positive>>,
+    pub aim: Option<Spanned<Numbers<2>>>,
+    pub striker_density: Option<Spanned<Positive>>,
+    pub hyperelastic_radius: Option<Spanned<Positive>>,
+    pub rim: Option<Rim>,
+    pub yarn_friction: Option<NotNegative>,
+}
 
 /// How the yarns' ends at the panel's outline are held.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
@@ -59,23 +66,25 @@ pub enum ShapeName {
     Hemisphere,
 }
 
-impl CaseFile {
+impl PanelKeys {
     pub fn shape(&self) -> ShapeName {
         self.shape.unwrap_or_default()
     }
+}
 
+impl Target for PanelKeys {
     /// A material or a radius of this table that none of these cases has a law for, or a length that none has a
     /// cylinder for.
-    pub fn unused(&self, cases: &[&CaseFile]) -> Unused {
-        let keys: Vec<&Keys> = cases.iter().map(|case| &case.keys).collect();
-        let length = self.length.as_ref().filter(|_| cases.iter().all(|case| case.shape() == ShapeName::Sphere));
-        let of_sphere = length.map(|length| {
-            let message = format!("length is {}; allowed: with shape = \"flat\" or \"hemisphere\"", length.get_ref());
+    fn unused(table: &Table<PanelKeys>, cases: &[&Table<PanelKeys>]) -> Unused {
+        let keys: Vec<&Keys> = cases.iter().map(|case| &case.common).collect();
+        let are_spheres = cases.iter().all(|case| case.target.shape() == ShapeName::Sphere);
+        let of_sphere = table.target.length.as_ref().filter(|_| are_spheres).map(|length| {
+            let message = format!("length is {}; allowed: with shape = \"flat\" or \"hemisphere\"", length.value());
             (length.span(), message)
         });
-        self.keys.unused(&keys).or(of_sphere).or_else(|| {
-            let radius = self.hyperelastic_radius.as_ref()?;
-            let message = format!("hyperelastic-radius is {}; allowed: with law = \"hybrid\"", radius.get_ref());
+        table.common.unused(&keys).or(of_sphere).or_else(|| {
+            let radius = table.target.hyperelastic_radius.as_ref()?;
+            let message = format!("hyperelastic-radius is {}; allowed: with law = \"hybrid\"", radius.value());
             keys.iter().all(|keys| keys.law() != LawName::Hybrid).then(|| (radius.span(), message))
         })
     }

@@ -6,31 +6,30 @@ use std::sync::Arc;
 
 use toml::Spanned;
 
-use super::file::{CaseFile, Rim, SceneFile, ShapeName};
+use super::file::{PanelKeys, Rim, SceneFile, ShapeName};
 use super::scene::{Case, Scene, Striker};
-use crate::struck::keys::{self, Reader};
+use crate::struck::keys::{Reader, Table, read_cases};
 use crate::struck::shots::read_shots;
 use crate::weave::cloth::Cloth;
 use crate::weave::cloth::read_cloth;
-use crate::weave::file::{PlyFile, WeaveFile};
-use crate::weave::foreign::file::MeshFile;
-use crate::weave::geometry::Family;
+use crate::weave::file::{PlyTables, plies};
 use crate::weave::layup::Ply;
 use crate::weave::panel::Part;
-use crate::weave::reader::layup;
 use toron::law::parameters::DENSITY;
 use toron_explicit_host::contact::{Rigid, Shape};
-use toron_explicit_host::control_keys::zero_or_more;
 use toron_explicit_host::medium::Control;
 use toron_explicit_host::mutual_contact::Parameters;
 use toron_explicit_host::struck::blow::DENSITIES;
+use toron_materials::layers::{self, Case as CaseTables};
 use toron_materials::material::file::MaterialFile;
 use toron_materials::material::model::Material;
 use toron_materials::material::of_law::{HYPERELASTIC, LINEAR_ELASTIC, LawName};
 use toron_materials::units;
+use toron_shared::checked::{Checked, Positive, value};
 use toron_shared::error::Error;
+use toron_shared::layers::entries;
 use toron_shared::numbers::number;
-use toron_shared::toml_file::{self, Numbers, Source, over};
+use toron_shared::toml_file::{self, Numbers, Source};
 
 /// Samples of a history where the file does not say otherwise.
 const SAMPLES: f64 = 400.0;
@@ -58,28 +57,17 @@ impl Scene {
     /// An input error that names file, line, value and what is allowed.
     pub fn parse(name: &str, text: &str) -> Result<Scene, Error> {
         let source = Source { name, text };
+        let tables = source.tables()?;
+        layers::check::<Table<PanelKeys>>(&source, tables.get_ref())?;
         let file: SceneFile = source.parse()?;
         let units = units::system(&source, &file.units)?;
-        let cloth = Arc::new(read_cloth(&source, file.weave.as_ref(), &file.ply, file.mesh.as_ref(), &units)?);
-        let CaseFile { weave, ply, mesh, .. } = file.scene.get_ref();
-        let tables = [
-            weave.as_ref().map(|table| (table.span(), "weave in [scene]; allowed: [weave], or in a [[case]]")),
-            ply.as_ref().map(|_| (file.scene.span(), "ply in [scene]; allowed: [[ply]], or in a [[case]]")),
-            mesh.as_ref().map(|table| (table.span(), "mesh in [scene]; allowed: [mesh], or in a [[case]]")),
-        ];
-        if let Some((span, message)) = tables.into_iter().flatten().next() {
-            return Err(source.error(span, message));
-        }
-        let cases = keys::cases(
-            (&source, &units),
-            (&file.scene, &file.case),
-            &["summary"],
-            CaseFile::unused,
-            |reader, [file_of_case, _], name| {
-                let (cloth, threads) = reader.cloth_of_case(&file, file_of_case, &cloth)?;
-                reader.panel_case(file_of_case, cloth, threads, name)
-            },
-        )?;
+        let cloth = Arc::new(read_cloth(&source, tables.get_ref(), &units, None)?);
+        let beside = ["weave", "ply", "mesh"];
+        let cases = read_cases((&source, &units), tables.get_ref(), &beside, &["summary"], |reader, case| {
+            let cloth = reader.cloth(case, &cloth)?;
+            let threads = reader.threads(case, &cloth)?;
+            reader.panel_case(&case.table.target, cloth, threads, case.name.clone())
+        })?;
         let inner = || cases.iter().map(|case| case.zones.inner());
         let shots = file.shots.as_ref().map(|shots| read_shots(&source, shots, &units, inner())).transpose()?;
         Ok(Scene { title: file.title.unwrap_or_else(|| name.to_string()), units, cases, shots })
@@ -88,49 +76,27 @@ impl Scene {
 
 /// Materials of warp and weft of each ply.
 type Threads = Vec<[Option<Box<Material>>; 2]>;
+type PanelCase<'t> = CaseTables<'t, Table<PanelKeys>>;
 
 impl Reader<'_> {
-    /// What a case strikes: the scene's weave or mesh, with what the case has otherwise, and the materials of its own
-    /// yarns.
-    fn cloth_of_case(
-        &self,
-        scene: &SceneFile,
-        case: &CaseFile,
-        cloth: &Arc<Cloth>,
-    ) -> Result<(Arc<Cloth>, Threads), Error> {
-        if let Some(mesh) = &case.mesh {
-            let mesh = over(&Some(mesh.clone()), &scene.mesh, MeshFile::over);
-            let plies = case.ply.as_deref().unwrap_or_default();
-            let foreign = read_cloth(self.source, case.weave.as_ref(), plies, mesh.as_ref(), self.units)?;
-            return Ok((Arc::new(foreign), vec![[None, None]]));
+    /// What a case strikes: the scene's panel, where it has nothing otherwise.
+    fn cloth(&self, case: &PanelCase, of_scene: &Arc<Cloth>) -> Result<Arc<Cloth>, Error> {
+        let PanelKeys { weave, ply, mesh, .. } = &case.own.target;
+        if weave.is_none() && ply.is_none() && mesh.is_none() {
+            return Ok(of_scene.clone());
         }
-        let plies = case.ply.as_ref().unwrap_or(&scene.ply);
-        let weave = over(&case.weave, &scene.weave, WeaveFile::over);
-        // The scene's is a mesh.
-        let Some(weave) = weave.filter(|_| case.weave.is_some() || scene.mesh.is_none()) else {
-            return match case.ply.as_ref().and_then(|plies| plies.first()) {
-                Some(ply) => Err(self.source.error(ply.span(), "[[ply]] beside [mesh]; allowed: with [weave]")),
-                None => Ok((cloth.clone(), vec![[None, None]])),
-            };
-        };
-        let cloth = if case.weave.is_none() && case.ply.is_none() {
-            cloth.clone()
-        } else {
-            let own = case.weave.as_ref().map(Spanned::span);
-            Arc::new(Cloth::Woven(layup(self.source, &weave, plies, self.units, own)?))
-        };
-        let threads = self.threads(weave.get_ref(), plies, &cloth)?;
-        Ok((cloth, threads))
+        let own = weave.as_ref().map(Spanned::span);
+        Ok(Arc::new(read_cloth(self.source, case.data.get_ref(), self.units, own)?))
     }
 
-    fn panel_case(&self, file: &CaseFile, cloth: Arc<Cloth>, threads: Threads, name: String) -> Result<Case, Error> {
+    fn panel_case(&self, file: &PanelKeys, cloth: Arc<Cloth>, threads: Threads, name: String) -> Result<Case, Error> {
         let keys = self.keys;
         let plan = self.plan(&name, SAMPLES)?;
-        let stiffness = self.positive("contact-stiffness", &keys.contact_stiffness)?;
+        let stiffness = self.needed("contact-stiffness", &keys.contact_stiffness)?;
         let [_, height] = cloth.yarn_heights();
         let pressed_at_rest = cloth.coarse_radius().is_none();
         let [friction, of_yarns] = FRICTION;
-        let zones = self.zones(|| self.positive("hyperelastic-radius", &file.hyperelastic_radius))?;
+        let zones = self.zones(|| self.needed("hyperelastic-radius", &file.hyperelastic_radius))?;
         let material = |own: &Option<Box<Material>>| own.as_deref().unwrap_or(zones.inner()).name();
         let materials: Vec<[String; 2]> = threads.iter().map(|ply| ply.each_ref().map(material)).collect();
         let strength = self.panel_strength(&cloth, &materials)?;
@@ -138,9 +104,9 @@ impl Reader<'_> {
         Ok(Case {
             sphere: Rigid {
                 shape: shape(file),
-                radius: self.positive("radius", &keys.radius)?,
+                radius: self.needed("radius", &keys.radius)?,
                 stiffness,
-                friction: zero_or_more(self.source, "friction", &keys.friction, friction)?,
+                friction: value(&keys.friction).unwrap_or(friction),
                 aim: self.aim(file, &cloth)?,
             },
             cloth,
@@ -153,13 +119,13 @@ impl Reader<'_> {
             held: file.rim != Some(Rim::Free),
             mutual: Parameters {
                 stiffness,
-                friction: zero_or_more(self.source, "yarn-friction", &file.yarn_friction, of_yarns)?,
+                friction: value(&file.yarn_friction).unwrap_or(of_yarns),
                 margin: MARGIN * height,
                 deepest: DEEPEST * height,
                 // The chords of a coarse mesh go into each other where the yarns that they stand for touch.
                 pressed_at_rest,
             },
-            control: Control { by_direction: true, ..self.control()? },
+            control: Control { by_direction: true, ..self.control() },
             plan,
             single_precision: keys.is_single_precision(),
             name,
@@ -167,7 +133,7 @@ impl Reader<'_> {
     }
 
     /// Where the panel is struck; a part of one is struck where its planes of symmetry meet.
-    fn aim(&self, file: &CaseFile, cloth: &Cloth) -> Result<[f64; 2], Error> {
+    fn aim(&self, file: &PanelKeys, cloth: &Cloth) -> Result<[f64; 2], Error> {
         let Some(aim) = &file.aim else { return Ok([0.0; 2]) };
         let Numbers([x, y]) = *aim.get_ref();
         let allowed = match cloth.part() {
@@ -180,16 +146,16 @@ impl Reader<'_> {
         Err(self.source.error(aim.span(), &format!("aim is [{x}, {y}]; allowed: {allowed}")))
     }
 
-    /// What the yarns of each ply are made of, warp and weft, where the tables say it.
-    fn threads(&self, weave: &WeaveFile, plies: &[Spanned<PlyFile>], cloth: &Cloth) -> Result<Threads, Error> {
-        let none = PlyFile::default();
-        let plies = plies.iter().map(Spanned::get_ref).chain(plies.is_empty().then_some(&none));
-        let of_ply = |(file, laid): (&PlyFile, &Ply)| {
-            let [warp, weft] = Family::BOTH.map(|family| self.thread_material(file.material(weave, family)));
+    /// What the yarns of each ply are made of, warp and weft, where the tables say it; a mesh is one ply.
+    fn threads(&self, case: &PanelCase, cloth: &Cloth) -> Result<Threads, Error> {
+        let data = case.data.get_ref();
+        let Some(weave) = data.get("weave") else { return Ok(vec![[None, None]]) };
+        let of_ply = |(tables, laid): (PlyTables, &Ply)| {
+            let [warp, weft] = tables.materials.map(|file| self.thread_material(file));
             let [warp, weft] = [warp?, weft?];
             Ok(if laid.woven.exchanged { [weft, warp] } else { [warp, weft] })
         };
-        plies.zip(cloth.plies()).map(of_ply).collect()
+        plies(self.source, weave, entries(data.get("ply")))?.into_iter().zip(cloth.plies()).map(of_ply).collect()
     }
 
     /// What the yarns of a family are made of, if a table says it: a material of the case's law.
@@ -208,19 +174,19 @@ impl Reader<'_> {
 
     /// The mass of what strikes, and its density: from the file's mass, which must be one that its volume can have, or
     /// from the file's density.
-    fn mass_and_striker(&self, file: &CaseFile) -> Result<(f64, Striker), Error> {
+    fn mass_and_striker(&self, file: &PanelKeys) -> Result<(f64, Striker), Error> {
         let keys = self.keys;
         let volume = self.volume(file)?;
         let in_si = |density: f64| density / self.units.from_si(1.0, DENSITY);
         let Some(given) = &file.striker_density else {
-            let mass = self.positive("mass", &keys.mass)?;
+            let mass = self.needed("mass", &keys.mass)?;
             let density = volume.map(|volume| in_si(mass / volume));
             if let (Some(given), Some(volume), Some(density)) = (&keys.mass, volume, density) {
                 self.check_density(file, density, volume, given)?;
             }
             return Ok((mass, Striker { density, is_told: false }));
         };
-        let density = self.positive("striker-density", &file.striker_density)?;
+        let density = given.value();
         if !DENSITIES.contains(&in_si(density)) {
             let [least, most] =
                 [DENSITIES.start(), DENSITIES.end()].map(|density| number(density * self.units.from_si(1.0, DENSITY)));
@@ -235,18 +201,15 @@ impl Reader<'_> {
                 let wanted = "mass is missing; allowed: a finite number > 0, or length beside striker-density";
                 Err(self.source.error(self.span.clone(), wanted))
             }
-            (Some(_), None) => {
-                let mass = self.positive("mass", &keys.mass)?;
-                Ok((mass, striker))
-            }
+            (Some(mass), None) => Ok((mass.value(), striker)),
             (Some(place), Some(of_volume)) => {
-                let mass = self.positive("mass", &keys.mass)?;
+                let mass = place.value();
                 if (mass - of_volume).abs() <= SAME_MASS * of_volume {
                     return Ok((mass, striker));
                 }
                 let message = format!(
                     "mass is {mass}, and striker-density {} with the sizes of the {} makes {}; allowed: one of the two, or both the same",
-                    given.get_ref(),
+                    given.value(),
                     shape(file).name(),
                     number(of_volume)
                 );
@@ -256,21 +219,24 @@ impl Reader<'_> {
     }
 
     /// That a density in kg/m³, of this volume, is one that solids have.
-    fn check_density(&self, file: &CaseFile, density: f64, volume: f64, given: &Spanned<f64>) -> Result<(), Error> {
+    fn check_density(
+        &self,
+        file: &PanelKeys,
+        density: f64,
+        volume: f64,
+        given: &Spanned<Positive>,
+    ) -> Result<(), Error> {
         if DENSITIES.contains(&density) {
             return Ok(());
         }
-        let (radius, name, units) = (
-            number(self.keys.radius.as_ref().map_or(0.0, |radius| *radius.get_ref())),
-            shape(file).name(),
-            self.units.names().join("-"),
-        );
+        let (radius, name, units) =
+            (number(value(&self.keys.radius).unwrap_or(0.0)), shape(file).name(), self.units.names().join("-"));
         let [least, most] = [DENSITIES.start(), DENSITIES.end()]
             .map(|density| number(density * volume * self.units.from_si(1.0, DENSITY)));
         let message = format!(
             "mass is {}, of a {name} with radius {radius}: {} kg/m³; allowed: {least} to {most}, of {} to {} kg/m³;\n\
              mass or a length is most likely not in the units of the file, {units}",
-            given.get_ref(),
+            given.value(),
             number(density),
             DENSITIES.start(),
             DENSITIES.end(),
@@ -279,11 +245,10 @@ impl Reader<'_> {
     }
 
     /// The volume of what strikes; none of a cylinder whose length is not given.
-    fn volume(&self, file: &CaseFile) -> Result<Option<f64>, Error> {
-        let radius = self.positive("radius", &self.keys.radius)?;
-        let length = file.length.as_ref().map(|_| self.positive("length", &file.length)).transpose()?;
+    fn volume(&self, file: &PanelKeys) -> Result<Option<f64>, Error> {
+        let radius = self.needed("radius", &self.keys.radius)?;
         let (section, half_sphere) = (PI * radius * radius, 2.0 / 3.0 * PI * radius.powi(3));
-        Ok(match (file.shape(), length) {
+        Ok(match (file.shape(), value(&file.length)) {
             (ShapeName::Sphere, _) => Some(2.0 * half_sphere),
             (ShapeName::Flat, length) => length.map(|length| section * length),
             (ShapeName::Hemisphere, Some(length)) if length < radius => {
@@ -296,7 +261,7 @@ impl Reader<'_> {
     }
 }
 
-fn shape(file: &CaseFile) -> Shape {
+fn shape(file: &PanelKeys) -> Shape {
     match file.shape() {
         ShapeName::Sphere => Shape::Sphere,
         ShapeName::Flat => Shape::Flat,

@@ -1,13 +1,18 @@
 //! The tables of a scene's TOML file: the scene's own and its cases', and which of their keys nothing reads.
 
 use serde::Deserialize;
+use serde::de::IgnoredAny;
 use toml::Spanned;
 
 use super::scene::{Abscissa, Outputs};
-use crate::struck::keys::{Keys, case_file, with_common_keys};
+use crate::struck::keys::{Keys, Table, Target};
 use crate::struck::shots::ShotsFile;
 use toron_materials::material::of_law::LawName;
+use toron_shared::checked::{Checked, Positive, Whole};
 use toron_shared::toml_file::Unused;
+
+/// An element takes some 700 bytes: more do not fit most memories.
+pub const MOST_ELEMENTS: usize = 10_000_000;
 
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
 #[serde(rename_all = "kebab-case")]
@@ -29,60 +34,66 @@ pub struct SceneFile {
     pub title: Option<String>,
     pub units: Spanned<String>,
     pub abscissa: Option<Spanned<Abscissa>>,
-    pub scene: Spanned<CaseFile>,
+    // Scene and cases are read in layers.
+    #[serde(rename = "scene")]
+    _scene: IgnoredAny,
     pub shots: Option<ShotsFile>,
-    #[serde(default)]
-    pub case: Vec<Spanned<CaseFile>>,
+    #[serde(rename = "case")]
+    _case: Option<Vec<IgnoredAny>>,
 }
 
-with_common_keys!(case_file! {
-    {
-        hyperelastic_length: Spanned<f64>,
-        section: SectionName,
-        half_length: Spanned<f64>,
-        height: Spanned<f64>,
-        width: Spanned<f64>,
-        layers: Spanned<i64>,
-        rows: Spanned<i64>,
-        columns: Spanned<i64>,
-        striker: StrikerName,
-        held: Spanned<bool>,
-        outputs: Outputs,
-    }
-});
+/// The keys of a yarn and of what strikes it.
+#[derive(Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub struct YarnKeys {
+    pub hyperelastic_length: Option<Spanned<Positive>>,
+    pub section: Option<SectionName>,
+    pub half_length: Option<Positive>,
+    pub height: Option<Positive>,
+    pub width: Option<Positive>,
+    pub layers: Option<Whole<1, MOST_ELEMENTS>>,
+    pub rows: Option<Whole<1, MOST_ELEMENTS>>,
+    pub columns: Option<Spanned<Whole<1, MOST_ELEMENTS>>>,
+    striker: Option<StrikerName>,
+    pub held: Option<Spanned<bool>>,
+    pub outputs: Option<Outputs>,
+}
 
-impl CaseFile {
+impl YarnKeys {
     pub fn striker(&self) -> StrikerName {
         self.striker.unwrap_or(StrikerName::Cylinder)
     }
+}
 
-    /// A key of this table that none of these cases reads: its place, and the message.
-    pub fn unused(&self, cases: &[&CaseFile]) -> Unused {
-        let keys: Vec<&Keys> = cases.iter().map(|case| &case.keys).collect();
-        self.keys.unused(&keys).or_else(|| self.unused_length(cases)).or_else(|| self.unused_cylinder(cases))
+impl Target for YarnKeys {
+    fn unused(table: &Table<YarnKeys>, cases: &[&Table<YarnKeys>]) -> Unused {
+        let keys: Vec<&Keys> = cases.iter().map(|case| &case.common).collect();
+        table.common.unused(&keys).or_else(|| table.unused_length(&keys)).or_else(|| table.unused_cylinder(cases))
     }
+}
 
-    fn unused_length(&self, cases: &[&CaseFile]) -> Unused {
-        let length = self.hyperelastic_length.as_ref()?;
+impl Table<YarnKeys> {
+    fn unused_length(&self, cases: &[&Keys]) -> Unused {
+        let length = self.target.hyperelastic_length.as_ref()?;
         let message = format!(
             "hyperelastic-length is {}, which only a yarn of two laws has; allowed: with law = \"hybrid\"",
-            length.get_ref()
+            length.value()
         );
-        cases.iter().all(|case| case.keys.law() != LawName::Hybrid).then(|| (length.span(), message))
+        cases.iter().all(|case| case.law() != LawName::Hybrid).then(|| (length.span(), message))
     }
 
     /// A driven section meets nothing.
-    fn unused_cylinder(&self, cases: &[&CaseFile]) -> Unused {
-        let span = |value: &Option<Spanned<f64>>| value.as_ref().map(Spanned::span);
+    fn unused_cylinder(&self, cases: &[&Self]) -> Unused {
+        let span = |value: &Option<Spanned<Positive>>| value.as_ref().map(Spanned::span);
         let keys = [
-            ("mass", span(&self.keys.mass)),
-            ("radius", span(&self.keys.radius)),
-            ("friction", span(&self.keys.friction)),
-            ("contact-stiffness", span(&self.keys.contact_stiffness)),
-            ("held", self.held.as_ref().map(Spanned::span)),
+            ("mass", span(&self.common.mass)),
+            ("radius", span(&self.common.radius)),
+            ("friction", self.common.friction.as_ref().map(Spanned::span)),
+            ("contact-stiffness", span(&self.common.contact_stiffness)),
+            ("held", self.target.held.as_ref().map(Spanned::span)),
         ];
         let (key, span) = keys.into_iter().find_map(|(key, span)| Some((key, span?)))?;
         let message = format!("{key} belongs to a cylinder, and striker is driven; allowed: one of the two");
-        cases.iter().all(|case| case.striker() == StrikerName::Driven).then_some((span, message))
+        cases.iter().all(|case| case.target.striker() == StrikerName::Driven).then_some((span, message))
     }
 }

@@ -4,20 +4,19 @@ use std::path::Path;
 
 use toml::Spanned;
 
-use super::file::{CaseFile, SceneFile, SectionName, StrikerName};
+use super::file::{MOST_ELEMENTS, SceneFile, SectionName, StrikerName, YarnKeys};
 use super::scene::{Abscissa, Case, Outputs, Scene, Striker};
 use crate::strength::scatter::Strength;
-use crate::struck::keys::{self, Reader};
+use crate::struck::keys::{Reader, Table, read_cases};
 use crate::struck::shots::read_shots;
 use toron_explicit_host::contact::{Rigid, Shape};
-use toron_explicit_host::control_keys::zero_or_more;
 use toron_explicit_host::mesh::{Section, Yarn};
+use toron_materials::layers;
 use toron_materials::units;
+use toron_shared::checked::{Checked, Whole, value};
 use toron_shared::error::Error;
 use toron_shared::toml_file::{self, Source};
 
-/// An element takes some 700 bytes: more do not fit most memories.
-const MOST_ELEMENTS: usize = 10_000_000;
 /// The files that cases have in common, by their names without the ending.
 const COMMON: [&str; 2] = ["summary", "residual-speed"];
 /// Lengths closer than this part of themselves are the same.
@@ -41,15 +40,13 @@ impl Scene {
     /// An input error that names file, line, value and what is allowed.
     pub fn parse(name: &str, text: &str) -> Result<Scene, Error> {
         let source = Source { name, text };
+        let tables = source.tables()?;
+        layers::check::<Table<YarnKeys>>(&source, tables.get_ref())?;
         let file: SceneFile = source.parse()?;
         let units = units::system(&source, &file.units)?;
-        let cases = keys::cases(
-            (&source, &units),
-            (&file.scene, &file.case),
-            &COMMON,
-            CaseFile::unused,
-            |reader, [file, _], name| reader.yarn_case(file, name),
-        )?;
+        let cases = read_cases((&source, &units), tables.get_ref(), &[], &COMMON, |reader, case| {
+            reader.yarn_case(&case.table.target, case.name.clone())
+        })?;
         let inner = || cases.iter().map(|case| case.zones.inner());
         let shots = file.shots.as_ref().map(|shots| read_shots(&source, shots, &units, inner())).transpose()?;
         let abscissa = file.abscissa.map(|abscissa| abscissa_of(&source, &abscissa, &cases)).transpose()?;
@@ -71,7 +68,7 @@ fn abscissa_of(source: &Source<'_>, abscissa: &Spanned<Abscissa>, cases: &[Case]
 }
 
 impl Reader<'_> {
-    fn yarn_case(&self, file: &CaseFile, name: String) -> Result<Case, Error> {
+    fn yarn_case(&self, file: &YarnKeys, name: String) -> Result<Case, Error> {
         let plan = self.plan(&name, SAMPLES)?;
         if plan.decides {
             let message = "until is \"decided\", which is for panels; allowed: stopped, end";
@@ -85,7 +82,7 @@ impl Reader<'_> {
             speed: self.speed(zones.inner())?,
             plan,
             name,
-            control: self.control()?,
+            control: self.control(),
             zones,
             yarn,
             single_precision: self.keys.is_single_precision(),
@@ -93,26 +90,25 @@ impl Reader<'_> {
         })
     }
 
-    fn yarn(&self, file: &CaseFile) -> Result<Yarn, Error> {
+    fn yarn(&self, file: &YarnKeys) -> Result<Yarn, Error> {
         let section = match file.section {
             None | Some(SectionName::Ellipse) => Section::Ellipse,
             Some(SectionName::Rectangle) => Section::Rectangle,
         };
         let yarn = Yarn {
             section,
-            length: self.positive("half-length", &file.half_length)?,
-            height: self.positive("height", &file.height)?,
-            width: self.positive("width", &file.width)?,
-            layers: self.count("layers", &file.layers, [1, MOST_ELEMENTS], None)?,
-            rows: self.count("rows", &file.rows, [1, MOST_ELEMENTS], None)?,
-            // An ellipse needs two: they meet between its tips.
-            columns: self.count(
-                "columns",
-                &file.columns,
-                [if section == Section::Ellipse { 2 } else { 1 }, MOST_ELEMENTS],
-                None,
-            )?,
+            length: self.needed("half-length", &file.half_length)?,
+            height: self.needed("height", &file.height)?,
+            width: self.needed("width", &file.width)?,
+            layers: self.needed("layers", &file.layers)?,
+            rows: self.needed("rows", &file.rows)?,
+            columns: self.needed("columns", &file.columns)?,
         };
+        // They meet between the tips of an ellipse.
+        if let Some(one) = file.columns.as_ref().filter(|_| section == Section::Ellipse && yarn.columns == 1) {
+            let message = format!("columns is 1; allowed: {}", Whole::<2, MOST_ELEMENTS>::allowed());
+            return Err(self.source.error(one.span(), &message));
+        }
         let elements = [yarn.layers, yarn.rows, yarn.columns].into_iter().fold(1, usize::saturating_mul);
         if elements > MOST_ELEMENTS {
             let message = format!("layers, rows and columns make {elements} elements; allowed: up to {MOST_ELEMENTS}");
@@ -124,33 +120,33 @@ impl Reader<'_> {
     /// The strength of the whole yarn, which is twice as long as what is modelled.
     fn yarn_strength(&self, yarn: &Yarn) -> Result<Option<Strength>, Error> {
         let Some(table) = self.strength_table() else { return Ok(None) };
-        if let Some(family) = table.get_ref().families.iter().flatten().next() {
+        if let Some(family) = table.get_ref().families().into_iter().flatten().next() {
             let message = "warp or weft in the strength of one yarn; allowed: their keys in the table itself";
             return Err(self.source.error(family.span(), message));
         }
         self.strength(table, std::iter::once(2.0 * yarn.length)).map(Some)
     }
 
-    fn striker(&self, file: &CaseFile) -> Result<Striker, Error> {
+    fn striker(&self, file: &YarnKeys) -> Result<Striker, Error> {
         let keys = self.keys;
         if file.striker() == StrikerName::Driven {
             return Ok(Striker::Driven);
         }
         let cylinder = Rigid {
             shape: Shape::Cylinder,
-            radius: self.positive("radius", &keys.radius)?,
-            stiffness: self.positive("contact-stiffness", &keys.contact_stiffness)?,
-            friction: zero_or_more(self.source, "friction", &keys.friction, 0.0)?,
+            radius: self.needed("radius", &keys.radius)?,
+            stiffness: self.needed("contact-stiffness", &keys.contact_stiffness)?,
+            friction: value(&keys.friction).unwrap_or(0.0),
             aim: [0.0; 2],
         };
         let held = file.held.as_ref().is_some_and(|held| *held.get_ref());
-        let mass = if held && keys.mass.is_none() { 0.0 } else { self.positive("mass", &keys.mass)? };
+        let mass = if held && keys.mass.is_none() { 0.0 } else { self.needed("mass", &keys.mass)? };
         Ok(Striker::Cylinder { cylinder, mass, held })
     }
 
-    fn hyperelastic_length(&self, file: &CaseFile, yarn: &Yarn) -> Result<f64, Error> {
+    fn hyperelastic_length(&self, file: &YarnKeys, yarn: &Yarn) -> Result<f64, Error> {
         let (key, value) = ("hyperelastic-length", &file.hyperelastic_length);
-        let length = self.positive(key, value)?;
+        let length = self.needed(key, value)?;
         let layer = yarn.length / yarn.layers as f64;
         if length < layer * (1.0 - ROUNDING) || length > yarn.length * (1.0 + ROUNDING) {
             let span = value.as_ref().map_or(self.span.clone(), Spanned::span);

@@ -1,87 +1,70 @@
-//! The table `[scene.strength]` as it stands in the file, and what a case has otherwise.
+//! The table `[scene.strength]` as it stands in the file.
 
 use serde::Deserialize;
 use toml::Spanned;
+use toml::de::{DeTable, DeValue};
 
-use toron_shared::toml_file::over;
+use toron_materials::layers::layered;
+use toron_shared::checked::Positive;
+use toron_shared::field_names::field_names;
 
-/// The table as it is written.
-#[derive(Deserialize)]
+#[derive(Clone, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
-struct Flat {
-    seed: Option<Spanned<i64>>,
-    cell: Option<Spanned<f64>>,
-    reference_length: Option<Spanned<f64>>,
-    weibull_modulus: Option<Spanned<f64>>,
-    strain: Option<Spanned<f64>>,
-    stress: Option<Spanned<f64>>,
-    elastic_modulus: Option<Spanned<f64>>,
-    warp: Option<Spanned<LawFile>>,
-    weft: Option<Spanned<LawFile>>,
-}
-
-#[derive(Clone, Default, Deserialize)]
-#[serde(from = "Flat")]
 pub struct StrengthFile {
-    pub seed: Option<Spanned<i64>>,
+    pub seed: Option<u64>,
     pub cell: Option<Spanned<f64>>,
-    /// Of all yarns, but for what warp and weft have of their own.
-    pub law: LawFile,
-    /// Warp and weft.
-    pub families: [Option<Spanned<LawFile>>; 2],
+    reference_length: Option<Positive>,
+    weibull_modulus: Option<Spanned<f64>>,
+    strain: Option<Spanned<Positive>>,
+    stress: Option<Spanned<Positive>>,
+    elastic_modulus: Option<Spanned<Positive>>,
+    pub warp: Option<Spanned<LawFile>>,
+    pub weft: Option<Spanned<LawFile>>,
 }
 
 /// Weibull's law.
-#[derive(Clone, Default, Deserialize)]
+#[derive(Clone, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct LawFile {
-    pub reference_length: Option<Spanned<f64>>,
+    pub reference_length: Option<Positive>,
     pub weibull_modulus: Option<Spanned<f64>>,
     /// The scale: a strain, or a stress.
-    pub strain: Option<Spanned<f64>>,
-    pub stress: Option<Spanned<f64>>,
+    pub strain: Option<Spanned<Positive>>,
+    pub stress: Option<Spanned<Positive>>,
     /// Makes a strain of the stress.
-    pub elastic_modulus: Option<Spanned<f64>>,
-}
-
-impl From<Flat> for StrengthFile {
-    fn from(flat: Flat) -> StrengthFile {
-        let Flat { seed, cell, reference_length, weibull_modulus, strain, stress, elastic_modulus, warp, weft } = flat;
-        let law = LawFile { reference_length, weibull_modulus, strain, stress, elastic_modulus };
-        StrengthFile { seed, cell, law, families: [warp, weft] }
-    }
+    pub elastic_modulus: Option<Spanned<Positive>>,
 }
 
 impl StrengthFile {
-    /// This table, with the keys of `base` where it has none.
-    pub fn over(&self, base: &StrengthFile) -> StrengthFile {
-        let family = |family: usize| over(&self.families[family], &base.families[family], LawFile::over);
-        StrengthFile {
-            seed: self.seed.clone().or(base.seed.clone()),
-            cell: self.cell.clone().or(base.cell.clone()),
-            law: self.law.over(&base.law),
-            families: [family(0), family(1)],
-        }
+    /// Of all yarns, but for what warp and weft have of their own.
+    pub fn law(&self) -> LawFile {
+        let StrengthFile { reference_length, weibull_modulus, strain, stress, elastic_modulus, .. } = self.clone();
+        LawFile { reference_length, weibull_modulus, strain, stress, elastic_modulus }
+    }
+
+    /// The tables of warp and weft.
+    pub fn families(&self) -> [&Option<Spanned<LawFile>>; 2] {
+        [&self.warp, &self.weft]
     }
 
     /// The moduli that this table itself gives.
-    pub fn elastic_moduli(&self) -> impl Iterator<Item = &Spanned<f64>> {
-        let families = self.families.iter().flatten().map(Spanned::get_ref);
-        std::iter::once(&self.law).chain(families).filter_map(|law| law.elastic_modulus.as_ref())
+    pub fn elastic_moduli(&self) -> impl Iterator<Item = &Spanned<Positive>> {
+        let families = self.families().into_iter().flatten().map(|family| &family.get_ref().elastic_modulus);
+        families.chain([&self.elastic_modulus]).flatten()
     }
 }
 
-impl LawFile {
-    /// This law, with the keys of `base` where it has none; one scale goes before the other, and a strain needs no modulus of another's stress.
-    pub fn over(&self, base: &LawFile) -> LawFile {
-        let scale = if self.strain.is_some() || self.stress.is_some() { self } else { base };
-        let inherited = base.elastic_modulus.clone().filter(|_| scale.strain.is_none());
-        LawFile {
-            reference_length: self.reference_length.clone().or(base.reference_length.clone()),
-            weibull_modulus: self.weibull_modulus.clone().or(base.weibull_modulus.clone()),
-            strain: scale.strain.clone(),
-            stress: scale.stress.clone(),
-            elastic_modulus: self.elastic_modulus.clone().or(inherited),
+/// Gives warp and weft of this table what it has for all yarns.
+pub fn complete_families(table: &mut Spanned<DeValue>) {
+    let place = table.span();
+    let DeValue::Table(keys) = table.get_mut() else { return };
+    let is_of_law = |key: &str| field_names::<LawFile>().contains(&key);
+    let law = keys.iter().filter(|(key, _)| is_of_law(key.get_ref()));
+    let law: DeTable = law.map(|(key, value)| (key.clone(), value.clone())).collect();
+    let law = Spanned::new(place, DeValue::Table(law));
+    for family in ["warp", "weft"] {
+        if let Some(own) = keys.get_mut(family) {
+            *own = layered("strength", [Some(&*own), Some(&law)]).unwrap_or_else(|| own.clone());
         }
     }
 }

@@ -10,6 +10,7 @@ use super::scatter::Strength;
 use super::weibull::Weibull;
 use crate::struck::keys::Reader;
 use toron_materials::material::of_law::LawName;
+use toron_shared::checked::{Checked, Positive, value};
 use toron_shared::error::Error;
 use toron_shared::numbers::number;
 
@@ -17,7 +18,6 @@ use toron_shared::numbers::number;
 const SEED: u64 = 1;
 /// Cells of all yarns that a memory has room for.
 const MOST_CELLS: f64 = 1e7;
-const POSITIVE: &str = "a finite number > 0";
 
 impl Reader<'_> {
     /// The table of the case's strength, where something may fail.
@@ -39,13 +39,13 @@ impl Reader<'_> {
             let message = "strength with law = \"hybrid\"; allowed: hyperelastic, linear-elastic";
             return Err(self.source.error(span, message));
         }
-        let seed = file.seed.as_ref().map_or(Ok(SEED), |seed| self.source.seed(seed))?;
+        let seed = file.seed.unwrap_or(SEED);
         let cell = self.cell(file, &span, lengths)?;
         let law = |family: &Option<Spanned<LawFile>>| match family {
-            None => self.weibull(&file.law, &span),
-            Some(family) => self.weibull(&family.get_ref().over(&file.law), &family.span()),
+            None => self.weibull(&file.law(), &span),
+            Some(family) => self.weibull(family.get_ref(), &family.span()),
         };
-        let [warp, weft] = file.families.each_ref().map(law);
+        let [warp, weft] = file.families().map(law);
         Ok(Strength { field: Field { seed, cell }, laws: [warp?, weft?] })
     }
 
@@ -87,19 +87,16 @@ impl Reader<'_> {
             );
             return Err(self.source.error(given.span(), &message));
         }
-        let positive = |key: &str, value: &Option<Spanned<f64>>, what: &str| match value {
-            Some(value) => self.source.positive(key, *value.get_ref(), value.span()),
-            None => Err(missing(&format!("{key} is missing; allowed: {what}, {POSITIVE}"))),
-        };
+        let wanted = "reference-length is missing; allowed: the length that the scale is of, a finite number > 0";
         Ok(Weibull {
             modulus,
             scale: self.scale(file, span)?,
-            reference_length: positive("reference-length", &file.reference_length, "the length that the scale is of")?,
+            reference_length: value(&file.reference_length).ok_or_else(|| missing(wanted))?,
         })
     }
 
     /// Whether the case's own table gives this modulus, and not the scene's, whose other cases may have another law.
-    fn is_of_case(&self, modulus: &Spanned<f64>) -> bool {
+    fn is_of_case(&self, modulus: &Spanned<Positive>) -> bool {
         let own = self.own.strength.as_ref().map(Spanned::get_ref);
         own.is_some_and(|own| own.elastic_moduli().any(|given| given.span() == modulus.span()))
     }
@@ -107,7 +104,6 @@ impl Reader<'_> {
     /// The scale by what the case's law fails at.
     fn scale(&self, file: &LawFile, span: &Range<usize>) -> Result<f64, Error> {
         let linear = self.keys.law() == LawName::LinearElastic;
-        let positive = |key: &str, value: &Spanned<f64>| self.source.positive(key, *value.get_ref(), value.span());
         let modulus = file.elastic_modulus.as_ref();
         match (&file.strain, &file.stress) {
             (Some(strain), None) if linear => {
@@ -115,14 +111,14 @@ impl Reader<'_> {
                 Err(self.source.error(strain.span(), message))
             }
             (None, Some(stress)) if linear => match modulus.filter(|modulus| self.is_of_case(modulus)) {
-                None => positive("stress", stress),
+                None => Ok(stress.value()),
                 Some(modulus) => {
                     let message = "elastic-modulus with the linear elastic law, which fails at the stress itself; allowed: stress alone";
                     Err(self.source.error(modulus.span(), message))
                 }
             },
             (Some(strain), None) => {
-                let value = positive("strain", strain)?;
+                let value = strain.value();
                 if value > 1.0 {
                     let message = format!("strain is {value}; allowed: a number > 0 up to 1 (4.58 % is 0.0458)");
                     return Err(self.source.error(strain.span(), &message));
@@ -139,7 +135,7 @@ impl Reader<'_> {
                                    3637 MPa of Kevlar KM2 is 79 414 MPa times 4.58 %, at which this law's nominal stress is 3526 MPa";
                     return Err(self.source.error(stress.span(), message));
                 };
-                let [value, by] = [positive("stress", stress)?, positive("elastic-modulus", modulus)?];
+                let [value, by] = [stress.value(), modulus.value()];
                 if value > by {
                     let message = format!("stress is {value}; allowed: up to elastic-modulus, {by}, a strain of 1");
                     return Err(self.source.error(stress.span(), &message));

@@ -257,7 +257,7 @@ fn bad_input_is_named() {
         ),
         ("cell = 0.8", "cell = 1e-7", "cell is 0.0000001, of which the yarns have 8e7; allowed: 8.000e-7 or more"),
         ("cell = 0.8\n", "", "cell is missing; allowed: the length over which"),
-        ("= 50.0", "= -50.0", "reference-length is -50; allowed: a finite number > 0"),
+        ("= 50.0", "= -50.0", "reference-length is -50.0; allowed: a finite number > 0"),
         ("reference-length = 50.0\n", "", "reference-length is missing; allowed: the length that the scale is of"),
         ("strain = 0.0458", "strain = -0.0458", "strain is -0.0458; allowed: a finite number > 0"),
         ("strain = 0.0458", "strain = 4.58", "strain is 4.58; allowed: a number > 0 up to 1 (4.58 % is 0.0458)"),

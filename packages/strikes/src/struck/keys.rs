@@ -1,25 +1,28 @@
-//! The keys that all struck scenes have: a table that a scene adds its own keys to, and what is read from it.
+//! The keys that all struck scenes have, beside those of what is struck, and what is read from them.
 
 use std::ops::Range;
 
 use serde::Deserialize;
+use serde::de::DeserializeOwned;
 use toml::Spanned;
+use toml::de::DeValue;
 
 use super::zones::Zones;
-use crate::strength::file::StrengthFile;
+use crate::strength::file::{StrengthFile, complete_families};
 use toron::host::units::UnitSystem;
 use toron_explicit_host::control_keys::control;
 use toron_explicit_host::medium::Control;
 use toron_explicit_host::struck::plan::Plan;
+use toron_materials::layers::{self, Case, CaseTable};
 use toron_materials::material::file::MaterialFile;
 use toron_materials::material::model::Material;
-use toron_materials::material::of_law::material_of_law;
 use toron_materials::material::of_law::{
-    Choice, FailureName, HYPERELASTIC, LINEAR_ELASTIC, LawName, own_yarn, unused_material,
+    Choice, FailureName, HYPERELASTIC, LINEAR_ELASTIC, LawName, material_of_law, own_yarn, unused_material,
 };
 use toron_materials::material::smith::strike_speed;
+use toron_shared::checked::{Checked, NotNegative, Positive, Whole, value};
 use toron_shared::error::Error;
-use toron_shared::toml_file::{Source, Unused, over};
+use toron_shared::toml_file::{Numbers, Source, Unused};
 
 /// Files for ParaView are numbered by four digits.
 const MOST_FILES: usize = 9999;
@@ -43,106 +46,66 @@ pub enum Precision {
     F32,
 }
 
-/// Gives the common keys and their types to another macro.
-macro_rules! with_common_keys {
-    ($then:ident! { $($own:tt)* }) => {
-        $then! {
-            {
-                name: toml::Spanned<String>,
-                law: toron_materials::material::of_law::LawName,
-                failure: toml::Spanned<toron_materials::material::of_law::FailureName>,
-                strength: toml::Spanned<$crate::strength::file::StrengthFile>,
-                hyperelastic: toml::Spanned<toron_materials::material::file::MaterialFile>,
-                linear_elastic: toml::Spanned<toron_materials::material::file::MaterialFile>,
-                speed: toml::Spanned<f64>,
-                mass: toml::Spanned<f64>,
-                radius: toml::Spanned<f64>,
-                friction: toml::Spanned<f64>,
-                contact_stiffness: toml::Spanned<f64>,
-                hourglass: toml::Spanned<f64>,
-                viscosity: toml::Spanned<toron_shared::toml_file::Numbers<3>>,
-                end: toml::Spanned<f64>,
-                until: $crate::struck::keys::Until,
-                sample: toml::Spanned<f64>,
-                pictures: toml::Spanned<Vec<f64>>,
-                frames: toml::Spanned<i64>,
-                checkpoints: toml::Spanned<i64>,
-                precision: $crate::struck::keys::Precision,
-            }
-            $($own)*
-        }
-    };
+/// The common keys of a scene's table, or of a case's.
+#[derive(Clone, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub struct Keys {
+    pub name: Option<Spanned<String>>,
+    pub law: Option<LawName>,
+    pub failure: Option<Spanned<FailureName>>,
+    pub strength: Option<Spanned<StrengthFile>>,
+    pub hyperelastic: Option<Spanned<MaterialFile>>,
+    pub linear_elastic: Option<Spanned<MaterialFile>>,
+    pub speed: Option<Spanned<Positive>>,
+    pub mass: Option<Spanned<Positive>>,
+    pub radius: Option<Spanned<Positive>>,
+    pub friction: Option<Spanned<NotNegative>>,
+    pub contact_stiffness: Option<Spanned<Positive>>,
+    pub hourglass: Option<NotNegative>,
+    pub viscosity: Option<Numbers<3, NotNegative>>,
+    pub end: Option<Positive>,
+    pub until: Option<Until>,
+    pub sample: Option<Spanned<Positive>>,
+    pub pictures: Option<Spanned<Vec<f64>>>,
+    pub frames: Option<Whole<0, MOST_FILES>>,
+    pub checkpoints: Option<Whole<0, MOST_FILES>>,
+    pub precision: Option<Precision>,
 }
 
-macro_rules! keys {
-    ({ $($key:ident: $kind:ty,)* }) => {
-        /// The common keys of a scene's table, or of a case's.
-        #[derive(Clone)]
-        pub struct Keys {
-            $(pub $key: Option<$kind>,)*
-        }
-
-        impl Keys {
-            fn or(self, base: Keys) -> Keys {
-                Keys { $($key: self.$key.or(base.$key),)* }
-            }
-        }
-    };
+/// A table of a scene, or of a case: the common keys, and those of the target, a yarn or a panel.
+pub struct Table<T> {
+    pub common: Keys,
+    pub target: T,
 }
-with_common_keys!(keys! {});
 
-/// A table of a file: the common keys, and a scene's own.
-macro_rules! case_file {
-    ({ $($key:ident: $kind:ty,)* } { $($own:ident: $own_kind:ty,)* }) => {
-        /// The table as it stands in the file.
-        #[derive(serde::Deserialize)]
-        #[serde(deny_unknown_fields, rename_all = "kebab-case")]
-        struct Flat {
-            $($key: Option<$kind>,)*
-            $($own: Option<$own_kind>,)*
-        }
-
-        /// The scene's table, and what a case has otherwise.
-        #[derive(Clone, serde::Deserialize)]
-        #[serde(from = "Flat")]
-        pub struct CaseFile {
-            pub keys: $crate::struck::keys::Keys,
-            $(pub $own: Option<$own_kind>,)*
-        }
-
-        impl From<Flat> for CaseFile {
-            fn from(flat: Flat) -> CaseFile {
-                let Flat { $($key,)* $($own,)* } = flat;
-                CaseFile { keys: $crate::struck::keys::Keys { $($key,)* }, $($own,)* }
-            }
-        }
-
-        impl $crate::struck::keys::Table for CaseFile {
-            fn keys(&self) -> &$crate::struck::keys::Keys {
-                &self.keys
-            }
-
-            fn over(&self, base: &CaseFile) -> CaseFile {
-                let (own, base) = (self.clone(), base.clone());
-                CaseFile { keys: own.keys.over(base.keys), $($own: own.$own.or(base.$own),)* }
-            }
-        }
-    };
+/// The keys of what is struck.
+pub trait Target: DeserializeOwned {
+    /// A key of this table that none of these cases reads.
+    fn unused(table: &Table<Self>, cases: &[&Table<Self>]) -> Unused;
 }
-pub(crate) use {case_file, with_common_keys};
 
-impl Keys {
-    /// These keys, with those of `base` where there is none.
-    pub fn over(self, base: Keys) -> Keys {
-        let material = |own: &_, base: &_| over(own, base, MaterialFile::over);
-        Keys {
-            hyperelastic: material(&self.hyperelastic, &base.hyperelastic),
-            linear_elastic: material(&self.linear_elastic, &base.linear_elastic),
-            strength: over(&self.strength, &base.strength, StrengthFile::over),
-            ..self.or(base)
+impl<T: Target> CaseTable for Table<T> {
+    fn read(source: &Source, table: &Spanned<DeValue>) -> Result<Table<T>, Error> {
+        let mut table = table.clone();
+        if let DeValue::Table(keys) = table.get_mut()
+            && let Some(strength) = keys.get_mut("strength")
+        {
+            complete_families(strength);
         }
+        let (common, target) = source.read_both(&table)?;
+        Ok(Table { common, target })
     }
 
+    fn name(&self) -> Option<&Spanned<String>> {
+        self.common.name.as_ref()
+    }
+
+    fn unused(&self, cases: &[&Table<T>]) -> Unused {
+        T::unused(self, cases)
+    }
+}
+
+impl Keys {
     pub fn law(&self) -> LawName {
         self.law.unwrap_or(LawName::Hyperelastic)
     }
@@ -178,53 +141,24 @@ impl Keys {
     }
 }
 
-/// A table of a scene's file.
-pub trait Table: Clone {
-    fn keys(&self) -> &Keys;
-
-    /// This table, with the keys of `base` where it has none.
-    fn over(&self, base: &Self) -> Self;
-}
-
-/// Reads the cases of a scene, or the scene as the only one: `read` gets the reader of the common keys, the case's keys
-/// over the scene's, its own ones alone and its name. The files that cases have in common are called as `common` says,
-/// without their endings.
+/// Reads the cases of a scene as [`layers::cases`] finds them in these tables.
 ///
 /// # Errors
-/// A key that no case reads, as `unused` finds it; a name that cannot be; what `read` refuses.
-pub fn cases<F: Table, C>(
-    (source, units): (&Source, &UnitSystem),
-    (scene, cases): (&Spanned<F>, &[Spanned<F>]),
+/// As for that; what `read` refuses.
+pub fn read_cases<'t, T: Target, C>(
+    (source, units): (&Source<'t>, &UnitSystem),
+    tables: &DeValue<'t>,
+    beside: &[&str],
     common: &[&str],
-    unused: impl Fn(&F, &[&F]) -> Unused,
-    read: impl Fn(&Reader, [&F; 2], String) -> Result<C, Error>,
+    read: impl Fn(&Reader, &Case<Table<T>>) -> Result<C, Error>,
 ) -> Result<Vec<C>, Error> {
-    let base = scene.get_ref();
-    if let Some(name) = &base.keys().name {
-        return Err(source.error(name.span(), "name in [scene]; allowed: in a [[case]]"));
-    }
-    let tables: Vec<F> = cases.iter().map(|case| case.get_ref().over(base)).collect();
-    let own_yarn = own_yarn(std::iter::once(base).chain(&tables).flat_map(|table| table.keys().materials()));
-    let reader = |table: &F, own: &F, span: Range<usize>, name: String| {
-        let (keys, own_keys) = (table.keys(), own.keys());
-        let reader = Reader { source, units, keys, own: own_keys, own_yarn: own_yarn.as_deref(), span };
-        read(&reader, [table, own], name)
+    let cases: Vec<Case<Table<T>>> = layers::cases(source, tables, beside, common)?;
+    let own_yarn = own_yarn(cases.iter().flat_map(|case| case.table.common.materials()));
+    let read_case = |case: &Case<Table<T>>| {
+        let (keys, own) = (&case.table.common, &case.own.common);
+        read(&Reader { source, units, keys, own, own_yarn: own_yarn.as_deref(), span: case.span() }, case)
     };
-    if cases.is_empty() {
-        source.refuse_unused(unused(base, &[base]))?;
-        return Ok(vec![reader(base, base, scene.span(), "scene".to_string())?]);
-    }
-    source.refuse_unused(unused(base, &tables.iter().collect::<Vec<_>>()))?;
-    let (mut names, mut found): (Vec<String>, _) = (Vec::new(), Vec::new());
-    for (case, table) in cases.iter().zip(&tables) {
-        let own = case.get_ref();
-        let taken = common.iter().copied().chain(names.iter().map(String::as_str));
-        let name = source.name_of("case", own.keys().name.as_ref(), case.span(), taken)?;
-        source.refuse_unused(unused(own, &[table]))?;
-        found.push(reader(table, own, case.span(), name.clone())?);
-        names.push(name);
-    }
-    Ok(found)
+    cases.iter().map(read_case).collect()
 }
 
 /// A case's table and what is needed to read it.
@@ -241,40 +175,18 @@ pub struct Reader<'a> {
 }
 
 impl Reader<'_> {
-    fn missing(&self, key: &str, allowed: &str) -> Error {
-        self.source.error(self.span.clone(), &format!("{key} is missing; allowed: {allowed}"))
-    }
-
-    pub fn positive(&self, key: &str, value: &Option<Spanned<f64>>) -> Result<f64, Error> {
-        match value {
-            Some(value) => self.source.positive(key, *value.get_ref(), value.span()),
-            None => Err(self.missing(key, "a finite number > 0")),
-        }
-    }
-
-    /// A whole number from `least` to `most`, or the default.
-    pub fn count(
-        &self,
-        key: &str,
-        value: &Option<Spanned<i64>>,
-        [least, most]: [usize; 2],
-        default: Option<usize>,
-    ) -> Result<usize, Error> {
-        let allowed = format!("a whole number from {least} to {most}");
-        let Some(count) = value else { return default.ok_or_else(|| self.missing(key, &allowed)) };
-        match usize::try_from(*count.get_ref()) {
-            Ok(number) if (least..=most).contains(&number) => Ok(number),
-            _ => Err(self.source.error(count.span(), &format!("{key} is {}; allowed: {allowed}", count.get_ref()))),
-        }
+    /// The value of a key that must be there.
+    pub fn needed<V: Checked>(&self, key: &str, given: &Option<V>) -> Result<V::Value, Error> {
+        self.source.needed(key, given, self.span.clone())
     }
 
     /// What the case of this name is going to do, with so many samples in its history where the file does not say
     /// otherwise.
     pub fn plan(&self, name: &str, samples: f64) -> Result<Plan, Error> {
         let keys = self.keys;
-        let end = self.positive("end", &keys.end)?;
-        let sample = if keys.sample.is_some() { self.positive("sample", &keys.sample)? } else { end / samples };
-        if let Some(given) = keys.sample.as_ref().filter(|given| *given.get_ref() > end) {
+        let end = self.needed("end", &keys.end)?;
+        let sample = value(&keys.sample).unwrap_or(end / samples);
+        if let Some(given) = keys.sample.as_ref().filter(|_| sample > end) {
             let message = format!("sample is {sample}; allowed: a number > 0, up to end = {end}");
             return Err(self.source.error(given.span(), &message));
         }
@@ -285,18 +197,18 @@ impl Reader<'_> {
             decides: keys.until == Some(Until::Decided),
             sample,
             pictures: self.source.pictures(&keys.pictures, name, end)?,
-            frames: self.count("frames", &keys.frames, [0, MOST_FILES], Some(0))?,
-            checkpoints: self.count("checkpoints", &keys.checkpoints, [0, MOST_FILES], Some(0))?,
+            frames: value(&keys.frames).unwrap_or(0),
+            checkpoints: value(&keys.checkpoints).unwrap_or(0),
         })
     }
 
-    pub fn control(&self) -> Result<Control, Error> {
-        control(self.source, &self.keys.hourglass, &self.keys.viscosity)
+    pub fn control(&self) -> Control {
+        control(&self.keys.hourglass, &self.keys.viscosity)
     }
 
     /// The speed of what strikes this material.
     pub fn speed(&self, material: &Material) -> Result<f64, Error> {
-        let speed = self.positive("speed", &self.keys.speed)?;
+        let speed = self.needed("speed", &self.keys.speed)?;
         let place = self.keys.speed.as_ref().map_or(self.span.clone(), Spanned::span);
         strike_speed(self.source, speed, place, material, self.units)
     }

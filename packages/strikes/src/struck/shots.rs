@@ -3,10 +3,10 @@
 
 use serde::Deserialize;
 use toml::Spanned;
-use toron_explicit_host::control_keys::zero_or_more;
 
 use toron::host::units::UnitSystem;
 use toron_materials::material::model::Material;
+use toron_shared::checked::{Checked, NotNegative, Positive, value};
 use toron_shared::error::Error;
 use toron_shared::toml_file::{Numbers, Source};
 
@@ -31,14 +31,14 @@ pub struct ShotsFile {
     number: Spanned<i64>,
     speeds: Spanned<Numbers<2>>,
     design: Option<DesignName>,
-    step: Option<Spanned<f64>>,
-    deviation: Option<Spanned<f64>>,
-    scatter: Option<Spanned<f64>>,
+    step: Option<Spanned<Positive>>,
+    deviation: Option<Spanned<Positive>>,
+    scatter: Option<Spanned<NotNegative>>,
     aim: Option<AimName>,
-    seed: Option<Spanned<i64>>,
-    extension: Option<Spanned<f64>>,
-    tolerance: Option<Spanned<f64>>,
-    spread: Option<Spanned<f64>>,
+    seed: Option<u64>,
+    extension: Option<Spanned<Positive>>,
+    tolerance: Option<Spanned<Positive>>,
+    spread: Option<Positive>,
 }
 
 /// How the speeds are chosen.
@@ -121,46 +121,41 @@ pub fn read_shots<'m>(
     {
         if let Some(value) = value.as_ref().filter(|_| design != of) {
             let with = if of == DesignName::UpAndDown { "up-and-down" } else { "d-optimal" };
-            return error(key, value.get_ref(), value.span(), &format!("with design = \"{with}\""));
+            return error(key, &value.value(), value.span(), &format!("with design = \"{with}\""));
         }
     }
-    let positive = |key: &str, value: &Option<Spanned<f64>>, default: f64| match value {
-        Some(value) => source.positive(key, *value.get_ref(), value.span()),
-        None => Ok(default),
-    };
     let range = high - low;
-    let extension = positive("extension", &file.extension, EXTENSION)?;
+    let extension = value(&file.extension).unwrap_or(EXTENSION);
     if let Some(given) = file.extension.as_ref().filter(|_| !(1.0..=MOST_EXTENSION).contains(&extension)) {
         return error("extension", &extension, given.span(), &format!("1 to {MOST_EXTENSION}"));
     }
-    let tolerance = positive("tolerance", &file.tolerance, TOLERANCE * range)?;
+    let tolerance = value(&file.tolerance).unwrap_or(TOLERANCE * range);
     let least = LEAST_TOLERANCE * high;
     if let Some(given) = file.tolerance.as_ref().filter(|_| !(least..range).contains(&tolerance)) {
         let allowed = format!("{least:.3e} or more, and less than the range of speeds, {range}");
         return error("tolerance", &tolerance, given.span(), &allowed);
     }
-    let scatter = zero_or_more(source, "scatter", &file.scatter, 0.0)?;
-    let step = positive("step", &file.step, STEP * range)?;
+    let scatter = value(&file.scatter).unwrap_or(0.0);
+    let step = value(&file.step).unwrap_or(STEP * range);
     for (key, value, given, most, what) in [
-        ("scatter", scatter, &file.scatter, 0.5 * range, "half of the range of speeds"),
-        ("step", step, &file.step, range, "the range of speeds"),
+        ("scatter", scatter, file.scatter.as_ref().map(Spanned::span), 0.5 * range, "half of the range of speeds"),
+        ("step", step, file.step.as_ref().map(Spanned::span), range, "the range of speeds"),
     ] {
-        if let Some(given) = given.as_ref().filter(|_| value > most) {
-            return error(key, &value, given.span(), &format!("up to {most}, {what}"));
+        if let Some(span) = given.filter(|_| value > most) {
+            return error(key, &value, span, &format!("up to {most}, {what}"));
         }
     }
-    let seed = file.seed.as_ref().map_or(Ok(SEED), |seed| source.seed(seed))?;
     Ok(Shots {
         number: number as usize,
         speeds: [low, high],
         design,
         step,
-        deviation: positive("deviation", &file.deviation, DEVIATION * range)?,
+        deviation: value(&file.deviation).unwrap_or(DEVIATION * range),
         scatter,
         aim: file.aim.unwrap_or_default(),
-        seed,
+        seed: file.seed.unwrap_or(SEED),
         extension,
         tolerance: tolerance.max(least),
-        spread: file.spread.as_ref().map(|_| positive("spread", &file.spread, 0.0)).transpose()?,
+        spread: value(&file.spread),
     })
 }

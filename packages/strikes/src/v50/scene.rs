@@ -473,9 +473,9 @@ mod tests {
             ("whole", "extension = 0.5", "extension is 0.5; allowed: 1 to 100"),
             ("whole", "seed = -1", "seed is -1; allowed: a whole number >= 0"),
             ("whole", "tolerance = 1e-9", "tolerance is 0.000000001; allowed: 1.2"),
-            ("whole", "scatter = -1.0", "scatter is -1; allowed: a finite number >= 0"),
+            ("whole", "scatter = -1.0", "scatter is -1.0; allowed: a finite number >= 0"),
             ("whole", "deviation = 3.0", "deviation is 3; allowed: with design = \"d-optimal\""),
-            ("whole", "design = \"up-and-down\"\nstep = 0.0", "step is 0; allowed: a finite number > 0"),
+            ("whole", "design = \"up-and-down\"\nstep = 0.0", "step is 0.0; allowed: a finite number > 0"),
             ("whole", "[[case]]\nname = \"a\"\n[[case]]\nname = \"b\"\nspeed = 90.0", "--case with one of a, b"),
         ] {
             let error = panel(part, shots, 10.0).map(|_| ()).expect_err(message);

@@ -1,18 +1,21 @@
 //! What is struck: a panel that is woven here, or one of a mesh file.
 
+use std::ops::Range;
+
+use toml::de::DeValue;
+
 use crate::weave::foreign::reader::foreign;
 use crate::weave::reader::layup;
-use toml::Spanned;
 
 use super::figures::Figures;
-use super::file::{PlyFile, WeaveFile};
-use super::foreign::file::MeshFile;
+use super::file;
 use super::foreign::reader::Foreign;
 use super::layup::{Layup, Ply};
 use super::model::Model;
 use super::panel::{Outline, Part};
 use toron::host::units::UnitSystem;
 use toron_shared::error::Error;
+use toron_shared::layers::entries;
 use toron_shared::numbers::number;
 use toron_shared::toml_file::Source;
 
@@ -150,22 +153,23 @@ impl Cloth {
     }
 }
 
-/// The table `[weave]` with its `[[ply]]`, or `[mesh]`.
+/// The table `[weave]` with its `[[ply]]`, or `[mesh]`, of these. `case` is the place of the weave that a case has
+/// otherwise.
 ///
 /// # Errors
 /// Neither or both are there, or what is wrong with the one.
-pub fn read_cloth(
-    source: &Source<'_>,
-    weave: Option<&Spanned<WeaveFile>>,
-    plies: &[Spanned<PlyFile>],
-    mesh: Option<&Spanned<MeshFile>>,
+pub fn read_cloth<'t>(
+    source: &Source<'t>,
+    tables: &DeValue<'t>,
     units: &UnitSystem,
+    case: Option<Range<usize>>,
 ) -> Result<Cloth, Error> {
-    match (weave, mesh) {
-        (Some(weave), None) => layup(source, weave, plies, units, None).map(Cloth::Woven),
+    let plies = entries(tables.get("ply"));
+    match (tables.get("weave"), tables.get("mesh")) {
+        (Some(weave), None) => layup(source, &file::plies(source, weave, plies)?, units, case).map(Cloth::Woven),
         (None, Some(mesh)) => match plies.first() {
             Some(ply) => Err(source.error(ply.span(), "[[ply]] beside [mesh]; allowed: with [weave]")),
-            None => foreign(source, mesh, units).map(|foreign| Cloth::Foreign(Box::new(foreign))),
+            None => foreign(source, &source.read(mesh)?, units).map(|foreign| Cloth::Foreign(Box::new(foreign))),
         },
         (Some(_), Some(mesh)) => Err(source.error(mesh.span(), "[mesh] beside [weave]; allowed: one of them")),
         (None, None) => Err(source.error(0..0, "[weave] is missing; allowed: [weave], or [mesh] with a file")),

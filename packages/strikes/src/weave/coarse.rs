@@ -300,7 +300,7 @@ mod tests {
         for (keys, message) in [
             ("coarse-radius = 7.0", "coarse-radius is 7, so that all elements are fine; allowed"),
             ("coarse-radius = 0.3\ncentre = \"gap\"", "coarse-radius is 0.3, so that all elements are coarse; allowed"),
-            ("coarse-radius = -1.0", "coarse-radius is -1; allowed"),
+            ("coarse-radius = -1.0", "coarse-radius is -1.0; allowed"),
             ("coarse-radius = 3.0\ncoarse-rows = 3", "coarse-rows is 3; allowed: a whole number from 1 to 2"),
             ("coarse-rows = 1", "coarse-rows without coarse-radius"),
         ] {

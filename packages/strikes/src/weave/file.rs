@@ -5,23 +5,31 @@ use std::fmt;
 use serde::de::{IgnoredAny, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 use toml::Spanned;
+use toml::de::DeValue;
 
+use super::coarse::ROWS as COARSE_ROWS;
 use super::foreign::file::MeshFile;
 use super::geometry::Family;
 use super::panel::{Centre, Part};
 use super::section::Section;
+use toron_materials::layers::layered;
 use toron_materials::material::file::MaterialFile;
-use toron_shared::toml_file::{Numbers, over};
+use toron_shared::checked::{Positive, Whole};
+use toron_shared::error::Error;
+use toron_shared::toml_file::{Numbers, Source};
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SceneFile {
     pub title: Option<String>,
     pub units: Spanned<String>,
-    pub weave: Option<Spanned<WeaveFile>>,
-    #[serde(default)]
-    pub ply: Vec<Spanned<PlyFile>>,
-    pub mesh: Option<Spanned<MeshFile>>,
+    // These are read in layers; here only what is wrong in them is found.
+    #[serde(rename = "weave")]
+    _weave: Option<WeaveFile>,
+    #[serde(rename = "ply")]
+    _ply: Option<Vec<PlyFile>>,
+    #[serde(rename = "mesh")]
+    _mesh: Option<MeshFile>,
     pub material: Option<Spanned<MaterialFile>>,
     /// How the panel is struck, which is nothing to its mesh.
     pub scene: Option<IgnoredAny>,
@@ -31,50 +39,23 @@ pub struct SceneFile {
     _shots: Option<IgnoredAny>,
 }
 
-/// The table `[weave]`, and what a case has otherwise.
-#[derive(Clone, Default, Deserialize)]
+/// The table `[weave]`.
+#[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct WeaveFile {
     pub preset: Option<Spanned<String>>,
     pub pattern: Option<Spanned<PatternFile>>,
     pub warp: Option<Spanned<ThreadFile>>,
     pub weft: Option<Spanned<ThreadFile>>,
-    pub clearance: Option<Spanned<f64>>,
-    pub along: Option<Spanned<i64>>,
-    pub columns: Option<Spanned<i64>>,
-    pub rows: Option<Spanned<i64>>,
+    pub clearance: Option<Positive>,
+    pub along: Option<Spanned<Whole<2, 64>>>,
+    pub columns: Option<Whole<1, 40>>,
+    pub rows: Option<Whole<1, 20>>,
     pub panel: Option<Spanned<PanelFile>>,
 }
 
-impl WeaveFile {
-    /// What the yarns of a family are made of, other than the rest.
-    pub fn material(&self, family: Family) -> Option<Spanned<MaterialFile>> {
-        let thread = if family == Family::Warp { &self.warp } else { &self.weft };
-        thread.as_ref()?.get_ref().material.clone()
-    }
-
-    /// This table, with the keys of `base` where it has none. One with a preset of its own has its yarns from there.
-    pub fn over(&self, base: &WeaveFile) -> WeaveFile {
-        let (own, mut base) = (self.clone(), base.clone());
-        if own.preset.is_some() {
-            (base.pattern, base.warp, base.weft) = (None, None, None);
-        }
-        WeaveFile {
-            preset: own.preset.or(base.preset),
-            pattern: own.pattern.or(base.pattern),
-            warp: over(&own.warp, &base.warp, ThreadFile::over),
-            weft: over(&own.weft, &base.weft, ThreadFile::over),
-            clearance: own.clearance.or(base.clearance),
-            along: own.along.or(base.along),
-            columns: own.columns.or(base.columns),
-            rows: own.rows.or(base.rows),
-            panel: over(&own.panel, &base.panel, PanelFile::over),
-        }
-    }
-}
-
 /// A table `[[ply]]`.
-#[derive(Clone, Default, Deserialize)]
+#[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PlyFile {
     /// What it has otherwise than `[weave]`.
@@ -82,43 +63,76 @@ pub struct PlyFile {
     /// By which it is turned, in degrees.
     pub angle: Option<Spanned<f64>>,
     /// From the ply above it.
-    pub distance: Option<Spanned<f64>>,
+    pub distance: Option<Spanned<Positive>>,
     /// For who strikes the panel: what its yarns are made of, other than the rest.
     pub material: Option<Spanned<MaterialFile>>,
 }
 
-impl PlyFile {
-    /// The material of a family in this ply, where `weave` is the table `[weave]`: the ply's own key goes before the
-    /// weave's.
-    pub fn material(&self, weave: &WeaveFile, family: Family) -> Option<Spanned<MaterialFile>> {
-        let own = self.weave.as_ref().and_then(|own| own.get_ref().material(family));
-        let own = over(&own, &self.material, MaterialFile::over);
-        over(&own, &weave.material(family), MaterialFile::over)
-    }
+/// A ply, with all that the tables above it say of its yarns.
+pub struct PlyTables {
+    /// Its own weave over `[weave]`.
+    pub weave: Spanned<WeaveFile>,
+    /// Of warp and weft: the ply's own key for the family, over the ply's, over the weave's.
+    pub materials: [Option<Spanned<MaterialFile>>; 2],
+    /// The table itself; none of the only ply of a weave without.
+    pub own: Option<Spanned<PlyFile>>,
 }
 
-#[derive(Clone, Default, Deserialize)]
+/// The plies of these tables; `[weave]` alone is one.
+///
+/// # Errors
+/// A panel of a ply's own: all plies have one outline.
+pub fn plies<'t>(
+    source: &Source<'t>,
+    weave: &Spanned<DeValue<'t>>,
+    plies: &[Spanned<DeValue<'t>>],
+) -> Result<Vec<PlyTables>, Error> {
+    if plies.is_empty() {
+        return Ok(vec![of_ply(source, weave, None)?]);
+    }
+    plies.iter().map(|ply| of_ply(source, weave, Some(ply))).collect()
+}
+
+fn of_ply<'t>(
+    source: &Source<'t>,
+    weave: &Spanned<DeValue<'t>>,
+    ply: Option<&Spanned<DeValue<'t>>>,
+) -> Result<PlyTables, Error> {
+    let own = ply.and_then(|ply| ply.get_ref().get("weave"));
+    check_panel_of_ply(source, own)?;
+    let material = |family: Family| {
+        let of_ply = ply.and_then(|ply| ply.get_ref().get("material"));
+        let tables = [material_of(own, family), of_ply, material_of(Some(weave), family)];
+        layered("material", tables).map(|table| source.read(&table)).transpose()
+    };
+    let materials = [material(Family::Warp)?, material(Family::Weft)?];
+    let weave = layered("weave", [own, Some(weave)]).unwrap_or_else(|| weave.clone());
+    Ok(PlyTables { weave: source.read(&weave)?, materials, own: ply.map(|ply| source.read(ply)).transpose()? })
+}
+
+fn material_of<'a, 't>(weave: Option<&'a Spanned<DeValue<'t>>>, family: Family) -> Option<&'a Spanned<DeValue<'t>>> {
+    weave?.get_ref().get(family.name())?.get_ref().get("material")
+}
+
+/// All plies have one outline.
+fn check_panel_of_ply(source: &Source, weave: Option<&Spanned<DeValue>>) -> Result<(), Error> {
+    let Some(panel) = weave.and_then(|weave| weave.get_ref().get("panel")) else { return Ok(()) };
+    if panel.get_ref().as_table().is_some_and(|panel| panel.keys().all(|key| key.get_ref() == "centre")) {
+        return Ok(());
+    }
+    let message = "weave.panel of a [[ply]] has other keys than centre; allowed: these in [weave.panel], for all plies";
+    Err(source.error(panel.span(), message))
+}
+
+#[derive(Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ThreadFile {
-    pub pitch: Option<Spanned<f64>>,
+    pub pitch: Option<Positive>,
     pub section: Option<Section>,
-    pub width: Option<Spanned<f64>>,
-    pub height: Option<Spanned<f64>>,
+    pub width: Option<Spanned<Positive>>,
+    pub height: Option<Spanned<Positive>>,
     /// For who strikes the panel: what these yarns are made of, other than the rest.
     pub material: Option<Spanned<MaterialFile>>,
-}
-
-impl ThreadFile {
-    fn over(&self, base: &ThreadFile) -> ThreadFile {
-        let (own, base) = (self.clone(), base.clone());
-        ThreadFile {
-            pitch: own.pitch.or(base.pitch),
-            section: own.section.or(base.section),
-            width: own.width.or(base.width),
-            height: own.height.or(base.height),
-            material: over(&own.material, &base.material, MaterialFile::over),
-        }
-    }
 }
 
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
@@ -128,39 +142,21 @@ pub enum ShapeName {
     Circle,
 }
 
-#[derive(Clone, Deserialize)]
+#[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PanelFile {
     pub shape: Option<ShapeName>,
-    pub radius: Option<Spanned<f64>>,
-    pub half: Option<Spanned<Numbers<2>>>,
+    pub radius: Option<Spanned<Positive>>,
+    pub half: Option<Spanned<Numbers<2, Positive>>>,
     pub part: Option<Spanned<Part>>,
     pub centre: Option<Centre>,
     #[serde(rename = "coarse-radius")]
-    pub coarse_radius: Option<Spanned<f64>>,
+    pub coarse_radius: Option<Spanned<Positive>>,
     #[serde(rename = "coarse-rows")]
-    pub coarse_rows: Option<Spanned<i64>>,
-}
-
-impl PanelFile {
-    /// A case's own shape has its own size.
-    fn over(&self, base: &PanelFile) -> PanelFile {
-        let (own, base) = (self.clone(), base.clone());
-        let other_shape = own.shape.zip(base.shape).is_some_and(|(own, base)| own != base);
-        PanelFile {
-            shape: own.shape.or(base.shape),
-            radius: if other_shape { own.radius } else { own.radius.or(base.radius) },
-            half: if other_shape { own.half } else { own.half.or(base.half) },
-            part: own.part.or(base.part),
-            centre: own.centre.or(base.centre),
-            coarse_radius: own.coarse_radius.or(base.coarse_radius),
-            coarse_rows: own.coarse_rows.or(base.coarse_rows),
-        }
-    }
+    pub coarse_rows: Option<Spanned<Whole<1, COARSE_ROWS>>>,
 }
 
 /// A pattern's name, or its rows.
-#[derive(Clone)]
 pub enum PatternFile {
     Name(String),
     Rows(Vec<String>),

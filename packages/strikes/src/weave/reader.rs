@@ -7,7 +7,7 @@ use toml::Spanned;
 
 use super::cloth::Cloth;
 use super::coarse::{Coarse, ROWS as COARSE_ROWS};
-use super::file::{PanelFile, PatternFile, PlyFile, SceneFile, ShapeName, ThreadFile, WeaveFile};
+use super::file::{PanelFile, PatternFile, PlyTables, SceneFile, ShapeName, ThreadFile, WeaveFile};
 use super::geometry::{Family, Geometry, Weave};
 use super::layup::{Laid, Layup};
 use super::model::Model;
@@ -21,13 +21,9 @@ use toron_materials::material::file::read_material;
 use toron_materials::material::laws::Laws;
 use toron_materials::material::model::Material;
 use toron_materials::units::{self, LENGTH};
+use toron_shared::checked::{Checked, Positive, value};
 use toron_shared::error::Error;
 use toron_shared::toml_file::{self, Source};
-
-const MOST_ALONG: usize = 64;
-const MOST_COLUMNS: usize = 40;
-const MOST_ROWS: usize = 20;
-const POSITIVE: &str = "a finite number > 0";
 
 /// A panel whose weave is solved, ready to be meshed.
 #[derive(Clone, Debug)]
@@ -86,7 +82,7 @@ impl Scene {
         let material = material
             .map(|table| read_material(&source, Laws::Toron, table.get_ref(), &units, table.span()))
             .transpose()?;
-        let cloth = read_cloth(&source, file.weave.as_ref(), &file.ply, file.mesh.as_ref(), &units)?;
+        let cloth = read_cloth(&source, source.tables()?.get_ref(), &units, None)?;
         let of_all = |material: Material| vec![[material.clone(), material]; cloth.pitches().len()];
         let materials = material.map_or(Vec::new(), of_all);
         Ok(Scene {
@@ -99,63 +95,38 @@ impl Scene {
     }
 }
 
-/// The table `[weave]` and the tables `[[ply]]`: none is one ply. `case` is the place of what a case has otherwise:
-/// what does not go together is then its mistake.
+/// The plies of these tables. `case` is the place of the weave that a case has otherwise: what does not go together is
+/// then its mistake.
 pub fn layup(
     source: &Source<'_>,
-    table: &Spanned<WeaveFile>,
-    plies: &[Spanned<PlyFile>],
+    plies: &[PlyTables],
     units: &UnitSystem,
     case: Option<Range<usize>>,
 ) -> Result<Layup, Error> {
-    let of_case = |place: Range<usize>| match &case {
-        Some(case) if !case.contains(&place.start) => case.clone(),
-        _ => place,
-    };
-    let Some((first, _)) = plies.split_first() else {
-        let woven = woven(source, table, None, units, of_case)?;
-        return Ok(Layup::new(vec![Laid { woven, angle: 0.0, distance: 0.0 }]));
-    };
-    if let Some(distance) = &first.get_ref().distance {
+    if let Some(distance) = plies[0].own.as_ref().and_then(|ply| ply.get_ref().distance.as_ref()) {
         let message = "distance of the first [[ply]]; allowed: in those below it";
         return Err(source.error(distance.span(), message));
     }
-    let mut laid = Vec::with_capacity(plies.len());
-    for ply in plies {
-        let PlyFile { weave: own, angle, distance, .. } = ply.get_ref();
-        let woven = match own {
-            Some(own) => {
-                check_panel_of_ply(source, own.get_ref().panel.as_ref())?;
-                let table = Spanned::new(own.span(), own.get_ref().over(table.get_ref()));
-                let blamed = |place: Range<usize>| if own.span().contains(&place.start) { place } else { own.span() };
-                woven(source, &table, angle.as_ref(), units, blamed)?
-            }
-            None => woven(source, table, angle.as_ref(), units, of_case)?,
-        };
-        let distance = match distance {
-            Some(distance) => source.positive("distance", *distance.get_ref(), distance.span())?,
-            None => woven.geometry.weave.clearance,
-        };
-        laid.push(Laid { woven, angle: angle.as_ref().map_or(0.0, |angle| *angle.get_ref()), distance });
-    }
+    let laid = plies.iter().map(|ply| laid(source, ply, units, case.clone())).collect::<Result<Vec<Laid>, Error>>()?;
     let elements: usize = laid.iter().map(|laid| laid.woven.elements()).sum();
-    if elements as f64 > MOST_ELEMENTS {
+    if let Some(first) = plies[0].own.as_ref().filter(|_| elements as f64 > MOST_ELEMENTS) {
         let message = format!("the plies have {elements} elements; allowed: up to {MOST_ELEMENTS:.0e}");
         return Err(source.error(first.span(), &message));
     }
     Ok(Layup::new(laid))
 }
 
-/// All plies have one outline.
-fn check_panel_of_ply(source: &Source<'_>, panel: Option<&Spanned<PanelFile>>) -> Result<(), Error> {
-    let Some(file) = panel else { return Ok(()) };
-    let PanelFile { shape, radius, half, part, coarse_radius, coarse_rows, centre: _ } = file.get_ref();
-    let own = [radius.is_some(), half.is_some(), part.is_some(), coarse_radius.is_some(), coarse_rows.is_some()];
-    if shape.is_none() && own == [false; 5] {
-        return Ok(());
-    }
-    let message = "weave.panel of a [[ply]] has other keys than centre; allowed: these in [weave.panel], for all plies";
-    Err(source.error(file.span(), message))
+fn laid(source: &Source<'_>, ply: &PlyTables, units: &UnitSystem, case: Option<Range<usize>>) -> Result<Laid, Error> {
+    let own = ply.own.as_ref().map(Spanned::get_ref);
+    let otherwise = own.and_then(|own| own.weave.as_ref()).map(Spanned::span).or(case);
+    let blamed = |place: Range<usize>| match &otherwise {
+        Some(otherwise) if !otherwise.contains(&place.start) => otherwise.clone(),
+        _ => place,
+    };
+    let angle = own.and_then(|own| own.angle.as_ref());
+    let woven = woven(source, &ply.weave, angle, units, blamed)?;
+    let distance = own.map_or(0.0, |own| value(&own.distance).unwrap_or(woven.geometry.weave.clearance));
+    Ok(Laid { woven, angle: angle.map_or(0.0, |angle| *angle.get_ref()), distance })
 }
 
 /// A ply. `blamed` is the place that errors name for a key at some place which does not go together with others.
@@ -172,23 +143,20 @@ fn woven(
         thread(source, Family::Warp, file.warp.as_ref(), base.as_ref().map(|base| &base.threads[0]), table.span())?;
     let of_weft = base.as_ref().map_or(&warp, |base| &base.threads[1]);
     let weft = thread(source, Family::Weft, file.weft.as_ref(), Some(of_weft), table.span())?;
-    let clearance = match &file.clearance {
-        Some(value) => source.positive("clearance", *value.get_ref(), value.span())?,
-        None => units.from_si(CLEARANCE, LENGTH),
-    };
     let mut weave = Weave {
         pattern: pattern(source, file, base, table.span())?,
         threads: [warp, weft],
-        along: number(source, "along", &file.along, [2, MOST_ALONG], ALONG)?,
-        columns: number(source, "columns", &file.columns, [1, MOST_COLUMNS], COLUMNS)?,
-        rows: number(source, "rows", &file.rows, [1, MOST_ROWS], ROWS)?,
-        clearance,
+        along: value(&file.along).unwrap_or(ALONG),
+        columns: value(&file.columns).unwrap_or(COLUMNS),
+        rows: value(&file.rows).unwrap_or(ROWS),
+        clearance: value(&file.clearance).unwrap_or(units.from_si(CLEARANCE, LENGTH)),
     };
     if let Some(along) = file.along.as_ref().filter(|_| !weave.along.is_multiple_of(2)) {
         return Err(source.error(along.span(), &format!("along is {}; allowed: an even number", weave.along)));
     }
     for (family, given) in Family::BOTH.into_iter().zip([&file.warp, &file.weft]) {
-        let given = given.as_ref().and_then(|given| given.get_ref().width.as_ref().or(given.get_ref().height.as_ref()));
+        let given =
+            given.as_ref().map(Spanned::get_ref).and_then(|given| given.width.as_ref().or(given.height.as_ref()));
         let place = blamed(given.map_or(table.span(), Spanned::span));
         weave.check_thread(family).map_err(|message| source.error(place, &message))?;
     }
@@ -258,22 +226,16 @@ fn thread(
     let none = ThreadFile::default();
     let file = table.map_or(&none, Spanned::get_ref);
     let span = table.map_or(span, Spanned::span);
-    let length = |key: &str, value: &Option<Spanned<f64>>, of_base: Option<f64>| {
-        let key = format!("{}.{key}", family.name());
-        match (value, of_base) {
-            (Some(value), _) => source.positive(&key, *value.get_ref(), value.span()),
-            (None, Some(number)) => Ok(number),
-            (None, None) => {
-                let message = format!("{key} is missing; allowed: {POSITIVE}, or a preset of the weave");
-                Err(source.error(span.clone(), &message))
-            }
-        }
+    let length = |key: &str, given: Option<f64>, of_base: Option<f64>| {
+        let (family, allowed) = (family.name(), Positive::allowed());
+        let message = format!("{family}.{key} is missing; allowed: {allowed}, or a preset of the weave");
+        given.or(of_base).ok_or_else(|| source.error(span.clone(), &message))
     };
     Ok(Thread {
-        pitch: length("pitch", &file.pitch, base.map(|base| base.pitch))?,
+        pitch: length("pitch", value(&file.pitch), base.map(|base| base.pitch))?,
         section: file.section.or(base.map(|base| base.section)).unwrap_or(Section::Ellipse),
-        width: length("width", &file.width, base.map(|base| base.width))?,
-        height: length("height", &file.height, base.map(|base| base.height))?,
+        width: length("width", value(&file.width), base.map(|base| base.width))?,
+        height: length("height", value(&file.height), base.map(|base| base.height))?,
     })
 }
 
@@ -293,41 +255,20 @@ fn panel(source: &Source<'_>, table: &Spanned<PanelFile>) -> Result<Panel, Error
     }
     let outline = match shape {
         ShapeName::Circle => {
-            let radius = file.radius.as_ref().ok_or_else(|| missing("radius", POSITIVE))?;
-            Outline::Circle(source.positive("radius", *radius.get_ref(), radius.span())?)
+            Outline::Circle(value(&file.radius).ok_or_else(|| missing("radius", &Positive::allowed()))?)
         }
         ShapeName::Rectangle => {
             let half = file.half.as_ref().ok_or_else(|| missing("half", "half sizes along x and y, each > 0"))?;
-            let [x, y] = half.get_ref().0;
-            Outline::Rectangle([source.positive("half", x, half.span())?, source.positive("half", y, half.span())?])
+            Outline::Rectangle(half.get_ref().0.map(|half| half.value()))
         }
     };
     let part = file.part.as_ref().map_or(Part::Whole, |part| *part.get_ref());
     let coarse = match (&file.coarse_radius, &file.coarse_rows) {
-        (Some(radius), rows) => Some(Coarse {
-            radius: source.positive("coarse-radius", *radius.get_ref(), radius.span())?,
-            rows: number(source, "coarse-rows", rows, [1, COARSE_ROWS], COARSE_ROWS)?,
-        }),
+        (Some(radius), rows) => Some(Coarse { radius: radius.value(), rows: value(rows).unwrap_or(COARSE_ROWS) }),
         (None, Some(rows)) => {
             return Err(source.error(rows.span(), "coarse-rows without coarse-radius; allowed: beside it"));
         }
         (None, None) => None,
     };
     Ok(Panel { outline, part, centre: file.centre.unwrap_or_default(), turn: Turn::NONE, coarse })
-}
-
-/// A whole number in this range, or the default.
-fn number(
-    source: &Source<'_>,
-    key: &str,
-    value: &Option<Spanned<i64>>,
-    [least, most]: [usize; 2],
-    default: usize,
-) -> Result<usize, Error> {
-    let Some(value) = value else { return Ok(default) };
-    let number = usize::try_from(*value.get_ref()).ok().filter(|number| (least..=most).contains(number));
-    number.ok_or_else(|| {
-        let message = format!("{key} is {}; allowed: a whole number from {least} to {most}", value.get_ref());
-        source.error(value.span(), &message)
-    })
 }

@@ -2,13 +2,10 @@
 
 use std::collections::HashSet;
 
-use serde::Deserialize;
-use toml::Spanned;
-
 use super::cloth::Cloth;
 use super::distance::{self, Quad};
 use super::figures::Figures;
-use super::file::WeaveFile;
+use super::file;
 use super::geometry::{Family, Weave};
 use super::model::{Crossing, Grid, Model, Yarn};
 use super::panel::{Centre, Outline, Panel, Part, Turn};
@@ -18,6 +15,7 @@ use super::reader::Scene;
 use super::section::{Section, Thread};
 use crate::weave::reader::layup;
 use toron::host::units::UnitSystem;
+use toron_materials::layers::layered;
 use toron_shared::toml_file::Source;
 
 fn millimetres() -> UnitSystem {
@@ -284,13 +282,6 @@ fn mistakes_are_refused_with_file_line_value_and_what_is_allowed() {
     assert_eq!(threads[0], threads[1]);
 }
 
-/// The weave of a scene, and that of a case.
-#[derive(Deserialize)]
-struct Both {
-    base: Spanned<WeaveFile>,
-    own: Spanned<WeaveFile>,
-}
-
 /// A case's keys stand over the scene's one by one; a preset of its own brings its yarns, and a shape of its own has
 /// its own size.
 #[test]
@@ -318,9 +309,11 @@ fn a_case_s_weave_goes_over_the_scene_s() {
     let woven = |own: &[&str], base: &[&str]| {
         let text = format!("[base]\n{}\n[own]\n{}\n", base.join("\n"), own.join("\n"));
         let source = Source { name: "both.toml", text: &text };
-        let both: Both = source.parse().unwrap_or_else(|error| panic!("{error}"));
-        let table = Spanned::new(both.own.span(), both.own.get_ref().over(both.base.get_ref()));
-        match layup(&source, &table, &[], &units, Some(both.own.span())) {
+        let tables = source.tables().unwrap_or_else(|error| panic!("{error}"));
+        let both = ["own", "base"].map(|table| tables.get_ref().get(table));
+        let weave = layered("weave", both).expect("two tables");
+        let plies = file::plies(&source, &weave, &[]).unwrap_or_else(|error| panic!("{error}"));
+        match layup(&source, &plies, &units, Some(weave.span())) {
             Ok(layup) => format!("{:?} {:?}", layup.plies[0].woven.geometry.weave, layup.plies[0].woven.panel),
             Err(error) => error.to_string(),
         }

@@ -12,6 +12,7 @@ use toron::host::units::UnitSystem;
 use toron::law::parameters::{Dimension, NUMBER, STRESS};
 use toron_materials::data_table::{Cell, DataTable};
 use toron_materials::units::{self, LENGTH};
+use toron_shared::checked::{Positive, value};
 use toron_shared::error::Error;
 use toron_shared::toml_file::{self, Source};
 use toron_strikes::strength::fit::{self, Fit, Test};
@@ -25,8 +26,8 @@ pub struct SetFile {
     file: Spanned<String>,
     #[serde(default)]
     columns: BTreeMap<Spanned<String>, Spanned<String>>,
-    length: Option<Spanned<f64>>,
-    reference_length: Option<Spanned<f64>>,
+    length: Option<Spanned<Positive>>,
+    reference_length: Option<Positive>,
 }
 
 /// The quantities of a column: tests, or what was found at each length.
@@ -170,11 +171,7 @@ fn strengths(source: &Source<'_>, number: usize, table: &Spanned<SetFile>, units
         return Err(source.error(key.span(), &message));
     }
     let columns = Columns { table: DataTable::read(&source.file("file", &file.file)?)?, file, units };
-    let positive = |key: &str, value: &Option<Spanned<f64>>| {
-        value.as_ref().map(|value| source.positive(key, *value.get_ref(), value.span())).transpose()
-    };
-    let (length, reference) =
-        (positive("length", &file.length)?, positive("reference_length", &file.reference_length)?);
+    let (length, reference) = (value(&file.length), value(&file.reference_length));
     if let (Some(given), true) = (&file.length, columns.has(LENGTHS)) {
         return Err(source.error(given.span(), "length beside a column length; allowed: one of them"));
     }
@@ -297,7 +294,7 @@ mod tests {
         }
         for (keys, message) in [
             ("length = 50.0\n", "length beside a column length; allowed: one of them"),
-            ("reference_length = 0.0\n", "reference_length is 0; allowed: a finite number > 0"),
+            ("reference_length = 0.0\n", "reference_length is 0.0; allowed: a finite number > 0"),
             (
                 "columns = { strain = \"a\" }\n",
                 "columns has strain; allowed: strength, length, censored, scale, modulus",

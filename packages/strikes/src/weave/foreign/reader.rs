@@ -16,6 +16,7 @@ use crate::weave::panel::{MOST_ELEMENTS, Part};
 use toron::host::units::UnitSystem;
 use toron_materials::unit_expression::Unit;
 use toron_materials::units::LENGTH;
+use toron_shared::checked::value;
 use toron_shared::error::Error;
 use toron_shared::keyword_file::files::text;
 use toron_shared::numbers::number;
@@ -152,14 +153,10 @@ pub fn foreign(source: &Source<'_>, table: &Spanned<MeshFile>, units: &UnitSyste
         );
         return Err(source.error(span, &message));
     }
-    let own = |key: &str, value: &Option<Spanned<f64>>| {
-        value.as_ref().map(|value| source.positive(key, *value.get_ref(), value.span())).transpose()
-    };
-    let height = own("height", &keys.height)?;
     Ok(Foreign {
         part,
-        clearance: own("clearance", &keys.clearance)?.unwrap_or(checks.clearance),
-        heights: height.map_or(checks.heights, |height| [height; 2]),
+        clearance: value(&keys.clearance).unwrap_or(checks.clearance),
+        heights: value(&keys.height).map_or(checks.heights, |height| [height; 2]),
         pitch,
         file,
         model,
