@@ -2,8 +2,8 @@
 //!
 //! - the library as a user builds it: [`library`], and in [`python`];
 //! - committed files that are made: [`update`];
-//! - with the feature `law`, for tests of the laws: [`exact`](mod@exact) numbers, the [`truth`] and the measure of an
-//!   answer, random [`deformations`], the [`block`] kernel with guards around every array.
+//! - with the feature `law`, for tests of the laws: `exact` numbers, the `truth` and the measure of an answer, random
+//!   `deformations`, the `block` kernel with guards around every array.
 
 #[cfg(feature = "law")]
 pub mod block;
