@@ -16,7 +16,6 @@ use crate::law::number::level::Level;
 use crate::law::number::real::Real;
 use crate::law::number::registers::Registers;
 use crate::law::point::{self, Call, Own, Sink, Source, cells, evaluate_call};
-use crate::law::prepared::Given;
 use crate::law::prepared::PreparedHyperelastic;
 use crate::law::response::Request;
 use crate::law::state::HYPERELASTIC_STATE;
@@ -192,7 +191,23 @@ impl<T: Real, const STATE: bool> Sink<T, 0> for StressAnswer<'_, T, STATE> {
     }
 }
 
-/// Evaluates the law at one point, from and to a caller's arrays. Returns its status.
+impl<T> Point<T> {
+    /// The results that have an array.
+    #[inline(always)]
+    fn request(&self) -> Request {
+        let kept = !self.state_new.is_null();
+        Request {
+            stress: !self.stress.is_null(),
+            energies: kept,
+            invariants: kept,
+            failure: kept,
+            modes: !self.modes.is_null(),
+            wave_modulus: !self.wave_speed.is_null(),
+        }
+    }
+}
+
+/// Evaluates the law, prepared or as its properties, at one point, from and to a caller's arrays. Returns its status.
 ///
 /// # Errors
 /// A property or an argument is wrong, and nothing is written.
@@ -200,20 +215,7 @@ impl<T: Real, const STATE: bool> Sink<T, 0> for StressAnswer<'_, T, STATE> {
 /// # Safety
 /// What [a caller promises](super#what-a-caller-promises).
 #[inline(always)]
-pub unsafe fn evaluate<T: Registers>(law: Given<'_, T>, point: *const Point<T>) -> Result<i32, Error> {
-    // SAFETY: the caller's point.
-    unsafe {
-        match law {
-            Given::Prepared(law) => evaluate_from(law, point),
-            Given::Properties(properties) => evaluate_from(properties, point),
-        }
-    }
-}
-
-/// # Safety
-/// As for [`evaluate`].
-#[inline(always)]
-unsafe fn evaluate_from<T: Registers, L: Source<T>>(source: L, point: *const Point<T>) -> Result<i32, Error> {
+pub unsafe fn evaluate<T: Registers, L: Source<T>>(law: L, point: *const Point<T>) -> Result<i32, Error> {
     let mut buffer = MaybeUninit::uninit();
     // SAFETY: `read` refuses null, and `motion` an F that is; how long the arrays are the C caller promises.
     let (point, (f, fibre)) = unsafe {
@@ -237,39 +239,34 @@ unsafe fn evaluate_from<T: Registers, L: Source<T>>(source: L, point: *const Poi
         // What most callers want is compiled for them.
         if state_new.is_null() {
             let sink = StressAnswer::<T, false> { stress, state: state_new, status: &mut status };
-            evaluate_call(Call { source, f, own: Own::along(fibre), state, tangent: Stress::<false>, sink }, level)?;
+            evaluate_call(
+                Call { source: law, f, own: Own::along(fibre), state, tangent: Stress::<false>, sink },
+                level,
+            )?;
         } else {
             // SAFETY: the caller's point.
             let own = Own { fibre, limit: unsafe { limit(point) } };
             let sink = StressAnswer::<T, true> { stress, state: state_new, status: &mut status };
-            evaluate_call(Call { source, f, own, state, tangent: Stress::<true>, sink }, level)?;
+            evaluate_call(Call { source: law, f, own, state, tangent: Stress::<true>, sink }, level)?;
         }
         return Ok(status);
     }
     check_density::<T>(point.density, !wave_speed.is_null())?;
     let density = T::splat(point.density);
-    let kept = !state_new.is_null();
-    let request = Request {
-        stress: !stress.is_null(),
-        energies: kept,
-        invariants: kept,
-        failure: kept,
-        modes: !modes.is_null(),
-        wave_modulus: !wave_speed.is_null(),
-    };
+    let request = point.request();
     // SAFETY: as above.
     let own = Own { fibre, limit: unsafe { limit(point) } };
     let sink = PointAnswer { stress, state: state_new, modes, density, wave_speed, tangent, status: &mut status };
     if tangent.is_null() {
-        evaluate_call(Call { source, f, own, state, tangent: NoTangent(request), sink }, level)?;
+        evaluate_call(Call { source: law, f, own, state, tangent: NoTangent(request), sink }, level)?;
         return Ok(status);
     }
     match measure(point.measure)? {
         Measure::Nominal => {
-            evaluate_call(Call { source, f, own, state, tangent: NineByNine(request), sink }, level)?;
+            evaluate_call(Call { source: law, f, own, state, tangent: NineByNine(request), sink }, level)?;
         }
         measure => {
-            evaluate_call(Call { source, f, own, state, tangent: SixBySix(request, measure), sink }, level)?;
+            evaluate_call(Call { source: law, f, own, state, tangent: SixBySix(request, measure), sink }, level)?;
         }
     }
     Ok(status)

@@ -139,7 +139,7 @@ impl<R: Real> Hyperelastic<R> {
 
 /// The frame of the fibre direction among the properties.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct PropertyFrame<T> {
+pub struct PropertyFrame<T> {
     pub frame: FibreFrame<T>,
     /// Whether the fibre lies along the first axis.
     pub aligned: bool,

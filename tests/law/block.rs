@@ -18,7 +18,7 @@ use toron::host::{constants, points};
 use toron::law::block::Points;
 use toron::law::interface::Law;
 use toron::law::parameters::PRESETS;
-use toron::law::prepared::{Given, PreparedHyperelastic};
+use toron::law::prepared::PreparedHyperelastic;
 use toron::law::state::{FAILED, FAILURE_INDEX, HYPERELASTIC_STATE};
 use toron::law::status;
 use toron::{Hyperelastic, Request};
@@ -276,7 +276,7 @@ fn once(properties: &[f64; 11], input: &Input<f64>) -> (Point<f64>, [f64; 21]) {
         };
         // SAFETY: eleven properties and state variables, nine entries of F, six stresses, 36 moduli.
         unsafe {
-            point.status = status_of(points::evaluate(Given::Properties(properties), &arguments));
+            point.status = status_of(points::evaluate(&properties[..], &arguments));
             check_prepared(properties, &arguments, point);
         }
     }
@@ -301,7 +301,7 @@ unsafe fn check_prepared(properties: &[f64; 11], arguments: &points::Point<f64>,
     let again = points::Point { state_new: state.as_mut_ptr(), stress: stress.as_mut_ptr(), ..*arguments };
     let law = Hyperelastic::new(properties).map(|law| PreparedHyperelastic::from(&law));
     // SAFETY: as the caller promises.
-    let answer = law.and_then(|law| unsafe { points::evaluate(Given::Prepared(&law), &again) });
+    let answer = law.and_then(|law| unsafe { points::evaluate(&law, &again) });
     assert_eq!(status_of(answer), point.status);
     let prepared = Point { stress, state, ..*point };
     assert_eq!(bits(&prepared).0[..14], bits(point).0[..14], "stress, energies and invariants");

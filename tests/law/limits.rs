@@ -208,7 +208,7 @@ fn limits_stand_where_the_caller_says() {
             ..Point::empty()
         };
         // SAFETY: arrays of one point.
-        let code = unsafe { points::evaluate(Given::Properties(&PROPERTIES), &point) };
+        let code = unsafe { points::evaluate(&PROPERTIES[..], &point) };
         assert_eq!(code, Ok(status::OK));
         close(&alone, "point");
     }
@@ -275,7 +275,7 @@ fn a_limit_that_means_nothing_is_an_error_of_its_point() {
             ..Point::empty()
         };
         // SAFETY: arrays of one point.
-        let code = unsafe { points::evaluate(Given::Properties(&PROPERTIES), &point) };
+        let code = unsafe { points::evaluate(&PROPERTIES[..], &point) };
         assert_eq!(code, Ok(status::LIMIT));
         let text = toron::Error::Plain(status::LIMIT).to_string();
         assert!(text.contains("the failure limit of this point is negative, NaN or infinite"), "{text}");
@@ -342,7 +342,7 @@ fn a_point_is_as_a_block_of_it() {
                 ..Point::empty()
             };
             // SAFETY: arrays of one point.
-            point.code = unsafe { points::evaluate(Given::Properties(&PROPERTIES), &arrays) }.expect("a good call");
+            point.code = unsafe { points::evaluate(&PROPERTIES[..], &arrays) }.expect("a good call");
             let state = block.state.as_mut_ptr();
             let arrays = Points {
                 density: 1.35e-9,

@@ -69,9 +69,7 @@ pub unsafe extern "C" fn toron_hyperelastic_point_f64(
     capacity: size_t,
 ) -> i32 {
     // SAFETY: the caller's arguments, as lib.rs says.
-    unsafe {
-        entry(Message { text: message, capacity }, move || points::evaluate(Given::Prepared(numbers(law)?), point))
-    }
+    unsafe { entry(Message { text: message, capacity }, move || points::evaluate(numbers(law)?, point)) }
 }
 
 /// As `toron_hyperelastic_point_f64`, in single precision.
@@ -83,9 +81,7 @@ pub unsafe extern "C" fn toron_hyperelastic_point_f32(
     capacity: size_t,
 ) -> i32 {
     // SAFETY: the caller's arguments, as lib.rs says.
-    unsafe {
-        entry(Message { text: message, capacity }, move || points::evaluate(Given::Prepared(numbers(law)?), point))
-    }
+    unsafe { entry(Message { text: message, capacity }, move || points::evaluate(numbers(law)?, point)) }
 }
 
 /// As `toron_hyperelastic_point_f64`, with the properties in the table's order, which are checked in every call, in place of a
@@ -99,11 +95,7 @@ pub unsafe extern "C" fn toron_hyperelastic_point_with_properties_f64(
     capacity: size_t,
 ) -> i32 {
     // SAFETY: the caller's arguments, as lib.rs says.
-    unsafe {
-        entry(Message { text: message, capacity }, move || {
-            points::evaluate(Given::Properties(read(properties, count)?), point)
-        })
-    }
+    unsafe { entry(Message { text: message, capacity }, move || points::evaluate(read(properties, count)?, point)) }
 }
 
 /// As `toron_hyperelastic_point_with_properties_f64`, in single precision.
@@ -116,11 +108,7 @@ pub unsafe extern "C" fn toron_hyperelastic_point_with_properties_f32(
     capacity: size_t,
 ) -> i32 {
     // SAFETY: the caller's arguments, as lib.rs says.
-    unsafe {
-        entry(Message { text: message, capacity }, move || {
-            points::evaluate(Given::Properties(read(properties, count)?), point)
-        })
-    }
+    unsafe { entry(Message { text: message, capacity }, move || points::evaluate(read(properties, count)?, point)) }
 }
 
 /// The hyperelastic law at a block of points, with or without a tangent: see `toron_block_f64`.
