@@ -19,8 +19,9 @@ pub unsafe trait Law<T: Precision>: Copy {
     const DESCRIPTION: Description;
     /// Whether a point may have a failure limit of its own, [`Points::limit`].
     const HAS_LIMIT: bool = false;
-    /// The number of variables in each part of the state that may be an array of its own; the last one has the latch.
-    const PARTS: &'static [usize] = &[Self::DESCRIPTION.state.len()];
+    /// The number of variables in each part of the state that may be an array of its own, 0 for a part that there is not; the last one
+    /// has the latch.
+    const PARTS: [usize; PARTS] = [Self::DESCRIPTION.state.len(), 0, 0];
     /// The state variables of a point.
     type State: Copy + AsRef<[T]> + AsMut<[T]>;
 
@@ -67,7 +68,7 @@ pub unsafe trait Law<T: Precision>: Copy {
 unsafe impl<T: Precision> Law<T> for Hyperelastic<T> {
     const DESCRIPTION: Description = description::HYPERELASTIC;
     const HAS_LIMIT: bool = true;
-    const PARTS: &'static [usize] = &HYPERELASTIC_PARTS;
+    const PARTS: [usize; PARTS] = HYPERELASTIC_PARTS;
     type State = [T; HYPERELASTIC_STATE];
 
     fn fresh() -> Self::State {

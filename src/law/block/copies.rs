@@ -120,9 +120,8 @@ impl<T: Scalar> Points<T> {
         let second_axis = buffer.array(!self.second_axis[0].is_null(), 3);
         let stress = buffer.array(!self.stress[0].is_null(), 6);
         let (mut state_old, mut state_new, mut part) = ([null(); PARTS], [null_mut(); PARTS], 0);
-        while part < needs.parts.len() {
-            let (new, latch) =
-                (!self.state_new[part].is_null(), part == needs.last() && !self.state_old[part].is_null());
+        while part < PARTS {
+            let (new, latch) = (!self.state_new[part].is_null(), part == needs.last && !self.state_old[part].is_null());
             let array = buffer.array(new || latch, needs.parts[part]);
             state_old[part] = array.cast_const();
             state_new[part] = if new { array } else { null_mut() };
@@ -139,7 +138,7 @@ impl<T: Scalar> Points<T> {
             f_new: components(f_new, count),
             fibre: components(fibre, count),
             second_axis: components(second_axis, count),
-            limit: buffer.array(!self.limits(needs.last()).is_null(), 1),
+            limit: buffer.array(!self.limits(needs.last).is_null(), 1),
             axes: buffer.array(!self.axes.is_null(), 9),
             state_old,
             state_new,
@@ -223,20 +222,21 @@ pub(super) unsafe fn copied<T: Scalar, const COUNT: usize, const ROWS: usize>(
             copies.group(limit, 0).copy_in(points.limit, of_copies.limit.cast_mut(), 1);
         }
         axes.copy_in(points.axes, of_copies.axes, 9);
-        for (part, &components) in needs.parts.iter().enumerate() {
+        for part in 0..PARTS {
             let (from, to) = (points.state_old[part], of_copies.state_old[part].cast_mut());
+            let components = needs.parts[part];
             match (to.is_null(), from.is_null()) {
                 (true, _) => {}
                 (false, true) => to.write_bytes(0, components * COUNT),
-                (false, false) => state.copy_in(from, to, needs.read(part)),
+                (false, false) => state.copy_in(from, to, needs.read(part, components)),
             }
         }
         let worst = run(&of_copies);
         for (from, to) in of_copies.stress.into_iter().zip(points.stress) {
             copies.group(stress, 0).copy_out(from, to, 1);
         }
-        for (part, &components) in needs.parts.iter().enumerate() {
-            state.copy_out(of_copies.state_new[part], points.state_new[part], components);
+        for part in 0..PARTS {
+            state.copy_out(of_copies.state_new[part], points.state_new[part], needs.parts[part]);
         }
         axes.copy_out(of_copies.axes, points.axes, 9);
         copies.group(modes, points.modes_leading_dimension).copy_out(of_copies.modes, points.modes, 24);
@@ -286,10 +286,10 @@ pub(super) unsafe fn padded<T: Scalar, R: Lanes<T>, const ROWS: usize>(
             );
         }
         let mut part = 0;
-        while part < needs.parts.len() {
+        while part < PARTS {
             let (old, to) = (points.state_old[part], copies.state_old[part].cast_mut());
             if !to.is_null() {
-                for c in 0..needs.read(part) {
+                for c in 0..needs.read(part, needs.parts[part]) {
                     let value = match old.is_null() {
                         true => R::splat(0.0),
                         false => filled::<T, R>(old.add(c * state), count),
@@ -306,7 +306,7 @@ pub(super) unsafe fn padded<T: Scalar, R: Lanes<T>, const ROWS: usize>(
             }
         }
         let mut part = 0;
-        while part < needs.parts.len() {
+        while part < PARTS {
             let (from, to) = (copies.state_new[part], points.state_new[part]);
             if !to.is_null() {
                 columns_out::<T, R>(from, to, state, needs.parts[part], count);

@@ -130,10 +130,12 @@ pub fn components_mut<T, const N: usize>(array: *mut T, leading_dimension: usize
 
 /// The pointers to the parts of a state whose rows follow one another; all null if `state` is.
 #[inline(always)]
-pub(crate) fn parts<T>(state: *const T, leading_dimension: usize, counts: &[usize]) -> [*const T; PARTS] {
+pub(crate) fn parts<T>(state: *const T, leading_dimension: usize, counts: [usize; PARTS]) -> [*const T; PARTS] {
     let (mut pointers, mut part, mut row) = ([null(); PARTS], 0, 0_usize);
-    while part < counts.len() && !state.is_null() {
-        pointers[part] = state.wrapping_add(row.wrapping_mul(leading_dimension));
+    while part < PARTS {
+        if counts[part] > 0 && !state.is_null() {
+            pointers[part] = state.wrapping_add(row.wrapping_mul(leading_dimension));
+        }
         row += counts[part];
         part += 1;
     }
@@ -145,7 +147,10 @@ impl<T> Points<T> {
     /// the state.
     #[inline(always)]
     pub(crate) fn limits(&self, last: usize) -> *const T {
-        if self.state_new[last].is_null() { null() } else { self.limit }
+        match self.state_new.get(last) {
+            Some(new) if !new.is_null() => self.limit,
+            _ => null(),
+        }
     }
 
     /// The points from `first` ≤ n on.
@@ -236,8 +241,10 @@ fn check_other_layout(
 /// What a law wants of its points.
 #[derive(Clone, Copy)]
 pub(crate) struct Needs {
-    /// The number of variables in each part of the state. The last part has the latch; an old one is read although no new one is wanted.
-    pub parts: &'static [usize],
+    /// The number of variables in each part of the state, and the last part that there is, which has the latch; of it an old one is
+    /// read although no new one is wanted.
+    pub parts: [usize; PARTS],
+    pub last: usize,
     /// The place of the latch in the last part.
     pub latch: usize,
     /// Whether F at the start of the step is read.
@@ -246,26 +253,20 @@ pub(crate) struct Needs {
 
 impl Needs {
     /// The needs of a law with this description, whose state has these parts.
-    pub const fn new(description: &Description, parts: &'static [usize]) -> Self {
-        let (mut latch, mut part) = (description.failed, 0);
-        while part + 1 < parts.len() {
-            latch -= parts[part];
-            part += 1;
+    pub const fn new(description: &Description, parts: [usize; PARTS]) -> Self {
+        let (mut latch, mut last) = (description.failed, 0);
+        while last + 1 < PARTS && parts[last + 1] > 0 {
+            latch -= parts[last];
+            last += 1;
         }
-        Needs { parts, latch, f_old: description.reads_old_gradient }
-    }
-
-    /// The part of the state that has the latch.
-    #[inline(always)]
-    pub const fn last(&self) -> usize {
-        self.parts.len() - 1
+        Needs { parts, last, latch, f_old: description.reads_old_gradient }
     }
 
     /// How many variables of a part's old state are read: in the last one those up to the latch, behind which is the flag for element
     /// deletion.
     #[inline(always)]
-    pub const fn read(&self, part: usize) -> usize {
-        if part == self.last() { self.latch + 1 } else { self.parts[part] }
+    pub const fn read(&self, part: usize, components: usize) -> usize {
+        if part == self.last { self.latch + 1 } else { components }
     }
 }
 
@@ -306,8 +307,13 @@ impl<T: Scalar> Points<T> {
     /// The points from `first` on, `count` at most, with what their status depends on and no outputs.
     pub(super) fn inputs(&self, first: usize, count: usize, needs: &Needs) -> Self {
         let from = self.from(first);
-        let mut state_old = [null(); PARTS];
-        state_old[needs.last()] = from.state_old[needs.last()];
+        let (mut state_old, mut part) = ([null(); PARTS], 0);
+        while part < PARTS {
+            if part == needs.last {
+                state_old[part] = from.state_old[part];
+            }
+            part += 1;
+        }
         Points {
             n: from.n.min(count),
             leading_dimension: self.leading_dimension,
@@ -332,11 +338,11 @@ impl<T: Scalar> Points<T> {
     where
         T: Real<Mask = bool>,
     {
-        let old = self.state_old[needs.last()];
+        let old = self.state_old.get(needs.last).copied().unwrap_or(null());
         // SAFETY: of valid points an array that is not null has an entry for each point, the old state's latch too.
         unsafe {
             let latch = old.wrapping_add(needs.latch * self.leading_dimension + i * self.strides.state);
-            let (limits, intact) = (self.limits(needs.last()), old.is_null() || Failure::intact(*latch));
+            let (limits, intact) = (self.limits(needs.last), old.is_null() || Failure::intact(*latch));
             intact && !limits.is_null() && !Failure::is_limit(*limits.add(i * self.strides.limit))
         }
     }
@@ -355,11 +361,11 @@ impl<T: Scalar> Points<T> {
             return Err(Error::Null { name: "f_new" });
         }
         let Strides { limit, axes, state, modes, tangent, .. } = self.strides;
-        if !self.limits(needs.last()).is_null() {
+        if !self.limits(needs.last).is_null() {
             check_layout(self.n, 1, self.n, limit, distances!("limit"))?;
         }
         let (mut components, mut part) = (0, 0);
-        while part < needs.parts.len() {
+        while part < PARTS {
             if !self.state_old[part].is_null() || !self.state_new[part].is_null() {
                 components = needs.parts[part].max(components);
             }
@@ -406,7 +412,7 @@ impl<T: Scalar> Points<T> {
     ///
     /// # Safety
     /// The points are valid and next to each other.
-    pub(super) unsafe fn copy_old_state(&mut self, parts: &[usize]) {
+    pub(super) unsafe fn copy_old_state(&mut self, parts: &[usize; PARTS]) {
         let (n, stride) = (self.n, self.leading_dimension);
         for ((old, &new), &components) in self.state_old.iter_mut().zip(&self.state_new).zip(parts) {
             if new.is_null() || old.cast_mut() == new {

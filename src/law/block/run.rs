@@ -113,7 +113,7 @@ pub(crate) unsafe fn evaluate<T: Precision, L: Kernels<T>>(law: &L, points: &Poi
         for first in (0..points.n).step_by(COPIED) {
             let mut part = points.from(first);
             part.n = part.n.min(COPIED);
-            part.copy_old_state(needs.parts);
+            part.copy_old_state(&needs.parts);
             worst = worst.min(law.run(&part));
         }
         Ok(worst)
