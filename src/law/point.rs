@@ -477,14 +477,15 @@ fn point_in<
     let k = law.kirchhoff(&stretch, &strain, power);
     let deformed = Deformed { law: &law, kinematics, k: &k, shear };
     let request = tangent.request();
-    let may_overflow = if let Some(measure) = tangent.measure() { may_overflow::<R>(measure, shear) } else { false };
+    let may_overflow = match tangent.measure() {
+        Some(measure) => may_overflow::<R>(measure, shear),
+        None => false,
+    };
     let entries = tangent.of(deformed, frame, A::ALONG_COORDINATES, early);
     let latch = R::of(state.entry(FAILED));
     let nan_if_invalid = R::select(usable, strain.nan_if_invalid, R::splat(f64::NAN));
-    let (zero, latch_or_nan) = (R::splat(0.0), latch + nan_if_invalid);
-    let intact = Failure::intact(latch_or_nan);
-    let stress = if request.stress { law.cauchy(kinematics, &k, intact, shear) } else { [zero; 6] };
-    let r = deformed.respond(frame, stress, latch_or_nan, request);
+    let r = deformed.respond(frame, nan_if_invalid, latch, request);
+    let zero = R::splat(0.0);
     let limit = if request.failure { own.limit.map(|&limit| R::of(limit)) } else { None };
     // As late as can be, since the compiler moves nothing across this decision.
     let (index, updated) = match limit {

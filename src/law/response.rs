@@ -60,15 +60,20 @@ pub(crate) struct History<R> {
 }
 
 impl<R: Real> Deformed<'_, R> {
-    /// The results at a point except its new state. `stress` is that of [`cauchy`](Hyperelastic::cauchy), or 0 if it is not requested;
-    /// `latch_or_nan` is the latch of the old state, or NaN where the kinematics are not valid. A latch that is NaN counts as failed.
+    /// The results at a point except its new state. `nan_if_invalid` is 0 where the kinematics are valid, else NaN; `latch` is
+    /// that of the old state.
     ///
     /// The wave modulus is finite at every point, the other results wherever the point can be evaluated.
     #[inline(always)]
-    pub fn respond(self, frame: &FibreFrame<R>, stress: [R; 6], mut latch_or_nan: R, request: Request) -> Response<R> {
+    pub fn respond(self, frame: &FibreFrame<R>, nan_if_invalid: R, latch: R, request: Request) -> Response<R> {
         let Deformed { law, kinematics, k, shear } = self;
         let Kinematics { stretch: d, strain, .. } = kinematics;
         let zero = R::splat(0.0);
+        // A latch that is NaN counts as failed.
+        let mut latch_or_nan = latch + nan_if_invalid;
+        let intact = Failure::intact(latch_or_nan);
+        let stress = if request.stress { law.cauchy(kinematics, k, intact, shear) } else { [zero; 6] };
+
         // A product with zero is NaN for a result that is not finite. With the bounds of the properties the invariants, the
         // index and the energies are finite wherever the kinematics are valid, except the energy of the longitudinal shear. If
         // the compaction energy overflows, so does the stress, so that it is checked only if the stress is not requested.

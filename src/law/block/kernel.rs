@@ -403,10 +403,7 @@ unsafe fn respond<T: Scalar, R: Lanes<T>, const WANT: u8>(
         };
         let nan_if_invalid =
             if tangent { nan_if_invalid + store_tangent(point, block, i, &frame) } else { nan_if_invalid };
-        let latch_or_nan = latch + nan_if_invalid;
-        let intact = Failure::intact(latch_or_nan);
-        let stress = if request.stress { law.cauchy(kinematics, &k, intact, point.shear) } else { [R::splat(0.0); 6] };
-        let r = point.respond(&frame, stress, latch_or_nan, request);
+        let r = point.respond(&frame, nan_if_invalid, latch, request);
 
         if request.stress {
             for c in 0..6 {
