@@ -19,6 +19,10 @@ pub unsafe trait Law<T: Precision>: Copy {
     const DESCRIPTION: Description;
     /// Whether a point may have a failure limit of its own, [`Points::limit`].
     const HAS_LIMIT: bool = false;
+    /// Whether a point may have a second axis, or axes that are kept, of its own: [`Points::second_axis`], [`Points::axes`].
+    const HAS_AXES: bool = false;
+    /// Whether the law tells the stress by mode, [`Points::modes`].
+    const HAS_MODES: bool = false;
     /// The number of variables in each part of the state that may be an array of its own, 0 for a part that there is not; the last one
     /// has the latch.
     const PARTS: [usize; PARTS] = [Self::DESCRIPTION.state.len(), 0, 0];
@@ -56,7 +60,7 @@ pub unsafe trait Law<T: Precision>: Copy {
     /// Evaluates a step at every point. Returns the worst (most negative) of the status codes.
     ///
     /// # Errors
-    /// A null deformation gradient, null axes for a frame that is kept there, a leading dimension with which entries of an array overlap,
+    /// A null deformation gradient, an array that points of this law do not have, null axes for a frame that is kept there, a leading dimension with which entries of an array overlap,
     /// a density that is not positive if the wave speed is requested.
     ///
     /// # Safety
@@ -68,6 +72,7 @@ pub unsafe trait Law<T: Precision>: Copy {
 unsafe impl<T: Precision> Law<T> for Hyperelastic<T> {
     const DESCRIPTION: Description = description::HYPERELASTIC;
     const HAS_LIMIT: bool = true;
+    const HAS_MODES: bool = true;
     const PARTS: [usize; PARTS] = HYPERELASTIC_PARTS;
     type State = [T; HYPERELASTIC_STATE];
 
@@ -101,6 +106,7 @@ unsafe impl<T: Precision> Law<T> for Hyperelastic<T> {
 unsafe impl<T: Precision> Law<T> for LinearElastic<T> {
     const DESCRIPTION: Description = description::LINEAR_ELASTIC;
     const HAS_LIMIT: bool = true;
+    const HAS_AXES: bool = true;
     type State = [T; LINEAR_ELASTIC_STATE];
 
     fn fresh() -> Self::State {

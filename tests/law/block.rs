@@ -21,7 +21,7 @@ use toron::law::parameters::PRESETS;
 use toron::law::prepared::PreparedHyperelastic;
 use toron::law::state::{FAILED, FAILURE_INDEX, HYPERELASTIC_STATE};
 use toron::law::status;
-use toron::{Hyperelastic, Request};
+use toron::{Hyperelastic, LinearElastic, Request};
 use toron_test_support::block::{Asked, Call, Input, Number, Old, Output, VALUES, levels, run};
 use toron_test_support::deformations::{Ranges, Sample, deformation, samples};
 use toron_test_support::truth::{
@@ -1204,4 +1204,25 @@ fn powers_beyond_single_precision_are_told() {
             assert_eq!(output.status, status::OVERFLOW, "{level:?}: {input:?}");
         }
     }
+}
+
+/// Second axes and axes of their own are refused for points of the hyperelastic law, modes for those of the linear elastic one, wherever
+/// the points are: what a law does not have has no room in the copies of points that are apart, or that fill no register.
+#[test]
+fn arrays_that_a_law_does_not_have_are_refused() {
+    let linear = [79414.0, 793.0, 0.0, 3637.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0];
+    let (law, linear) = (preset::<f64>(), LinearElastic::new(&linear).expect("valid properties"));
+    let mut owned = Owned::new(&ordinary::<f64>(3), 3);
+    let mut other = [1.0; 72];
+    let (array, f) = (other.as_mut_ptr(), toron::law::block::components(owned.gradient.as_ptr(), 3));
+    let stress = toron::law::block::components_mut(owned.stress.as_mut_ptr(), 3);
+    let points = Points { f_old: f, f_new: f, stress, ..Points::without_arrays(3, 3) };
+    for wrong in [Points { second_axis: [array.cast_const(); 3], ..points }, Points { axes: array, ..points }] {
+        // SAFETY: each pointer has as many values as three points have.
+        assert_eq!(unsafe { law.step(&wrong) }.map_err(|error| error.code()), Err(status::BAD_ARGUMENT));
+    }
+    let wrong = Points { modes: array, ..points };
+    // SAFETY: as above.
+    let code = unsafe { Law::step(&linear, &wrong) }.map_err(|error| error.code());
+    assert_eq!((code, other), (Err(status::BAD_ARGUMENT), [1.0; 72]));
 }

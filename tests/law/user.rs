@@ -714,3 +714,36 @@ fn the_yarn_law_takes_points_without_state() {
         assert!((found - wanted).abs() <= 1e-12 * 80e3, "{stress:?} {wanted:?}");
     }
 }
+
+/// The distances and arrays that points of a law of one's own do not have are refused; that of the tangent is its own.
+#[test]
+fn points_have_what_the_law_has() {
+    let law = reinforced(1.2);
+    let f = [1.05, 0.0, 0.0, 0.0, 0.98, 0.0, 0.0, 0.0, 1.01];
+    let (mut stress, mut apart, mut near, mut other) = ([0.0; 6], [0.0; 72], [0.0; 36], [1.0; 24]);
+    let stress_at = stress.as_mut_ptr();
+    let points = Points {
+        f_new: array::from_fn(|c| &raw const f[c]),
+        stress: array::from_fn(|c| stress_at.wrapping_add(c)),
+        ..Points::without_arrays(1, 1)
+    };
+    // SAFETY: what is not null has the components of one point.
+    let step = |points: Points<f64>| unsafe { law.step(&points) };
+    let of_others = other.as_mut_ptr();
+    for wrong in [
+        Points { limit: of_others, ..points },
+        Points { second_axis: [of_others.cast_const(); 3], ..points },
+        Points { axes: of_others, ..points },
+        Points { modes: of_others, ..points },
+    ] {
+        assert_eq!(step(wrong).map_err(|error| error.code()), Err(status::BAD_ARGUMENT));
+    }
+    let mut rows = points;
+    rows.strides.state = 4;
+    assert_eq!(step(rows).map_err(|error| error.code()), Err(status::BAD_LEADING_DIMENSION));
+    assert_eq!(step(Points { tangent: near.as_mut_ptr(), ..points }), Ok(status::OK));
+    let tangent_leading_dimension = 2;
+    assert_eq!(step(Points { tangent: apart.as_mut_ptr(), tangent_leading_dimension, ..points }), Ok(status::OK));
+    assert!(near.iter().enumerate().all(|(c, x)| *x == apart[2 * c] && apart[2 * c + 1] == 0.0), "{apart:?}");
+    assert_eq!(other, [1.0; 24]);
+}

@@ -7,8 +7,7 @@ use super::dispatch::Precision;
 use super::instructions::Instructions;
 use super::kernel::sweep;
 use super::linear::sweep_linear;
-use super::points::Points;
-use super::run::needs;
+use super::points::{Needs, Points};
 use crate::law::hyperelastic::Hyperelastic;
 use crate::law::interface::Law;
 use crate::law::linear_elastic::LinearElastic;
@@ -31,7 +30,7 @@ impl Instructions for Avx2 {
         run: impl FnOnce(&Points<T>) -> i32,
     ) -> i32 {
         // SAFETY: `run_padded` requires what `padded` requires.
-        unsafe { padded::<T, T::Avx2, ROWS>(points, const { &needs::<T, L>() }, run) }
+        unsafe { padded::<T, T::Avx2, ROWS>(points, const { &Needs::of::<T, L>() }, run) }
     }
 
     #[target_feature(enable = "avx2,fma")]

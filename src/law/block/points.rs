@@ -2,9 +2,10 @@
 
 use core::ptr::{null, null_mut};
 
-use crate::law::description::Description;
+use super::dispatch::Precision;
 use crate::law::error::Error;
 use crate::law::failure::Failure;
+use crate::law::interface::Law;
 use crate::law::linear_elastic::{Criterion, Rotation};
 use crate::law::number::level::Level;
 use crate::law::number::real::{Real, Scalar};
@@ -249,17 +250,22 @@ pub(crate) struct Needs {
     pub latch: usize,
     /// Whether F at the start of the step is read.
     pub f_old: bool,
+    /// Whether points may have limits, second axes and axes of their own, and modes.
+    pub limit: bool,
+    pub axes: bool,
+    pub modes: bool,
 }
 
 impl Needs {
-    /// The needs of a law with this description, whose state has these parts.
-    pub const fn new(description: &Description, parts: [usize; PARTS]) -> Self {
+    pub const fn of<T: Precision, L: Law<T>>() -> Self {
+        let (description, parts) = (L::DESCRIPTION, L::PARTS);
         let (mut latch, mut last) = (description.failed, 0);
         while last + 1 < PARTS && parts[last + 1] > 0 {
             latch -= parts[last];
             last += 1;
         }
-        Needs { parts, last, latch, f_old: description.reads_old_gradient }
+        let f_old = description.reads_old_gradient;
+        Needs { parts, last, latch, f_old, limit: L::HAS_LIMIT, axes: L::HAS_AXES, modes: L::HAS_MODES }
     }
 
     /// How many variables of a part's old state are read: in the last one those up to the latch, behind which is the flag for element
@@ -307,13 +313,7 @@ impl<T: Scalar> Points<T> {
     /// The points from `first` on, `count` at most, with what their status depends on and no outputs.
     pub(super) fn inputs(&self, first: usize, count: usize, needs: &Needs) -> Self {
         let from = self.from(first);
-        let (mut state_old, mut part) = ([null(); PARTS], 0);
-        while part < PARTS {
-            if part == needs.last {
-                state_old[part] = from.state_old[part];
-            }
-            part += 1;
-        }
+        let last = |part| if part == needs.last { from.state_old[part] } else { null() };
         Points {
             n: from.n.min(count),
             leading_dimension: self.leading_dimension,
@@ -322,7 +322,7 @@ impl<T: Scalar> Points<T> {
             f_new: from.f_new,
             fibre: from.fibre,
             second_axis: from.second_axis,
-            state_old,
+            state_old: [last(0), last(1), last(2)],
             rotation: self.rotation,
             criterion: self.criterion,
             level: self.level,
@@ -347,18 +347,32 @@ impl<T: Scalar> Points<T> {
         }
     }
 
-    /// Checks that what a law needs is there, and that no entries of an array overlap.
+    /// Checks that what a law needs is there, nothing that it does not have, and that no entries of an array overlap.
     ///
     /// # Errors
     /// As for [`Law::step`](crate::law::interface::Law::step).
     #[inline(always)]
-    pub(super) fn check(&self, needs: &Needs) -> Result<(), Error> {
+    pub(crate) fn check(&self, needs: &Needs) -> Result<(), Error> {
         let missing = |array: &[*const T]| self.n > 0 && array.iter().any(|pointer| pointer.is_null());
         if needs.f_old && missing(&self.f_old) {
             return Err(Error::Null { name: "f_old" });
         }
         if missing(&self.f_new) {
             return Err(Error::Null { name: "f_new" });
+        }
+        let refused = |text| Err(Error::Setting { code: status::BAD_ARGUMENT, text });
+        if !needs.limit && !self.limit.is_null() {
+            return refused(
+                "argument limit is not null; allowed: null, since points of this law have no limits of their own",
+            );
+        }
+        if !needs.axes && !(self.second_axis[0].is_null() && self.axes.is_null()) {
+            return refused(
+                "second_axis or axes is not null; allowed: null, since points of this law have no axes of their own",
+            );
+        }
+        if !needs.modes && !self.modes.is_null() {
+            return refused("argument modes is not null; allowed: null, since this law has no stress by mode");
         }
         let Strides { limit, axes, state, modes, tangent, .. } = self.strides;
         if !self.limits(needs.last).is_null() {

@@ -16,11 +16,6 @@ use crate::law::number::real::WIDEST;
 use crate::law::state::{HYPERELASTIC_STATE, LINEAR_ELASTIC_STATE};
 use crate::law::status;
 
-/// What a law wants of its points.
-pub(crate) const fn needs<T: Precision, L: Law<T>>() -> Needs {
-    Needs::new(&L::DESCRIPTION, L::PARTS)
-}
-
 /// How many numbers a copy of a point takes, without and with modes and a tangent.
 const HYPERELASTIC_FEW: usize = rows(HYPERELASTIC_STATE, 0)[0];
 pub(super) const HYPERELASTIC_ROWS: usize = rows(HYPERELASTIC_STATE, 0)[1];
@@ -58,7 +53,9 @@ impl<T: Precision> Kernels<T> for Hyperelastic<T> {
     unsafe fn run_apart(&self, points: &Points<T>) -> i32 {
         // SAFETY: the points are valid, and so are copies, which are next to each other.
         unsafe {
-            in_copies::<T, HYPERELASTIC_FEW, HYPERELASTIC_ROWS>(points, &needs::<T, Self>(), |copies| self.run(copies))
+            in_copies::<T, HYPERELASTIC_FEW, HYPERELASTIC_ROWS>(points, &Needs::of::<T, Self>(), |copies| {
+                self.run(copies)
+            })
         }
     }
 }
@@ -79,7 +76,7 @@ impl<T: Precision> Kernels<T> for LinearElastic<T> {
 
     unsafe fn run_apart(&self, points: &Points<T>) -> i32 {
         // SAFETY: the points are valid, and so are copies, which are next to each other.
-        unsafe { in_copies::<T, LINEAR_FEW, LINEAR_ROWS>(points, &needs::<T, Self>(), |copies| self.run(copies)) }
+        unsafe { in_copies::<T, LINEAR_FEW, LINEAR_ROWS>(points, &Needs::of::<T, Self>(), |copies| self.run(copies)) }
     }
 }
 
@@ -95,7 +92,7 @@ const COPIED: usize = 2 * STAGED * WIDEST;
 /// The points are valid, see [`Points`].
 #[inline(always)]
 pub(crate) unsafe fn evaluate<T: Precision, L: Kernels<T>>(law: &L, points: &Points<T>) -> Result<i32, Error> {
-    let needs = const { needs::<T, L>() };
+    let needs = const { Needs::of::<T, L>() };
     points.check(&needs)?;
     if points.n == 0 {
         return Ok(status::OK);
@@ -129,7 +126,7 @@ const SEARCHED: usize = 32;
 /// # Safety
 /// As for [`evaluate`], for the same points, after it.
 pub(crate) unsafe fn at_fault<T: Precision, L: Kernels<T>>(law: &L, points: &Points<T>, code: i32) -> Option<usize> {
-    let needs = needs::<T, L>();
+    let needs = Needs::of::<T, L>();
     if points.rotation == Rotation::Spin || [status::STATE_NOT_FINITE, status::OVERFLOW].contains(&code) {
         return None;
     }

@@ -3,7 +3,7 @@
 use core::ops::Range;
 
 use super::{Array, Response, Step, User, UserMaterial};
-use crate::law::block::{Points, Precision, Strides, check_layout, distances, least_code};
+use crate::law::block::{Needs, Points, Precision, Strides, least_code};
 use crate::law::error::Error;
 use crate::law::failure::Failure;
 use crate::law::kinematics::FibreFrame;
@@ -12,7 +12,7 @@ use crate::law::number::real::{Lanes, Real};
 use crate::law::number::twice::Twice;
 use crate::law::number::vector::{Matrix, accurate_cross, dot, is_finite};
 use crate::law::status;
-use crate::law::wave_speed::{self, wave_speed};
+use crate::law::wave_speed::wave_speed;
 
 /// The results at the points in the lanes, as they are stored.
 pub(super) struct Outcome<R, S> {
@@ -158,38 +158,18 @@ impl<M: UserMaterial, T: Precision> User<M, T> {
     /// # Safety
     /// As for [`Law::step`](super::super::interface::Law::step).
     pub(super) unsafe fn block(&self, points: &Points<T>) -> Result<i32, Error> {
-        let n = points.n;
-        if n == 0 {
+        points.check(&const { Needs::of::<T, Self>() })?;
+        if points.n == 0 {
             return Ok(status::OK);
-        }
-        if points.f_new.iter().any(|component| component.is_null()) {
-            return Err(Error::Null { name: "f_new" });
-        }
-        if M::DESCRIPTION.reads_old_gradient && points.f_old.iter().any(|component| component.is_null()) {
-            return Err(Error::Null { name: "f_old" });
         }
         if points.strides != Strides::UNIT {
             let text = "strides other than 1; allowed: points of a law of one's own next to each other";
             return Err(Error::Setting { code: status::BAD_LEADING_DIMENSION, text });
         }
-        let rows = M::DESCRIPTION.state.len();
-        if !points.state_old[0].is_null() || !points.state_new[0].is_null() {
-            check_layout(n, rows, points.leading_dimension, 1, distances!("the state"))?;
-        }
-        if !points.tangent.is_null() {
-            check_layout(n, points.measure.components(), points.leading_dimension, 1, distances!("tangent"))?;
-        }
-        if !points.wave_speed.is_null() {
-            wave_speed::check_density(points.density)?;
-        }
         let asks_for_derivatives = !points.tangent.is_null() || (!points.wave_speed.is_null() && !self.bounds_waves());
         // SAFETY: the points are valid, and their layouts have just been checked; `Level::best` is what the processor has.
         Ok(unsafe {
-            if asks_for_derivatives {
-                self.with_derivatives(points)
-            } else {
-                self.run(points.level.unwrap_or(Level::Avx512).min(Level::best()), points)
-            }
+            if asks_for_derivatives { self.with_derivatives(points) } else { self.run(points.level(), points) }
         })
     }
 

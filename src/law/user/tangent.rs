@@ -134,7 +134,7 @@ impl<M: UserMaterial> User<M, f64> {
             store(outcome.alive, points.state_new[0].wrapping_add(row(law.alive)));
         }
         for (c, &x) in entries.iter().enumerate() {
-            store(if has_tangent { x } else { 0.0 }, points.tangent.wrapping_add(row(c)));
+            store(if has_tangent { x } else { 0.0 }, points.tangent.wrapping_add(c * points.tangent_leading_dimension));
         }
         if !points.wave_speed.is_null() {
             store(speed(outcome.wave_modulus), points.wave_speed);
