@@ -366,7 +366,8 @@ impl<T: Scalar> Points<T> {
                 "argument limit is not null; allowed: null, since points of this law have no limits of their own",
             );
         }
-        if !needs.axes && !(self.second_axis[0].is_null() && self.axes.is_null()) {
+        let has_axes = !self.second_axis[0].is_null() || !self.axes.is_null();
+        if !needs.axes && has_axes {
             return refused(
                 "second_axis or axes is not null; allowed: null, since points of this law have no axes of their own",
             );
