@@ -27,7 +27,7 @@ pub const PARTS: usize = 3;
 /// Points are **valid** if every pointer that is not null points to as many values as `n`, the leading dimensions, the strides and
 /// the table of [`block`](super) say, valid for reading or writing; if with these, different entries are at different places; if
 /// arrays with a pointer for each component are null in all of them or in none; and if outputs overlap nothing but, exactly, the old
-/// state that they replace. [`Law::step`](crate::law::interface::Law::step) is unsafe, since only its caller can know this.
+/// state that they replace. [`Law::step`] is unsafe, since only its caller can know this.
 #[derive(Clone, Copy, Debug)]
 pub struct Points<T> {
     /// The number of points.
@@ -51,7 +51,7 @@ pub struct Points<T> {
     pub limit: *const T,
     /// The three material axes in space, one after the other, in and out; only for [`Rotation::Spin`].
     pub axes: *mut T,
-    /// The law's state variables, old and new, by the parts of [`Law::PARTS`](crate::law::interface::Law::PARTS).
+    /// The law's state variables, old and new, by the parts of [`Law::PARTS`].
     pub state_old: [*const T; PARTS],
     pub state_new: [*mut T; PARTS],
     /// The reference density; read only for the wave speed.
@@ -350,7 +350,7 @@ impl<T: Scalar> Points<T> {
     /// Checks that what a law needs is there, nothing that it does not have, and that no entries of an array overlap.
     ///
     /// # Errors
-    /// As for [`Law::step`](crate::law::interface::Law::step).
+    /// As for [`Law::step`].
     #[inline(always)]
     pub(crate) fn check(&self, needs: &Needs) -> Result<(), Error> {
         let missing = |array: &[*const T]| self.n > 0 && array.iter().any(|pointer| pointer.is_null());
