@@ -261,7 +261,7 @@ impl Arguments<'_> {
         let point = Points {
             f_old: components(f_old.as_ptr(), 1),
             f_new: components(f_new.as_ptr(), 1),
-            limit: &raw const limit,
+            limit: limit_variable::of::<_, L>(&limit),
             state_old: L::parts(old.as_ref().as_ptr(), 1),
             state_new: L::parts_mut(answer.state.as_mut().as_mut_ptr(), 1),
             stress: components_mut(cauchy.as_mut_ptr(), 1),

@@ -344,7 +344,7 @@ unsafe fn step<L: Law<f64>>(call: &Umat) -> Result<i32, Error> {
     let point = Points {
         f_old: components(if L::DESCRIPTION.reads_old_gradient { call.dfgrd0 } else { call.dfgrd1 }, 1),
         f_new: components(call.dfgrd1, 1),
-        limit: &raw const limit,
+        limit: limit_variable::of::<_, L>(&limit),
         state_old: L::parts(call.statev, 1),
         state_new: L::parts_mut(state.as_mut().as_mut_ptr(), 1),
         stress: components_mut(sigma.as_mut_ptr(), 1),
