@@ -18,7 +18,7 @@ use crate::law::number::level::{Level, has_fma};
 use crate::law::number::real::Scalar;
 use crate::law::number::registers::Registers;
 use crate::law::point::{self, Call, Columns, OldState, Own, Sink, evaluate_call};
-use crate::law::prepared::{Given, PreparedHyperelastic};
+use crate::law::prepared::PreparedHyperelastic;
 use crate::law::response::Request;
 use crate::law::state::{ENERGIES, FAILURE_INDEX, INVARIANTS};
 use crate::law::status;
@@ -221,7 +221,24 @@ impl<T: Scalar> Block<T> {
     }
 }
 
+/// The hyperelastic law as a caller passes it: its properties, which are checked in every call, or prepared.
+#[derive(Clone, Copy, Debug)]
+pub enum Given<'a, T> {
+    Properties(&'a [T]),
+    Prepared(&'a PreparedHyperelastic<T>),
+}
+
 impl<T: Precision> Given<'_, T> {
+    /// # Errors
+    /// The first property that is wrong.
+    #[inline(always)]
+    fn law(self) -> Result<Hyperelastic<T>, Error> {
+        match self {
+            Given::Properties(properties) => Hyperelastic::new(properties),
+            Given::Prepared(prepared) => Ok(prepared.law()),
+        }
+    }
+
     /// # Errors
     /// The first property that is wrong, before what [`Law::step`] refuses, which calls F by another name.
     ///

@@ -23,25 +23,6 @@ pub struct PreparedHyperelastic<T>(pub [T; PreparedHyperelastic::<f64>::COUNT]);
 #[repr(transparent)]
 pub struct PreparedLinearElastic<T>(pub [T; PreparedLinearElastic::<f64>::COUNT]);
 
-/// The hyperelastic law as a caller passes it: its properties, which are checked in every call, or prepared.
-#[derive(Clone, Copy, Debug)]
-pub enum Given<'a, T> {
-    Properties(&'a [T]),
-    Prepared(&'a PreparedHyperelastic<T>),
-}
-
-impl<T: Real + Into<f64>> Given<'_, T> {
-    /// # Errors
-    /// The first property that is wrong.
-    #[inline(always)]
-    pub(crate) fn law(self) -> Result<Hyperelastic<T>, Error> {
-        match self {
-            Given::Properties(properties) => Hyperelastic::new(properties),
-            Given::Prepared(prepared) => Ok(prepared.law()),
-        }
-    }
-}
-
 impl PreparedHyperelastic<f64> {
     pub(crate) const COUNT: usize = 26;
 }

@@ -2,10 +2,9 @@
 //! dimension for each group; and which points are active.
 
 use nalgebra::Matrix3;
-use toron::host::blocks::{self, Block};
+use toron::host::blocks::{self, Block, Given};
 use toron::law::block::{Points, Strides, components, components_mut};
 use toron::law::interface::Law;
-use toron::law::prepared::Given;
 use toron::law::state::{FAILED, HYPERELASTIC_STATE};
 use toron::law::status;
 use toron::{Arrays, Hyperelastic, Level, Measure};

@@ -4,13 +4,12 @@ use std::ptr::{null, null_mut};
 
 use nalgebra::Matrix3;
 use toron::host::arguments::Layout;
-use toron::host::blocks::{self, Block};
+use toron::host::blocks::{self, Block, Given};
 use toron::host::linear_elastic::{self, LinearBlock};
 use toron::host::points::{self, Point};
 use toron::law::block::{Points, Strides, components, components_mut};
 use toron::law::interface::Law;
 use toron::law::parameters::SIGMA_LIM;
-use toron::law::prepared::Given;
 use toron::law::state::{FAILED, FAILURE_INDEX, HYPERELASTIC_STATE};
 use toron::law::status;
 use toron::{Arrays, Hyperelastic, Level, LinearElastic, Measure, Request};

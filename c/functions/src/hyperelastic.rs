@@ -2,12 +2,11 @@
 
 use libc::{c_char, size_t};
 use toron::Error;
-use toron::host::blocks::{self, Block};
+use toron::host::blocks::{self, Block, Given};
 use toron::host::entry_points::{Message, entry, properties};
 use toron::host::points::{self, Point};
 use toron::host::prepared::{numbers, prepare};
 use toron::law::parameters;
-use toron::law::prepared::Given;
 
 use crate::prepared::HyperelasticLaw;
 
