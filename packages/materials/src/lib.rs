@@ -9,7 +9,7 @@
 //! - tables of properties and presets (`toron params`): [`params`];
 //! - a material's card for a solver's deck (`toron deck`): [`deck`];
 //! - these commands for a law of one's own, in a program of three lines: [`of_law`];
-//! - what they share: materials, presets and how files describe them in [`material`], cases over a scene in [`mod@layers`], the calls of the C interface in
+//! - what they share: materials, presets and how files describe them in [`material`], the calls of the C interface in
 //!   [`entries`], [`units`] and their expressions ([`unit_expression`]), tables of measured data in [`data_table`].
 
 pub mod bench;
@@ -17,7 +17,6 @@ pub mod data_table;
 pub mod deck;
 pub mod entries;
 pub mod eval;
-pub mod layers;
 pub mod load_path;
 pub mod material;
 mod own_program;

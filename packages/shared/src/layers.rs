@@ -4,6 +4,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 /// What a key of a table's own drops of the table beneath.
+#[derive(Clone, Copy)]
 pub struct Drops {
     /// The names of the tables that have this key.
     pub tables: &'static [&'static str],

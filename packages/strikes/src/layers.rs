@@ -5,20 +5,17 @@ use std::ops::Range;
 use toml::Spanned;
 use toml::de::DeValue;
 
+use toron_materials::material::file as material;
 use toron_shared::error::Error;
 use toron_shared::layers::{self, Drops, entries};
 use toron_shared::toml_file::{Source, Unused};
 
 /// The tables of a strength.
 const STRENGTHS: &[&str] = &["strength", "warp", "weft"];
-/// The tables of a material.
-const MATERIALS: &[&str] = &["material", "hyperelastic", "linear-elastic"];
-
 /// What a key drops beneath it: what it stands instead of, and what goes with that alone.
 const DROPS: [Drops; 10] = [
-    // A material of its own starts afresh.
-    Drops { tables: MATERIALS, key: "preset", value: None, keys: &[] },
-    Drops { tables: MATERIALS, key: "law", value: None, keys: &[] },
+    material::DROPS[0],
+    material::DROPS[1],
     // A weave has its yarns from its preset, and is no mesh; a mesh has no plies.
     Drops { tables: &["weave"], key: "preset", value: None, keys: &["pattern", "warp", "weft"] },
     Drops { tables: &["case"], key: "weave", value: None, keys: &["mesh"] },

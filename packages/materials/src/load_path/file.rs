@@ -14,15 +14,13 @@ use super::columns;
 use super::element::Hexahedron;
 use super::newton::COMPONENT_NAMES;
 use super::path::{LoadPath, Point, Step, Target, equal_parts};
-use crate::layers::layered;
-use crate::material::file::MaterialFile;
-use crate::material::file::read_material;
+use crate::material::file::{self, MaterialFile, read_material};
 use crate::material::laws::Laws;
 use crate::units;
 use toron::host::units::UnitSystem;
 use toron_shared::checked::{Checked, Positive, value};
 use toron_shared::error::Error;
-use toron_shared::layers::entries;
+use toron_shared::layers::{entries, layered};
 use toron_shared::toml_file::{self, Numbers, Source};
 
 /// Most increments that a path may have, all cycles counted: a point's history is kept in memory until it is written.
@@ -158,7 +156,7 @@ fn points(source: &Source<'_>, laws: Laws, file: &PathFile, units: &UnitSystem) 
     for (point, table) in file.point.iter().zip(entries(tables.get_ref().get("point"))) {
         let name = &point.get_ref().name;
         let name = source.name_of("point", Some(name), name.span(), points.iter().map(|other| other.name.as_str()))?;
-        let material = read(layered("material", [table.get_ref().get("material"), base]), point.span())?;
+        let material = read(layered("material", [table.get_ref().get("material"), base], &file::DROPS), point.span())?;
         points.push(Point { name, material });
     }
     Ok(points)

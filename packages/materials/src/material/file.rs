@@ -17,8 +17,18 @@ use toron::law::parameters::{DENSITY, NUMBER, Property};
 use toron::{Criterion, Rotation};
 use toron_shared::checked::{Positive, value};
 use toron_shared::error::Error;
+use toron_shared::layers::Drops;
 use toron_shared::numbers::plain;
 use toron_shared::toml_file::{Numbers, Source};
+
+/// The tables of a material.
+const TABLES: &[&str] = &["material", "hyperelastic", "linear-elastic"];
+
+/// What a key of a material drops of the material beneath: one of its own starts afresh.
+pub const DROPS: [Drops; 2] = [
+    Drops { tables: TABLES, key: "preset", value: None, keys: &[] },
+    Drops { tables: TABLES, key: "law", value: None, keys: &[] },
+];
 
 /// A table that describes a material.
 #[derive(Clone, Default, Deserialize)]

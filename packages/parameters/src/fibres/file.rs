@@ -8,10 +8,10 @@ use toml::Spanned;
 use toml::de::DeValue;
 
 use super::scene::Walls;
-use toron_materials::layers::CaseTable;
 use toron_shared::checked::{Bound, Fraction, NotNegative, Number, Positive, Whole};
 use toron_shared::error::Error;
 use toron_shared::toml_file::{Source, Unused};
+use toron_strikes::layers::CaseTable;
 
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
 #[serde(rename_all = "kebab-case")]

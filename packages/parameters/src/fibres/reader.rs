@@ -8,13 +8,13 @@ use toml::Spanned;
 use super::file::{CaseFile, FibreFile, PackingName, SceneFile, SectionName, StrikerName};
 use super::scene::{Case, Contact, Fibre, Outline, Packing, Scene, SectionLaw, Striker, Walls};
 use toron::host::units::UnitSystem;
-use toron_materials::layers::{self, Case as CaseTables};
 use toron_materials::material::laws::Laws;
 use toron_materials::material::preset::Preset;
 use toron_materials::units::{self, SPEED};
 use toron_shared::checked::{Checked, value};
 use toron_shared::error::Error;
 use toron_shared::toml_file::{self, Source};
+use toron_strikes::layers::{self, Case as CaseTables};
 
 /// A bead takes some 600 bytes in LAMMPS, and its identifiers have 31 bits.
 const MOST_BEADS: f64 = 1e9;

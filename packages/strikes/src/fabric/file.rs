@@ -4,8 +4,8 @@ use serde::Deserialize;
 use serde::de::IgnoredAny;
 use toml::Spanned;
 
-use crate::struck::keys::{Keys, Table, Target};
-use crate::struck::shots::ShotsFile;
+use crate::scene_keys::keys::{Keys, Table, Target};
+use crate::scene_keys::shots::ShotsFile;
 use crate::weave::file::{PlyFile, WeaveFile};
 use crate::weave::foreign::file::MeshFile;
 use toron_materials::material::of_law::LawName;

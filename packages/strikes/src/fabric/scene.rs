@@ -2,9 +2,9 @@
 
 use std::sync::Arc;
 
+use crate::scene_keys::shots::Shots;
+pub use crate::scene_keys::zones::Zones;
 use crate::strength::scatter::Strength;
-use crate::struck::shots::Shots;
-pub use crate::struck::zones::Zones;
 use crate::weave::cloth::Cloth;
 use crate::weave::geometry::Family;
 use crate::weave::panel::Part;

@@ -1,9 +1,9 @@
 //! The strength of each element of a panel's yarns.
 
 use super::scene::Case;
+use crate::scene_keys::keys::Reader;
 use crate::strength::field;
 use crate::strength::scatter::Strength;
-use crate::struck::keys::Reader;
 use crate::weave::centre_line::CentreLines;
 use crate::weave::cloth::Cloth;
 use crate::weave::geometry::Family;

@@ -5,8 +5,8 @@ use serde::de::IgnoredAny;
 use toml::Spanned;
 
 use super::scene::{Abscissa, Outputs};
-use crate::struck::keys::{Keys, Table, Target};
-use crate::struck::shots::ShotsFile;
+use crate::scene_keys::keys::{Keys, Table, Target};
+use crate::scene_keys::shots::ShotsFile;
 use toron_materials::material::of_law::LawName;
 use toron_shared::checked::{Checked, Positive, Whole};
 use toron_shared::toml_file::Unused;

@@ -6,12 +6,12 @@ use toml::Spanned;
 
 use super::file::{MOST_ELEMENTS, SceneFile, SectionName, StrikerName, YarnKeys};
 use super::scene::{Abscissa, Case, Outputs, Scene, Striker};
+use crate::layers;
+use crate::scene_keys::keys::{Reader, Table, read_cases};
+use crate::scene_keys::shots::read_shots;
 use crate::strength::scatter::Strength;
-use crate::struck::keys::{Reader, Table, read_cases};
-use crate::struck::shots::read_shots;
 use toron_explicit_host::contact::{Rigid, Shape};
 use toron_explicit_host::mesh::{Section, Yarn};
-use toron_materials::layers;
 use toron_materials::units;
 use toron_shared::checked::{Checked, Whole, value};
 use toron_shared::error::Error;

@@ -2,9 +2,9 @@
 
 use serde::Deserialize;
 
+use crate::scene_keys::shots::Shots;
+pub use crate::scene_keys::zones::Zones;
 use crate::strength::scatter::Strength;
-use crate::struck::shots::Shots;
-pub use crate::struck::zones::Zones;
 use toron::host::units::UnitSystem;
 use toron_explicit_host::contact::Rigid;
 use toron_explicit_host::medium::Control;

@@ -8,12 +8,12 @@ use toml::Spanned;
 use toml::de::DeValue;
 
 use super::zones::Zones;
+use crate::layers::{self, Case, CaseTable};
 use crate::strength::file::{StrengthFile, complete_families};
 use toron::host::units::UnitSystem;
 use toron_explicit_host::control_keys::control;
 use toron_explicit_host::medium::Control;
 use toron_explicit_host::struck::plan::Plan;
-use toron_materials::layers::{self, Case, CaseTable};
 use toron_materials::material::file::MaterialFile;
 use toron_materials::material::model::Material;
 use toron_materials::material::of_law::{

@@ -4,7 +4,7 @@ use serde::Deserialize;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use toron_materials::layers::layered;
+use crate::layers::layered;
 use toron_shared::checked::Positive;
 use toron_shared::field_names::field_names;
 

@@ -8,7 +8,7 @@ use super::field::Field;
 use super::file::{LawFile, StrengthFile};
 use super::scatter::Strength;
 use super::weibull::Weibull;
-use crate::struck::keys::Reader;
+use crate::scene_keys::keys::Reader;
 use toron_materials::material::of_law::LawName;
 use toron_shared::checked::{Checked, Positive, value};
 use toron_shared::error::Error;

@@ -13,7 +13,7 @@ use super::series::Series;
 use super::shot::Ended;
 use super::simulation::{Experiment, Truth};
 use super::{limit, plot, report, shot};
-use crate::struck::shots::Shots;
+use crate::scene_keys::shots::Shots;
 use toron_explicit_host::judgement::warnings;
 use toron_shared::console::{print, print_error, print_note};
 use toron_shared::error::Error;

@@ -12,7 +12,7 @@ use super::foreign::file::MeshFile;
 use super::geometry::Family;
 use super::panel::{Centre, Part};
 use super::section::Section;
-use toron_materials::layers::layered;
+use crate::layers::layered;
 use toron_materials::material::file::MaterialFile;
 use toron_shared::checked::{Positive, Whole};
 use toron_shared::error::Error;

@@ -13,9 +13,9 @@ use super::pattern::Pattern;
 use super::preset::Preset;
 use super::reader::Scene;
 use super::section::{Section, Thread};
+use crate::layers::layered;
 use crate::weave::reader::layup;
 use toron::host::units::UnitSystem;
-use toron_materials::layers::layered;
 use toron_shared::toml_file::Source;
 
 fn millimetres() -> UnitSystem {
