@@ -12,6 +12,7 @@
 //! | (asinh s)/s | 6.5 | 6.5 | as above |
 //! | `ln(x)` | 3.0 | 3.0 | normal x |
 //! | `exp(x)` | 1.5 | 1.5 | results that are normal numbers |
+//! | `sinh_and_exp_of_minus(u)` = sinh u, e^−u | 2.5 | 2.5 | u ≥ 0, eᵘ a normal number |
 //! | `powf(x, q)` = x^q | 1.5 + 2 \|q\| | 1.5 + 2 \|q\| | normal x, \|q\| ≤ 1000; as for `power`, but above the range infinite |
 //! | `power(i, q)` = i^q | 1.2 + 1.5 q | 1.2 + 1.8 q | normal i ≥ 0, 0 < q ≤ 39; results below about 2^−1001 (f64), 2^−105 (f32) are 0; above 2^1004 (f64) unspecified, above 2^127 (f32) infinite |
 
@@ -298,13 +299,20 @@ fn scaled_exponential<R: Real>(n: R, r: R) -> R {
     R::select(n.lt(least), R::splat(0.0), value)
 }
 
+/// ln 2 = high + low, where the product of `high` and the exponent of any number is exact (32 bits of 53; 15 of 24).
+#[inline(always)]
+fn ln_2_in_parts<R: Real>() -> (f64, f64) {
+    if R::EPSILON < 1e-10 {
+        return (f64::from_bits(0x3fe6_2e42_fee0_0000), 1.908_214_929_270_587_7e-10);
+    }
+    (0.693_145_751_953_125, LN_2 - 0.693_145_751_953_125)
+}
+
 /// eˣ: ∞ and 0 where it is beyond the normal numbers.
 #[inline(always)]
 pub fn exp<R: Real>(x: R) -> R {
-    // ln 2 = high + low, where the product of `high` and the exponent of any number is exact (32 bits of 53; 15 of 24).
+    let (high, low) = ln_2_in_parts::<R>();
     let double = R::EPSILON < 1e-10;
-    let high = if double { f64::from_bits(0x3fe6_2e42_fee0_0000) } else { 0.693_145_751_953_125 };
-    let low = if double { 1.908_214_929_270_587_7e-10 } else { LN_2 - high };
     let bound = R::splat(if double { 750.0 } else { 110.0 });
     let inside = (-bound).lt(x) & x.lt(bound);
     let within = R::select(inside, x, R::splat(0.0));
@@ -312,6 +320,20 @@ pub fn exp<R: Real>(x: R) -> R {
     let r = n.mul_add(R::splat(-low), n.mul_add(R::splat(-high), within));
     let beyond = R::select(x.lt(R::splat(0.0)), R::splat(0.0), R::select(bound.le(x), R::splat(f64::INFINITY), x));
     R::select(inside, scaled_exponential(n, r), beyond)
+}
+
+/// sinh u and e^−u for 0 ≤ u, where eᵘ is a normal number.
+#[inline(always)]
+pub fn sinh_and_exp_of_minus<R: Real>(u: R) -> (R, R) {
+    let one = R::splat(1.0);
+    let (high, low) = ln_2_in_parts::<R>();
+    let n = (u * R::splat(LOG2_E)).round();
+    let r = n.mul_add(R::splat(-low), n.mul_add(R::splat(-high), u));
+    // eᵘ − 1 = 2^n (eʳ − 1) + (2^n − 1).
+    let power = one.times_power_of_two(n);
+    let growth = power.mul_add((r * r).mul_add(polynomial(R::EXP, r), r), power - one);
+    let decay = one / (one + growth);
+    (R::splat(0.5) * growth.mul_add(decay, growth), decay)
 }
 
 /// x^q for |q| up to 1000: ∞ and 0 where it is beyond the numbers that [`power`] has; 0^q is 0, 1 or ∞; NaN for x < 0.

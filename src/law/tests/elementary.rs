@@ -10,7 +10,7 @@ use dashu_float::FBig;
 use dashu_float::round::mode::HalfEven;
 use fastrand::Rng;
 
-use crate::law::number::elementary::{Asinh, Exponent, exp, ln, ln_1p, ln_sum, power, powf};
+use crate::law::number::elementary::{Asinh, Exponent, exp, ln, ln_1p, ln_sum, power, powf, sinh_and_exp_of_minus};
 use crate::law::number::level::Level;
 use crate::law::number::real::{Lanes, Real};
 use crate::law::number::registers::Registers;
@@ -365,10 +365,36 @@ impl Function<1, 1> for Exponential {
     }
 }
 
+struct Hyperbolic;
+impl Function<1, 2> for Hyperbolic {
+    fn of<R: Real>(&self, [u]: [R; 1]) -> [R; 2] {
+        let (sinh, decay) = sinh_and_exp_of_minus(u);
+        [sinh, decay]
+    }
+}
+
 struct AnyPower;
 impl Function<2, 1> for AnyPower {
     fn of<R: Real>(&self, [x, q]: [R; 2]) -> [R; 1] {
         [powf(x, q)]
+    }
+}
+
+#[test]
+fn hyperbolic_sines_keep_their_digits_down_to_zero() {
+    let both = |u: f64| {
+        let (growth, decay) = (reference(u).exp(), reference(-u).exp());
+        [(growth - &decay) / reference(2.0), decay]
+    };
+    let small = samples(-40.0..0.0, 2_000).map(f64::exp);
+    let arguments: Vec<_> =
+        samples(0.0..200.0, 10_000).chain(samples(0.0..2.0, 10_000)).chain(small).map(|u| [u]).collect();
+    within(HYPERBOLIC, &Hyperbolic, &arguments, |[u]: [f64; 1]| both(u), none);
+    let single: Vec<_> = samples(0.0..40.0, 50_000).chain(samples(0.0..2.0, 50_000)).map(|u| [u as f32]).collect();
+    let both = |u: f64| [u.sinh(), (-u).exp()];
+    within(HYPERBOLIC, &Hyperbolic, &single, |[u]: [f32; 1]| both(f64::from(u)), none);
+    for (level, results) in everywhere(&Hyperbolic, &[[0.0]]) {
+        assert_eq!(results, [[0.0, 1.0]], "{level}");
     }
 }
 
@@ -463,6 +489,7 @@ fn public_functions_at_the_ends_of_the_range() {
 const LN_SUM: (f64, f64) = (3.0, 3.0);
 const LN: (f64, f64) = (3.0, 3.0);
 const EXP: (f64, f64) = (1.5, 1.5);
+const HYPERBOLIC: [(&str, f64); 2] = [("sinh", 2.5), ("exp of minus", 2.5)];
 const LN_1P: (f64, f64) = (3.0, 3.0);
 const ASINH: (f64, f64) = (4.5, 4.5);
 const RATIO: (f64, f64) = (6.5, 6.5);
