@@ -60,7 +60,7 @@ impl Hyperelastic<f64> {
         let (section, [a, b]) = Section::of_point(&stretch, images, &frame);
         let strain = Strain::new(&stretch, &section, &Logarithms::new(&stretch, &section));
         let kinematics =
-            Kinematics { stretch: &stretch, section: &section, images: [images[0], a, b], strain: &strain };
+            Kinematics { stretch: &stretch, section: &section, images: [images[0], a, b], strain: &strain, slid: None };
         let d = Decomposition::new(kinematics);
         let frame = [d.e, d.q1, d.q2()];
         Ok(Acoustic { modulus: moduli.matrix(), stress: point.stress, jacobian: d.jacobian, frame })

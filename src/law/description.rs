@@ -5,7 +5,8 @@ use core::ops::Range;
 use super::number::real::Real;
 use super::parameters::{self, FIBRE, LINEAR_FIBRE, LINEAR_SECOND_AXIS, Property};
 use super::state::{
-    self, ALIVE, ENERGIES, FAILED, INVARIANTS, LINEAR_ALIVE, LINEAR_FAILED, LINEAR_WORK, StateVariable,
+    self, ALIVE, ENERGIES, FAILED, FRICTIONAL_ALIVE, FRICTIONAL_FAILED, INVARIANTS, LINEAR_ALIVE, LINEAR_FAILED,
+    LINEAR_WORK, StateVariable,
 };
 
 /// A law as the hosts see it.
@@ -37,6 +38,19 @@ pub const HYPERELASTIC: Description = Description {
     second_axis: None,
     failed: FAILED,
     alive: ALIVE,
+    energies: ENERGIES..INVARIANTS,
+    reads_old_gradient: false,
+};
+
+/// The law with friction between the fibres of a section.
+pub const FRICTIONAL: Description = Description {
+    title: "yarn law with friction",
+    properties: &parameters::FRICTIONAL,
+    state: &state::FRICTIONAL,
+    fibre: Some(FIBRE),
+    second_axis: None,
+    failed: FRICTIONAL_FAILED,
+    alive: FRICTIONAL_ALIVE,
     energies: ENERGIES..INVARIANTS,
     reads_old_gradient: false,
 };

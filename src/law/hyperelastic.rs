@@ -141,7 +141,7 @@ impl<R: Real> Hyperelastic<R> {
         intact: R::Mask,
         shear: bool,
     ) -> [R; 6] {
-        let Kinematics { stretch: d, section, images: [c, a, b], strain } = kinematics;
+        let Kinematics { stretch: d, section, images: [c, a, b], strain, .. } = kinematics;
         let zero = R::splat(0.0);
         // If all factors are zero, so is the stress.
         let factor = |x: R| R::select(intact, x, zero);
@@ -171,17 +171,29 @@ impl<R: Real> Hyperelastic<R> {
 
     /// S_el, S_tc, S_td, S_ld, each 11 22 33 12 23 31: the parts of τ by mode, pulled back by the triangle R.
     #[inline(always)]
-    pub(crate) fn modes(&self, d: &Decomposition<R>, k: &Kirchhoff<R>, n: &FibreFrame<R>) -> [[R; 6]; 4] {
-        let [w1, w2, w3] = d.pulled_back(n);
+    pub(crate) fn modes(
+        &self,
+        kinematics: Kinematics<'_, R>,
+        d: &Decomposition<R>,
+        k: &Kirchhoff<R>,
+        n: &FibreFrame<R>,
+    ) -> [[R; 6]; 4] {
+        let [w1, w2, w3] = d.pulled_back(&kinematics.axes(n));
         let two = R::splat(2.0);
         let distortion = k.distortion * d.area_ratio;
         let (d1, d2) = (distortion * d.d1, distortion * d.d2);
-        let [t12, t13] = shear_components(d, k.shear);
+        let longitudinal = match kinematics.slid {
+            Some(_) => {
+                let whole = Decomposition::new(kinematics.whole());
+                shear_mode(&whole, whole.pulled_back(n), k.shear)
+            }
+            None => shear_mode(d, [w1, w2, w3], k.shear),
+        };
         [
             square(k.tension, w1),
             sum(square(-k.pressure, w2), square(-k.pressure, w3)),
             sum(sum(square(d1, w2), square(-d1, w3)), product(two * d2, w2, w3)),
-            sum(product(two * t12, w1, w2), product(two * t13, w1, w3)),
+            longitudinal,
         ]
     }
 
@@ -197,6 +209,14 @@ impl<R: Real> Hyperelastic<R> {
         let curvature = R::select(limited, self.limited_curvature, factor * slope);
         (slope, R::select(zero.le(compaction), curvature, zero))
     }
+}
+
+/// S_ld from the pulled-back frame.
+#[inline(always)]
+fn shear_mode<R: Real>(d: &Decomposition<R>, [w1, w2, w3]: [[R; 3]; 3], factor: R) -> [R; 6] {
+    let two = R::splat(2.0);
+    let [t12, t13] = shear_components(d, factor);
+    sum(product(two * t12, w1, w2), product(two * t13, w1, w3))
 }
 
 /// The components of the longitudinal-shear stress on (e, q1) and (e, q2): `factor` · P b e.

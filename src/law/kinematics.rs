@@ -28,192 +28,21 @@
 //! several points before the next one: within a stage the chain of dependent operations is short enough for the processor to
 //! overlap points, and divisions and roots come at its end, where no operation of the stage waits for them.
 
+pub use super::axes::{Axes, FibreFrame, FirstAxis, Image};
 use super::number::elementary::{Asinh, Logarithm};
 use super::number::real::{Real, Single};
-use super::number::vector::{accurate_cross, along, cross, dot, image, scale, select};
+use super::number::vector::{along, cross, dot, scale, select};
 
 /// F is near the reference if every entry of its diagonal is above this by more than the sum of the squares of the others. F − 1
 /// is exact from ½ on. With d the least entry of the diagonal, |F v| > (d − √(d − 0.6)) |v| ≥ 0.35 |v|: no direction is shortened so
 /// far that its strain, computed from F − 1, would cancel with 1.
 const NEAR_REFERENCE: f64 = 0.6;
 
-/// Three axes to which a deformation gradient is referred: the fibre direction and two across it, n1 = m, n2 = t1, n3 = t2.
-pub trait Axes<R: Real>: Copy {
-    /// Whether these are the coordinate axes.
-    const ALONG_COORDINATES: bool;
-    /// What [`keep`](Self::keep) stores of the images of the axes; nothing if they are easily computed again from F.
-    type Kept: Copy;
-    /// Stores the images that [`Stretch::new`] has returned, for a later stage.
-    fn keep(&self, images: [[R; 3]; 3]) -> Self::Kept;
-    /// The images that [`Stretch::new`] has returned, from what was stored or from F.
-    fn recall(&self, kept: &Self::Kept, f: &[[R; 3]; 3], d: &Stretch<R>) -> [[R; 3]; 3];
-    /// The images of the axes under F.
-    fn images(&self, f: &[[R; 3]; 3], chi: R) -> [Image<R>; 3];
-    /// `v + s n`, n being the axis with the index `axis`, counted from 0.
-    fn shifted(&self, v: [R; 3], s: R, axis: usize) -> [R; 3];
-    /// det F, given the images of the axes, 1/λ² and |F|².
-    fn determinant(&self, f: &[[R; 3]; 3], images: [[R; 3]; 3], inverse_square: R, norm_square: R) -> R;
-    /// The scalar product of the images of two different axes; `y` is that of the axis with the index `axis`.
-    fn product(&self, x: &Image<R>, y: &Image<R>, chi: R, axis: usize) -> R;
-}
-
-/// The image of an axis n: F n (`whole`) and (F − χ1) n (`rest`). Near the reference the latter has digits that F n has lost.
-#[derive(Clone, Copy)]
-pub struct Image<R> {
-    whole: [R; 3],
-    rest: [R; 3],
-}
-
-/// The coordinate axes, for a fibre along the first one.
-#[derive(Clone, Copy, Debug)]
-pub struct FirstAxis;
-
-impl<R: Real> Axes<R> for FirstAxis {
-    const ALONG_COORDINATES: bool = true;
-    type Kept = ();
-    #[inline(always)]
-    fn keep(&self, _: [[R; 3]; 3]) {}
-    #[inline(always)]
-    fn recall(&self, (): &(), f: &[[R; 3]; 3], d: &Stretch<R>) -> [[R; 3]; 3] {
-        let [m, t1, t2] = self.images(f, d.chi);
-        [m.whole, t1.rest, t2.rest]
-    }
-    #[inline(always)]
-    fn images(&self, f: &[[R; 3]; 3], chi: R) -> [Image<R>; 3] {
-        // Near the reference these differences are exact; elsewhere χ is 0.
-        let image = |axis: usize, column| Image { whole: column, rest: self.shifted(column, -chi, axis) };
-        [image(0, f[0]), image(1, f[1]), image(2, f[2])]
-    }
-    #[inline(always)]
-    fn shifted(&self, v: [R; 3], s: R, axis: usize) -> [R; 3] {
-        match axis {
-            0 => [v[0] + s, v[1], v[2]],
-            1 => [v[0], v[1] + s, v[2]],
-            _ => [v[0], v[1], v[2] + s],
-        }
-    }
-    #[inline(always)]
-    fn determinant(&self, f: &[[R; 3]; 3], _: [[R; 3]; 3], _: R, _: R) -> R {
-        triple_product(*f)
-    }
-    #[inline(always)]
-    fn product(&self, x: &Image<R>, y: &Image<R>, _: R, _: usize) -> R {
-        // Each term has an off-diagonal entry as a factor, and so keeps all its digits.
-        dot(x.whole, y.whole)
-    }
-}
-
-/// The material frame: the fibre direction and two axes across it, orthonormal, right-handed.
-#[derive(Clone, Copy, Debug)]
-pub struct FibreFrame<R> {
-    pub m: [R; 3],
-    pub t1: [R; 3],
-    pub t2: [R; 3],
-}
-
-impl<R: Real> FibreFrame<R> {
-    /// The coordinate axes.
-    #[inline(always)]
-    pub fn first_axis() -> Self {
-        let (zero, one) = (R::splat(0.0), R::splat(1.0));
-        FibreFrame { m: [one, zero, zero], t1: [zero, one, zero], t2: [zero, zero, one] }
-    }
-
-    /// The frame of a fibre direction of any length, and where that direction is usable: finite and not zero.
-    #[inline(always)]
-    pub fn new(direction: [R; 3]) -> (Self, R::Mask) {
-        let (zero, one) = (R::splat(0.0), R::splat(1.0));
-        let largest = direction[0].abs().max(direction[1].abs()).max(direction[2].abs());
-        // A direction whose squared length would overflow or underflow is scaled to a length near 1.
-        let ordinary = R::splat(1e-15).lt(largest) & largest.lt(R::splat(1e15));
-        let scaling = R::select(ordinary, one, one / largest);
-        let direction = scale(scaling, direction);
-        let square = dot(direction, direction);
-        let usable = zero.lt(square) & square.lt(R::splat(1e31));
-        let length = R::select(usable, square, one).sqrt();
-        let m = [direction[0] / length, direction[1] / length, direction[2] / length];
-        // Two axes across m, without a branch and without loss of digits for m near −x (Duff et al., J. Comput. Graph. Tech.
-        // 6(1), 2017). For m along the first coordinate axis they are the other two coordinate axes.
-        // Their second and third component are 1 − m2²/(1 + |m1|) and 1 − m3²/(1 + |m1|). With |m|² = 1 that of the larger of the two
-        // squares is a sum of positive numbers, which keeps its digits for m near that axis, where the difference cancels.
-        let sign = R::select(m[0].lt(zero), -one, one);
-        let size = m[0].abs();
-        let a = one / (one + size);
-        let b = m[1] * m[2] * a;
-        let [square_2, square_3] = [m[1] * m[1], m[2] * m[2]];
-        let (second, smaller) = (square_3.lt(square_2), square_2.min(square_3));
-        let [difference, sum] = [(-smaller).mul_add(a, one), smaller.mul_add(a, size)];
-        let [diagonal_2, diagonal_3] = [R::select(second, sum, difference), R::select(second, difference, sum)];
-        let t1 = [-(sign * m[1]), diagonal_2, -b];
-        let t2 = [-m[2], -(sign * b), sign * diagonal_3];
-        (FibreFrame { m, t1, t2 }, usable)
-    }
-
-    #[inline(always)]
-    fn axis(&self, axis: usize) -> [R; 3] {
-        match axis {
-            0 => self.m,
-            1 => self.t1,
-            _ => self.t2,
-        }
-    }
-}
-
-impl<R: Real> Axes<R> for FibreFrame<R> {
-    const ALONG_COORDINATES: bool = false;
-    type Kept = [[R; 3]; 3];
-    #[inline(always)]
-    fn keep(&self, images: [[R; 3]; 3]) -> Self::Kept {
-        images
-    }
-    #[inline(always)]
-    fn recall(&self, kept: &Self::Kept, _: &[[R; 3]; 3], _: &Stretch<R>) -> [[R; 3]; 3] {
-        *kept
-    }
-    #[inline(always)]
-    fn images(&self, f: &[[R; 3]; 3], chi: R) -> [Image<R>; 3] {
-        let columns =
-            [[f[0][0] - chi, f[0][1], f[0][2]], [f[1][0], f[1][1] - chi, f[1][2]], [f[2][0], f[2][1], f[2][2] - chi]];
-        let image = |axis: usize, n| {
-            let rest = image(&columns, n);
-            Image { whole: self.shifted(rest, chi, axis), rest }
-        };
-        [image(0, self.m), image(1, self.t1), image(2, self.t2)]
-    }
-    #[inline(always)]
-    fn shifted(&self, v: [R; 3], s: R, axis: usize) -> [R; 3] {
-        along(v, s, self.axis(axis))
-    }
-    /// From the images where J_t = J/λ keeps more digits so. The image of the fibre has an error of |F|/λ roundings, and so has λ.
-    /// In J from the images that error is the same, and cancels in J/λ; there remains that of the other two images, at most
-    /// |F|²/J_t. Else, and where the sign is in question, from the columns, which have no error. Of an image that is short beside
-    /// F, whether the fibre is pressed or its section blown up, it makes the difference between all digits and none.
-    #[inline(always)]
-    fn determinant(&self, f: &[[R; 3]; 3], images: [[R; 3]; 3], inverse_square: R, norm_square: R) -> R {
-        let (columns, images) = (triple_product(*f), triple_product(images));
-        // Negative where the determinant of the images is.
-        let area_over_stretch = images * inverse_square;
-        let better = norm_square.lt(area_over_stretch * area_over_stretch.abs());
-        R::select(better & R::splat(0.0).lt(columns), images, columns)
-    }
-    #[inline(always)]
-    fn product(&self, x: &Image<R>, y: &Image<R>, chi: R, axis: usize) -> R {
-        chi.mul_add(dot(self.axis(axis), x.rest), dot(x.whole, y.rest))
-    }
-}
-
-/// u·(v × w). With accurate minors it is as accurate as the entries allow; with ordinary ones it would lose most of its digits if a
-/// section is sheared and compacted.
-#[inline(always)]
-fn triple_product<R: Real>([u, v, w]: [[R; 3]; 3]) -> R {
-    dot(u, accurate_cross(v, w))
-}
-
 /// The first stage: determinant, fibre stretch and longitudinal shear.
 #[derive(Clone, Copy)]
 pub struct Stretch<R: Real> {
     /// 1 near the reference, else 0.
-    chi: R,
+    pub(super) chi: R,
     /// det F and its reciprocal.
     pub jacobian: R,
     pub inverse_jacobian: R,
@@ -325,18 +154,24 @@ impl<R: Real> Section<R> {
     /// the rounding of (h/λ²) c1 is left, as many roundings of a as the slip is longer than a. The other lanes keep their bits.
     #[inline(always)]
     pub fn orthogonal<A: Axes<R>>(d: &Stretch<R>, images: [[R; 3]; 3], n: &A, far: R::Mask) -> (Self, [[R; 3]; 2]) {
+        Self::from_rests(d, Self::orthogonal_rests(d, images, n, far), n)
+    }
+
+    /// δ2 and δ3 of [`orthogonal`](Self::orthogonal).
+    #[inline(always)]
+    pub fn orthogonal_rests<A: Axes<R>>(d: &Stretch<R>, images: [[R; 3]; 3], n: &A, far: R::Mask) -> [[R; 3]; 2] {
         let c1 = images[0];
         let [delta_2, delta_3] = Self::rests(d, images);
         let left_2 = dot(c1, n.shifted(delta_2, d.chi, 1)) * d.inverse_square;
         let left_3 = dot(c1, n.shifted(delta_3, d.chi, 2)) * d.inverse_square;
         let again_2 = select(far, along(delta_2, -left_2, c1), delta_2);
         let again_3 = select(far, along(delta_3, -left_3, c1), delta_3);
-        Self::from_rests(d, [again_2, again_3], n)
+        [again_2, again_3]
     }
 
     /// δ2 = a − χ t1 and δ3 = b − χ t2.
     #[inline(always)]
-    fn rests(d: &Stretch<R>, [c1, g2, g3]: [[R; 3]; 3]) -> [[R; 3]; 2] {
+    pub fn rests(d: &Stretch<R>, [c1, g2, g3]: [[R; 3]; 3]) -> [[R; 3]; 2] {
         [along(g2, -(d.h[0] * d.inverse_square), c1), along(g3, -(d.h[1] * d.inverse_square), c1)]
     }
 
@@ -345,12 +180,7 @@ impl<R: Real> Section<R> {
         let (one, half) = (R::splat(1.0), R::splat(0.5));
         let a = Image { whole: n.shifted(delta_2, d.chi, 1), rest: delta_2 };
         let b = Image { whole: n.shifted(delta_3, d.chi, 2), rest: delta_3 };
-
-        // x_ij = a_i·a_j − χ δ_ij for a_2 = a, a_3 = b.
-        let x22 = dot(a.rest, n.shifted(a.whole, d.chi, 1));
-        let x33 = dot(b.rest, n.shifted(b.whole, d.chi, 2));
-        let x23 = n.product(&a, &b, d.chi, 2);
-        let (x23_square, sum, delta) = (x23 * x23, x22 + x33, half * (x22 - x33));
+        let Products { x22, x33, x23, x23_square, sum, delta } = Products::new(&a, &b, d.chi, n);
 
         // Where the section is near the reference, J_t² − 1 has more correct digits than J. With χ = 0 `near` never holds.
         let growth = sum + x22.mul_add(x33, -x23_square);
@@ -370,6 +200,39 @@ impl<R: Real> Section<R> {
             rounding: R::select(near, growth - (area_square - one), R::splat(0.0)),
         };
         (section, [a.whole, b.whole])
+    }
+
+    /// The section of this area that is made of the images w1 and w2 of other axes: (w1, w2) = (a, b) V, det V = 1. `rests` are δ2 and
+    /// δ3. Also returns w1 and w2.
+    #[inline(always)]
+    pub fn referred_to<A: Axes<R>>(
+        &self,
+        v: &Unimodular<R>,
+        d: &Stretch<R>,
+        [delta_2, delta_3]: [[R; 3]; 2],
+        n: &A,
+    ) -> (Self, [[R; 3]; 2]) {
+        let (zero, half) = (R::splat(0.0), R::splat(0.5));
+        let (a, b) = (n.shifted(delta_2, d.chi, 1), n.shifted(delta_3, d.chi, 2));
+        // Near 1, V − 1 has digits that V has lost, and w_i − χ n_i = δ_i + (V − 1) a_i. Elsewhere V and a are multiplied out.
+        let chi = R::select(v.near_one, d.chi, zero);
+        let kept = R::select(v.near_one, R::splat(1.0), zero);
+        let [[v11, v12], [v21, v22]] = v.times;
+        let rest_1 = along(along(scale(kept, delta_2), v11, a), v21, b);
+        let rest_2 = along(along(scale(kept, delta_3), v22, b), v12, a);
+        let w1 = Image { whole: n.shifted(rest_1, chi, 1), rest: rest_1 };
+        let w2 = Image { whole: n.shifted(rest_2, chi, 2), rest: rest_2 };
+        let Products { x22, x23, x23_square, sum, delta, .. } = Products::new(&w1, &w2, chi, n);
+        let section = Section {
+            delta,
+            x23,
+            x23_square,
+            a_square: chi + x22,
+            half_trace: half.mul_add(sum, chi),
+            distortion: delta.mul_add(delta, x23_square).sqrt(),
+            ..*self
+        };
+        (section, [w1.whole, w2.whole])
     }
 
     /// d̂ = ½(a·a − b·b) + (a·b)²/(a·a), given 1/(a·a).
@@ -392,6 +255,44 @@ impl<R: Real> Section<R> {
     }
 }
 
+/// x_ij = a_i·a_j − χ δ_ij of the images a_2 and a_3 of two axes, and what follows from these: x23², x22 + x33 and ½(x22 − x33).
+struct Products<R> {
+    x22: R,
+    x33: R,
+    x23: R,
+    x23_square: R,
+    sum: R,
+    delta: R,
+}
+
+impl<R: Real> Products<R> {
+    #[inline(always)]
+    fn new<A: Axes<R>>(a: &Image<R>, b: &Image<R>, chi: R, n: &A) -> Self {
+        let x22 = dot(a.rest, n.shifted(a.whole, chi, 1));
+        let x33 = dot(b.rest, n.shifted(b.whole, chi, 2));
+        let x23 = n.product(a, b, chi, 2);
+        Products { x22, x33, x23, x23_square: x23 * x23, sum: x22 + x33, delta: R::splat(0.5) * (x22 - x33) }
+    }
+}
+
+/// A 2×2 matrix V of determinant 1, one of whose entries off the diagonal is 0.
+#[derive(Clone, Copy)]
+pub struct Unimodular<R: Real> {
+    /// Where V is near 1, V − 1; else V: by rows.
+    pub times: [[R; 2]; 2],
+    pub near_one: R::Mask,
+}
+
+impl<R: Real> Unimodular<R> {
+    /// V.
+    #[inline(always)]
+    fn matrix(&self) -> [[R; 2]; 2] {
+        let added = R::select(self.near_one, R::splat(1.0), R::splat(0.0));
+        let [[v11, v12], [v21, v22]] = self.times;
+        [[added + v11, v12], [v21, added + v22]]
+    }
+}
+
 /// The third stage: the logarithms up to their last step.
 #[derive(Clone, Copy)]
 pub struct Logarithms<R: Real> {
@@ -404,6 +305,17 @@ pub struct Logarithms<R: Real> {
 }
 
 impl<R: Real> Logarithms<R> {
+    /// The distortion of the section as the deformation makes it, beside the logarithms of one that has slid; these are valid only
+    /// where that is.
+    #[inline(always)]
+    pub fn beside(&mut self, whole: &Section<R>) -> Asinh<R> {
+        let (least, most) = (R::splat(R::SQUARES.0), R::splat(R::SQUARES.1));
+        let (distortion, growth) = Asinh::new(whole.distortion, whole.half_trace, whole.inverse_area_square);
+        let valid = least.lt(whole.a_square) & whole.half_trace.max(growth).lt(most);
+        self.nan_if_invalid = R::select(valid, self.nan_if_invalid, R::splat(f64::NAN));
+        distortion
+    }
+
     #[inline(always)]
     pub fn new(d: &Stretch<R>, section: &Section<R>) -> Self {
         let (least, most) = (R::splat(R::SQUARES.0), R::splat(R::SQUARES.1));
@@ -473,14 +385,67 @@ pub struct Kinematics<'a, R: Real> {
     /// F m, a and b.
     pub images: [[R; 3]; 3],
     pub strain: &'a Strain<R>,
+    /// Of a section whose fibres may have slid; section, a and b are then those of other axes, from which its distortion is computed.
+    pub slid: Option<&'a Slid<'a, R>>,
+}
+
+/// What becomes of a section whose fibres have slid over one another.
+#[derive(Clone, Copy)]
+pub struct Slid<'a, R: Real> {
+    /// The section as the deformation makes it, and its a and b.
+    pub whole: &'a Section<R>,
+    pub images: [[R; 3]; 2],
+    /// V: the axes of which the images are w1 and w2 are (t1, t2) V.
+    pub axes: Unimodular<R>,
+    /// Where the fibres slide now, and µ.
+    pub slides: R::Mask,
+    pub mu: R,
 }
 
 impl<R: Real> Kinematics<'_, R> {
     /// `factor` u with u = h2 a + h3 b = λ P F Fᵀ e, the direction of the longitudinal shear.
     #[inline(always)]
     pub fn slip(&self, factor: R) -> [R; 3] {
-        let [_, a, b] = self.images;
+        let [_, a, b] = self.whole().images;
         along(scale(factor * self.stretch.h[0], a), factor * self.stretch.h[1], b)
+    }
+}
+
+impl<'a, R: Real> Kinematics<'a, R> {
+    /// The same with the section as the deformation makes it; its strain is not that of its distortion.
+    #[inline(always)]
+    pub fn whole(&self) -> Kinematics<'a, R> {
+        match self.slid {
+            Some(&Slid { whole, images: [a, b], .. }) => {
+                Kinematics { section: whole, images: [self.images[0], a, b], slid: None, ..*self }
+            }
+            None => *self,
+        }
+    }
+
+    /// The products of the fibre's image with those of the axes of which a and b are the images.
+    #[inline(always)]
+    pub(super) fn h(&self) -> [R; 2] {
+        let [h2, h3] = self.stretch.h;
+        match self.slid {
+            Some(slid) => {
+                let [[v11, v12], [v21, v22]] = slid.axes.matrix();
+                [v11.mul_add(h2, v21 * h3), v12.mul_add(h2, v22 * h3)]
+            }
+            None => [h2, h3],
+        }
+    }
+
+    /// The fibre and the axes of which a and b are the images, from the fibre's own.
+    #[inline(always)]
+    pub fn axes(&self, n: &FibreFrame<R>) -> FibreFrame<R> {
+        match self.slid {
+            Some(slid) => {
+                let [[v11, v12], [v21, v22]] = slid.axes.matrix();
+                FibreFrame { m: n.m, t1: along(scale(v11, n.t1), v21, n.t2), t2: along(scale(v22, n.t2), v12, n.t1) }
+            }
+            None => *n,
+        }
     }
 }
 
@@ -523,13 +488,14 @@ impl<R: Real> Decomposition<R> {
         let r11 = section.a_square.sqrt();
         let (inverse_lambda, inverse_r11) = (one / lambda, one / r11);
         let [area_ratio, inverse_area] = section.area_ratio();
+        let [h2, h3] = kinematics.h();
         let r12 = section.x23 * inverse_r11;
         Decomposition {
             e: scale(inverse_lambda, c1),
             q1: scale(inverse_r11, a),
             inverse_lambda,
-            f_a: d.h[0] * inverse_lambda,
-            f_b: d.h[1] * inverse_lambda,
+            f_a: h2 * inverse_lambda,
+            f_b: h3 * inverse_lambda,
             r11,
             r12,
             r22: area_ratio * inverse_r11,

@@ -1,12 +1,15 @@
 //! The constitutive laws, independent of any host program. They access no files, allocate nothing and need no standard library.
 
 pub mod acoustic;
+pub(crate) mod axes;
 pub mod block;
 pub mod bounds;
 pub(crate) mod derivative;
 pub mod description;
 pub(crate) mod error;
 pub(crate) mod failure;
+pub mod frictional;
+pub(crate) mod frictional_tangent;
 pub mod hyperelastic;
 pub mod interface;
 pub(crate) mod kinematics;

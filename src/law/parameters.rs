@@ -94,7 +94,9 @@ pub const BETA: usize = place(&HYPERELASTIC, "beta");
 pub const FIBRE: usize = place(&HYPERELASTIC, "m_1");
 
 /// The properties of the hyperelastic law, in the order in which every host passes them (Eq. 4.10–4.15, section 4.4.2).
-pub static HYPERELASTIC: [Property; HYPERELASTIC_PROPERTIES] = [
+pub static HYPERELASTIC: [Property; HYPERELASTIC_PROPERTIES] = YARN;
+
+const YARN: [Property; HYPERELASTIC_PROPERTIES] = [
     positive_or_zero("k_el", "k_el", STRESS, None, "longitudinal elongation stiffness"),
     positive_or_zero("k_tc", "k_tc", STRESS, None, "transverse compaction stiffness"),
     Property {
@@ -117,6 +119,31 @@ pub static HYPERELASTIC: [Property; HYPERELASTIC_PROPERTIES] = [
     component("m_2", "m2", 0.0, "fibre direction in the reference placement, any length"),
     component("m_3", "m3", 0.0, "fibre direction in the reference placement, any length"),
 ];
+
+/// Number of properties of the law with friction.
+pub const FRICTIONAL_PROPERTIES: usize = 13;
+
+/// The properties of the law with friction: those of the hyperelastic law, and the friction.
+pub static FRICTIONAL: [Property; FRICTIONAL_PROPERTIES] = {
+    let [k_el, k_tc, p, k_td, k_ld, eps_lim, alpha, beta, m_1, m_2, m_3] = YARN;
+    let mu = Property {
+        name: "mu",
+        symbol: "µ",
+        dimension: NUMBER,
+        default: None,
+        minimum: 0.0,
+        minimum_excluded: false,
+        maximum: MOST_FRICTION,
+        allowed: "a number from 0 to below 1",
+        meaning: "friction of the section: the sine of the bundle's angle of friction",
+    };
+    let cohesion =
+        positive_or_zero("cohesion", "c", STRESS, Some(0.0), "distortion stress that fibres hold without pressure");
+    [k_el, k_tc, p, k_td, k_ld, eps_lim, alpha, beta, m_1, m_2, m_3, mu, cohesion]
+};
+
+/// The greatest number below 1, in both precisions.
+const MOST_FRICTION: f64 = 1.0 - f32::EPSILON as f64 / 2.0;
 
 /// Number of properties of the linear elastic law.
 pub const LINEAR_ELASTIC_PROPERTIES: usize = 10;

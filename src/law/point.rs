@@ -472,7 +472,7 @@ fn point_in<
     let logarithms = Logarithms::new(&stretch, &section);
     let early = if D::EARLY { Some(Bases::new(&stretch, &section, &images)) } else { None };
     let strain = Strain::new(&stretch, &section, &logarithms);
-    let kinematics = Kinematics { stretch: &stretch, section: &section, images, strain: &strain };
+    let kinematics = Kinematics { stretch: &stretch, section: &section, images, strain: &strain, slid: None };
     let (power, failure) = source.power_and_failure(&law, &strain);
     let k = law.kirchhoff(&stretch, &strain, power);
     let deformed = Deformed { law: &law, kinematics, k: &k, shear };

@@ -92,13 +92,13 @@ impl<R: Real> Deformed<'_, R> {
         if request.modes || request.wave_modulus {
             let decomposition = Decomposition::new(kinematics);
             if request.modes {
-                modes = law.modes(&decomposition, k, frame);
+                modes = law.modes(kinematics, &decomposition, k, frame);
                 for &x in modes.iter().flatten() {
                     latch_or_nan = x.mul_add(zero, latch_or_nan);
                 }
             }
             if request.wave_modulus {
-                wave = law.wave_modulus(&decomposition, strain, k);
+                wave = law.wave_modulus(kinematics, &decomposition, k);
                 latch_or_nan = wave.mul_add(zero, latch_or_nan);
             }
         }

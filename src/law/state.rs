@@ -46,8 +46,8 @@ pub const FAILED_ROW: StateVariable =
 pub const ALIVE_ROW: StateVariable =
     row("alive", "alive", NUMBER, "1 - failed, written on every call and never read: for element deletion");
 
-/// The state of the hyperelastic law. Energies are per reference volume.
-pub static HYPERELASTIC: [StateVariable; HYPERELASTIC_STATE] = [
+/// The energies and invariants of the yarn laws. Energies are per reference volume.
+const MODES: [StateVariable; 8] = [
     row("w_el", "W_el", ENERGY_DENSITY, "energy of longitudinal elongation"),
     row("w_tc", "W_tc", ENERGY_DENSITY, "energy of transverse compaction"),
     row("w_td", "W_td", ENERGY_DENSITY, "energy of transverse distortion"),
@@ -56,10 +56,47 @@ pub static HYPERELASTIC: [StateVariable; HYPERELASTIC_STATE] = [
     row("i_tc", "I_tc", NUMBER, "compaction invariant: half the logarithm of the section's area ratio"),
     row("i_td", "I_td", NUMBER, "distortion invariant: half the logarithm of the section's aspect ratio"),
     row("i_ld", "I_ld", NUMBER, "longitudinal-shear invariant: tangent of the fibre-slip angle"),
-    row("failure_index", "index", NUMBER, "1 at the failure limit, 0 where the fibre is not in tension"),
-    FAILED_ROW,
-    ALIVE_ROW,
 ];
+const FAILURE_INDEX_ROW: StateVariable =
+    row("failure_index", "index", NUMBER, "1 at the failure limit, 0 where the fibre is not in tension");
+
+/// The state of the hyperelastic law.
+pub static HYPERELASTIC: [StateVariable; HYPERELASTIC_STATE] = {
+    let [w_el, w_tc, w_td, w_ld, i_el, i_tc, i_td, i_ld] = MODES;
+    [w_el, w_tc, w_td, w_ld, i_el, i_tc, i_td, i_ld, FAILURE_INDEX_ROW, FAILED_ROW, ALIVE_ROW]
+};
+
+/// Number of state variables of the law with friction.
+pub const FRICTIONAL_STATE: usize = 15;
+/// Indices into the state of the law with friction: the energy lost, and the latch and the flag for element deletion.
+pub const FRICTIONAL_LOST: usize = 8;
+pub const FRICTIONAL_FAILED: usize = 13;
+pub const FRICTIONAL_ALIVE: usize = 14;
+
+/// The number of variables in the parts of that state: energies, invariants, and friction with failure.
+pub const FRICTIONAL_PARTS: [usize; 3] = [4, 4, 7];
+
+/// The state of the law with friction.
+pub static FRICTIONAL: [StateVariable; FRICTIONAL_STATE] = {
+    let [w_el, w_tc, w_td, w_ld, i_el, i_tc, i_td, i_ld] = MODES;
+    [
+        w_el,
+        w_tc,
+        w_td,
+        w_ld,
+        i_el,
+        i_tc,
+        i_td,
+        i_ld,
+        row("w_fr", "w_fr", ENERGY_DENSITY, "energy lost by friction between the fibres"),
+        row("i_te", "I_te", NUMBER, "the part of the distortion invariant that the fibres hold"),
+        row("slip_1", "d1", NUMBER, "slip of the fibres over one another, along the transverse axes"),
+        row("slip_2", "d2", NUMBER, "slip of the fibres over one another, between the transverse axes"),
+        FAILURE_INDEX_ROW,
+        FAILED_ROW,
+        ALIVE_ROW,
+    ]
+};
 
 /// Number of state variables of the linear elastic law.
 pub const LINEAR_ELASTIC_STATE: usize = 10;

@@ -17,7 +17,7 @@
 //! upper triangle is computed.
 
 use super::hyperelastic::Deformed;
-use super::kinematics::{FibreFrame, Kinematics, Section, Stretch};
+use super::kinematics::{FibreFrame, Kinematics, Section, Slid, Stretch};
 use super::number::real::Real;
 use super::number::vector::{along, cross, dot, image, scale};
 use super::voigt::{
@@ -77,14 +77,14 @@ struct Factors<R> {
 #[derive(Clone, Copy)]
 pub(crate) struct Shape<R> {
     area_ratio: R,
-    inverse_area_ratio: R,
+    pub(super) inverse_area_ratio: R,
     cosh: R,
-    s: R,
+    pub(super) s: R,
 }
 
 impl<R: Real> Shape<R> {
     #[inline(always)]
-    fn new(section: &Section<R>) -> Self {
+    pub(super) fn new(section: &Section<R>) -> Self {
         let [area_ratio, inverse_area_ratio] = section.area_ratio();
         Shape {
             area_ratio,
@@ -102,8 +102,8 @@ pub(crate) struct Bases<R> {
     inverse_lambda: R,
     /// e, E = e⊗e and D.
     fibre: [R; 3],
-    e: [R; 6],
-    d: [R; 6],
+    pub(super) e: [R; 6],
+    pub(super) d: [R; 6],
 }
 
 impl<R: Real> Bases<R> {
@@ -171,7 +171,8 @@ impl<R: Real> Deformed<'_, R> {
     /// The factors of the modulus, each multiplied by `over`: 1/J for a modulus of σ, 1 for one of τ or S.
     #[inline(always)]
     fn factors(self, shape: &Shape<R>, over: R) -> Factors<R> {
-        let Deformed { law, kinematics: Kinematics { strain, .. }, k, .. } = self;
+        let Deformed { law, kinematics, k, .. } = self;
+        let strain = kinematics.strain;
         let (zero, one, quarter) = (R::splat(0.0), R::splat(1.0), R::splat(0.25));
         let (_, curvature) = law.compaction_slopes(strain, k);
         // W2 D⊗D = (D/s)⊗(D/s)(k_td/4)(1 − x θ/s). The bracket has an error of a few roundings of 1, and D/s has unit size: no
@@ -181,6 +182,11 @@ impl<R: Real> Deformed<'_, R> {
         // θ/s and x θ/s.
         let ratio = R::splat(2.0) * strain.distortion_ratio * shape.area_ratio;
         let stiffness = shape.cosh * ratio;
+        // Where the fibres slide, q is what friction holds, and does not grow with the distortion.
+        let held = match kinematics.slid {
+            Some(&Slid { slides, .. }) => R::select(slides, zero, one),
+            None => one,
+        };
         let distortion = quarter * law.k_td * over;
         let elongation = law.k_el * (one - R::splat(2.0) * strain.i_el);
         Factors {
@@ -189,7 +195,7 @@ impl<R: Real> Deformed<'_, R> {
             pressure: k.pressure * over,
             distortion: distortion * ratio,
             stiffness: distortion * stiffness,
-            curvature: distortion * ((one - stiffness) / square),
+            curvature: distortion * ((held - stiffness) / square),
             tension: k.tension * over,
             shear: k.shear * shape.area_ratio * over,
         }
@@ -261,11 +267,15 @@ impl<R: Real> Deformed<'_, R> {
         measure: Measure,
         bases: Option<Bases<R>>,
     ) -> Moduli<R> {
-        let Deformed { kinematics: Kinematics { stretch, section, images, .. }, shear, .. } = self;
+        let Deformed { kinematics, shear, .. } = self;
+        let Kinematics { stretch, section, images, .. } = kinematics;
         match measure {
             Measure::Material | Measure::Nominal => {
                 let components = FibreComponents::new(self, &Shape::new(section));
-                if along_coordinates { components.in_fibre_axes(shear) } else { components.in_reference_axes(n, shear) }
+                match along_coordinates {
+                    true => components.in_fibre_axes(shear),
+                    false => components.in_reference_axes(&kinematics.axes(n), shear),
+                }
             }
             Measure::Truesdell | Measure::Jaumann => {
                 let bases = match bases {
@@ -277,6 +287,23 @@ impl<R: Real> Deformed<'_, R> {
         }
     }
 
+    /// The rows of F⁻¹. It takes c to m, a to α and b' to β, so that they follow from these and the dual vectors of c, a and b'.
+    #[inline(always)]
+    pub(super) fn inverse(self, n: &FibreFrame<R>) -> [[R; 3]; 3] {
+        let Kinematics { stretch, images, .. } = self.kinematics;
+        let basis = Orthogonal::new(self.kinematics);
+        let [m, alpha, beta] = basis.pulled_back(&self.kinematics.axes(n));
+        let [c1, a, _] = images;
+        // The third dual vector, b'/(b'·b'), is c × a over J, which involves no cancellation.
+        let duals =
+            [scale(stretch.inverse_square, c1), scale(basis.over_a, a), scale(stretch.inverse_jacobian, cross(c1, a))];
+        [
+            image(&duals, [m[0], alpha[0], beta[0]]),
+            image(&duals, [m[1], alpha[1], beta[1]]),
+            image(&duals, [m[2], alpha[2], beta[2]]),
+        ]
+    }
+
     /// dP/dF by columns of P and F: ∂P_iJ/∂F_kL = J F⁻¹_Jj (c_ijkl + δ_ik σ_jl) F⁻¹_Ll with the Truesdell modulus c of σ.
     #[inline(always)]
     pub fn nominal_tangent(self, n: &FibreFrame<R>) -> [R; 81] {
@@ -286,18 +313,7 @@ impl<R: Real> Deformed<'_, R> {
         let stress = law.cauchy(kinematics, k, zero.le(zero), shear);
         let bases = Bases::new(stretch, section, &images);
         let c = self.spatial_tangent(&bases, Measure::Truesdell).matrix();
-        // F⁻¹ takes c to m, a to α and b' to β, so that its rows follow from these and the dual vectors of c, a and b'.
-        let basis = Orthogonal::new(kinematics);
-        let [m, alpha, beta] = basis.pulled_back(n);
-        let [c1, a, _] = images;
-        // The third dual vector, b'/(b'·b'), is c × a over J, which involves no cancellation.
-        let duals =
-            [scale(stretch.inverse_square, c1), scale(basis.over_a, a), scale(stretch.inverse_jacobian, cross(c1, a))];
-        let inverse = [
-            image(&duals, [m[0], alpha[0], beta[0]]),
-            image(&duals, [m[1], alpha[1], beta[1]]),
-            image(&duals, [m[2], alpha[2], beta[2]]),
-        ];
+        let inverse = self.inverse(n);
         let mut a = [R::splat(0.0); 81];
         for i in 0..3 {
             for k in i..3 {
@@ -324,23 +340,24 @@ impl<R: Real> Deformed<'_, R> {
 }
 
 /// The orthogonal basis c, a and b' = b − (a·b)/(a·a) a made of the images of the axes, and its pull-back F⁻¹c, F⁻¹a, F⁻¹b'.
-struct Orthogonal<R> {
+pub(super) struct Orthogonal<R> {
     /// (a·b)/(a·a); h2/λ² and h3/λ²; 1/(a·a); 1/(b'·b').
-    shift: R,
+    pub(super) shift: R,
     slip: [R; 2],
-    over_a: R,
-    over_b: R,
+    pub(super) over_a: R,
+    pub(super) over_b: R,
 }
 
 impl<R: Real> Orthogonal<R> {
     #[inline(always)]
-    fn new(kinematics: Kinematics<'_, R>) -> Self {
+    pub(super) fn new(kinematics: Kinematics<'_, R>) -> Self {
         let Kinematics { stretch: d, section, .. } = kinematics;
         let over_a = R::splat(1.0) / section.a_square;
         let [_, inverse_area_ratio] = section.area_ratio();
+        let [h2, h3] = kinematics.h();
         Orthogonal {
             shift: section.x23 * over_a,
-            slip: [d.h[0] * d.inverse_square, d.h[1] * d.inverse_square],
+            slip: [h2 * d.inverse_square, h3 * d.inverse_square],
             over_a,
             over_b: section.a_square * inverse_area_ratio * inverse_area_ratio,
         }
@@ -348,7 +365,7 @@ impl<R: Real> Orthogonal<R> {
 
     /// m = F⁻¹c, α = F⁻¹a and β = F⁻¹b'.
     #[inline(always)]
-    fn pulled_back(&self, n: &FibreFrame<R>) -> [[R; 3]; 3] {
+    pub(super) fn pulled_back(&self, n: &FibreFrame<R>) -> [[R; 3]; 3] {
         let alpha = along(n.t1, -self.slip[0], n.m);
         let beta = along(along(n.t2, -self.slip[1], n.m), -self.shift, alpha);
         [n.m, alpha, beta]
@@ -485,7 +502,7 @@ impl<R: Real> FibreComponents<R> {
 
 /// x A + y B + z C.
 #[inline(always)]
-fn sum<R: Real>([x, y, z]: [R; 3], [a, b, c]: &[[R; 6]; 3]) -> [R; 6] {
+pub(super) fn sum<R: Real>([x, y, z]: [R; 3], [a, b, c]: &[[R; 6]; 3]) -> [R; 6] {
     added(&combination(x, a, y, b), z, c)
 }
 

@@ -17,7 +17,7 @@
 
 use super::error::{Error, Value};
 use super::hyperelastic::{Hyperelastic, Kirchhoff, shear_components};
-use super::kinematics::{Decomposition, Strain};
+use super::kinematics::{Decomposition, Kinematics};
 use super::number::real::Real;
 
 /// Checks a reference density that a wave speed is to be computed with.
@@ -48,17 +48,28 @@ impl<R: Real> Hyperelastic<R> {
 
     /// ρ0 c² for an upper bound c of the speed of every wave in this state; at least k_el.
     #[inline(always)]
-    pub(crate) fn wave_modulus(&self, d: &Decomposition<R>, strain: &Strain<R>, k: &Kirchhoff<R>) -> R {
+    pub(crate) fn wave_modulus(&self, kinematics: Kinematics<'_, R>, d: &Decomposition<R>, k: &Kirchhoff<R>) -> R {
+        let strain = kinematics.strain;
         let (zero, quarter) = (R::splat(0.0), R::splat(0.25));
         let (slope, curvature) = self.compaction_slopes(strain, k);
         let active = zero.le(-strain.i_tc);
-        let compacting = R::select(active, quarter.mul_add(curvature, slope), zero);
+        // Sliding adds µ W″/4 at most.
+        let share = match kinematics.slid {
+            Some(slid) => quarter.mul_add(slid.mu, quarter),
+            None => quarter,
+        };
+        let compacting = R::select(active, share.mul_add(curvature, slope), zero);
 
         let grown = d.s + d.cosh; // e^θ
         let distorting = k.distortion * d.area_ratio * grown + R::splat(0.5) * self.k_td * strain.i_td;
-        let shearing = R::splat(2.0) * k.shear * d.area_ratio * grown;
+        // The longitudinal shear is that of the whole section.
+        let whole = match kinematics.slid {
+            Some(_) => &Decomposition::new(kinematics.whole()),
+            None => d,
+        };
+        let shearing = R::splat(2.0) * k.shear * d.area_ratio * (whole.s + whole.cosh);
         // The stiffness is multiplied last: its square might overflow.
-        let [on_q1, on_q2] = shear_components(d, R::splat(1.0));
+        let [on_q1, on_q2] = shear_components(whole, R::splat(1.0));
         let coupling = R::splat(4.0) * k.shear * on_q1.mul_add(on_q1, on_q2 * on_q2).sqrt();
 
         let across = self.k_el.mul_add(strain.i_el.max(zero), compacting + distorting + shearing);

@@ -2,6 +2,7 @@
 
 mod block;
 mod energy;
+mod frictional;
 mod layouts;
 mod limits;
 mod linear_block;

@@ -8,6 +8,7 @@ use super::instructions::Instructions;
 use super::kernel::sweep;
 use super::linear::sweep_linear;
 use super::points::{Needs, Points};
+use crate::law::frictional::Friction;
 use crate::law::hyperelastic::Hyperelastic;
 use crate::law::interface::Law;
 use crate::law::linear_elastic::LinearElastic;
@@ -19,9 +20,13 @@ impl Instructions for Avx2 {
     type Lanes<T: Registers> = T::Avx2;
 
     #[target_feature(enable = "avx2,fma")]
-    unsafe fn run<T: Registers, const WANT: u8>(law: &Hyperelastic<T>, block: &Points<T>) -> i32 {
+    unsafe fn run<T: Registers, const WANT: u8>(
+        law: &Hyperelastic<T>,
+        friction: &Friction<T>,
+        block: &Points<T>,
+    ) -> i32 {
         // SAFETY: `run` requires of its caller what `sweep` requires.
-        unsafe { sweep::<T, T::Avx2, WANT>(law, block) }
+        unsafe { sweep::<T, T::Avx2, WANT>(law, friction, block) }
     }
 
     #[target_feature(enable = "avx2,fma")]

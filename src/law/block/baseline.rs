@@ -8,6 +8,7 @@ use super::instructions::Instructions;
 use super::kernel::sweep;
 use super::linear::sweep_linear;
 use super::points::{Needs, Points};
+use crate::law::frictional::Friction;
 use crate::law::hyperelastic::Hyperelastic;
 use crate::law::interface::Law;
 use crate::law::linear_elastic::LinearElastic;
@@ -18,9 +19,13 @@ pub(super) struct Baseline;
 impl Instructions for Baseline {
     type Lanes<T: Registers> = T::Baseline;
 
-    unsafe fn run<T: Registers, const WANT: u8>(law: &Hyperelastic<T>, block: &Points<T>) -> i32 {
+    unsafe fn run<T: Registers, const WANT: u8>(
+        law: &Hyperelastic<T>,
+        friction: &Friction<T>,
+        block: &Points<T>,
+    ) -> i32 {
         // SAFETY: `run` requires of its caller what `sweep` requires.
-        unsafe { sweep::<T, T::Baseline, WANT>(law, block) }
+        unsafe { sweep::<T, T::Baseline, WANT>(law, friction, block) }
     }
 
     unsafe fn run_padded<T: Precision, L: Law<T>, const ROWS: usize>(

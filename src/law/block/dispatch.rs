@@ -8,11 +8,12 @@ use super::avx2::Avx2;
 use super::avx512::Avx512;
 use super::baseline::Baseline;
 use super::instructions::Instructions;
-use super::kernel::{ALIGNED, ANY};
-#[cfg(target_arch = "x86_64")]
-use super::kernel::{FIBRES, LIMITS, SHEAR, STATE, STRESS, WAVE, is_usual, request};
 use super::points::Points;
-use super::run::{HYPERELASTIC_ROWS, LINEAR_ROWS};
+use super::request::{ALIGNED, ANY, FRICTION};
+#[cfg(target_arch = "x86_64")]
+use super::request::{FIBRES, LIMITS, SHEAR, STATE, STRESS, WAVE, is_usual, request};
+use super::run::{FRICTIONAL_ROWS, HYPERELASTIC_ROWS, LINEAR_ROWS};
+use crate::law::frictional::{Friction, Frictional};
 use crate::law::hyperelastic::Hyperelastic;
 use crate::law::linear_elastic::LinearElastic;
 use crate::law::number::level::Level;
@@ -31,6 +32,13 @@ pub trait Precision: Registers + 'static {
     #[doc(hidden)]
     unsafe fn dispatch(level: Level, law: &Hyperelastic<Self>, block: &Points<Self>) -> i32;
 
+    /// Runs the kernels of the law with friction at a level.
+    ///
+    /// # Safety
+    /// As for [`dispatch`](Self::dispatch).
+    #[doc(hidden)]
+    unsafe fn dispatch_frictional(level: Level, law: &Frictional<Self>, block: &Points<Self>) -> i32;
+
     /// Runs the kernels of the linear elastic law at a level.
     ///
     /// # Safety
@@ -47,6 +55,11 @@ impl Precision for f64 {
         unsafe { dispatch(level, law, block) }
     }
 
+    unsafe fn dispatch_frictional(level: Level, law: &Frictional<f64>, block: &Points<f64>) -> i32 {
+        // SAFETY: the same block and level.
+        unsafe { dispatch_frictional(level, law, block) }
+    }
+
     unsafe fn dispatch_linear(level: Level, law: &LinearElastic<f64>, block: &Points<f64>) -> i32 {
         // SAFETY: the same block and level.
         unsafe { dispatch_linear(level, law, block) }
@@ -57,6 +70,11 @@ impl Precision for f32 {
     unsafe fn dispatch(level: Level, law: &Hyperelastic<f32>, block: &Points<f32>) -> i32 {
         // SAFETY: the same block and level.
         unsafe { dispatch(level, law, block) }
+    }
+
+    unsafe fn dispatch_frictional(level: Level, law: &Frictional<f32>, block: &Points<f32>) -> i32 {
+        // SAFETY: the same block and level.
+        unsafe { dispatch_frictional(level, law, block) }
     }
 
     unsafe fn dispatch_linear(level: Level, law: &LinearElastic<f32>, block: &Points<f32>) -> i32 {
@@ -114,6 +132,7 @@ unsafe fn run<T: Registers, I: Instructions>(law: &Hyperelastic<T>, block: &Poin
     let stress_alone = usual && nothing_else && !wave_modulus && !law.shears;
     let fibres = !block.fibre[0].is_null();
     let limits = !block.limits(FAILURE).is_null();
+    let none = &Friction::none();
     const STATE_FIBRES: u8 = STATE + FIBRES;
     const STATE_ALIGNED: u8 = STATE + ALIGNED;
     const SHEAR_STATE_FIBRES: u8 = SHEAR + STATE + FIBRES;
@@ -135,26 +154,26 @@ unsafe fn run<T: Registers, I: Instructions>(law: &Hyperelastic<T>, block: &Poin
     // `explicit`, `stress_alone` and `fibres` tell.
     unsafe {
         match (state, law.shears, stress_alone) {
-            (true, false, _) if limits && fibres => I::run::<T, LIMITS_STATE_FIBRES>(law, block),
-            (true, false, _) if limits && law.aligned => I::run::<T, LIMITS_STATE_ALIGNED>(law, block),
-            (true, false, _) if limits => I::run::<T, LIMITS_STATE>(law, block),
-            (true, true, _) if limits && fibres => I::run::<T, LIMITS_SHEAR_STATE_FIBRES>(law, block),
-            (true, true, _) if limits && law.aligned => I::run::<T, LIMITS_SHEAR_STATE_ALIGNED>(law, block),
-            (true, true, _) if limits => I::run::<T, LIMITS_SHEAR_STATE>(law, block),
-            _ if limits && explicit && fibres => I::run::<T, LIMITS_WAVE_STATE_FIBRES>(law, block),
-            _ if limits && explicit && law.aligned => I::run::<T, LIMITS_WAVE_STATE_ALIGNED>(law, block),
+            (true, false, _) if limits && fibres => I::run::<T, LIMITS_STATE_FIBRES>(law, none, block),
+            (true, false, _) if limits && law.aligned => I::run::<T, LIMITS_STATE_ALIGNED>(law, none, block),
+            (true, false, _) if limits => I::run::<T, LIMITS_STATE>(law, none, block),
+            (true, true, _) if limits && fibres => I::run::<T, LIMITS_SHEAR_STATE_FIBRES>(law, none, block),
+            (true, true, _) if limits && law.aligned => I::run::<T, LIMITS_SHEAR_STATE_ALIGNED>(law, none, block),
+            (true, true, _) if limits => I::run::<T, LIMITS_SHEAR_STATE>(law, none, block),
+            _ if limits && explicit && fibres => I::run::<T, LIMITS_WAVE_STATE_FIBRES>(law, none, block),
+            _ if limits && explicit && law.aligned => I::run::<T, LIMITS_WAVE_STATE_ALIGNED>(law, none, block),
             _ if limits => run_any::<T, I>(law, block),
-            (true, false, _) if fibres => I::run::<T, STATE_FIBRES>(law, block),
-            (true, false, _) if law.aligned => I::run::<T, STATE_ALIGNED>(law, block),
-            (true, false, _) => I::run::<T, STATE>(law, block),
-            (true, true, _) if fibres => I::run::<T, SHEAR_STATE_FIBRES>(law, block),
-            (true, true, _) if law.aligned => I::run::<T, SHEAR_STATE_ALIGNED>(law, block),
-            (true, true, _) => I::run::<T, SHEAR_STATE>(law, block),
-            (_, _, true) if fibres => I::run::<T, STRESS_FIBRES>(law, block),
-            (_, _, true) if law.aligned => I::run::<T, STRESS_ALIGNED>(law, block),
-            (_, _, true) => I::run::<T, STRESS>(law, block),
-            _ if explicit && fibres => I::run::<T, WAVE_STATE_FIBRES>(law, block),
-            _ if explicit && law.aligned => I::run::<T, WAVE_STATE_ALIGNED>(law, block),
+            (true, false, _) if fibres => I::run::<T, STATE_FIBRES>(law, none, block),
+            (true, false, _) if law.aligned => I::run::<T, STATE_ALIGNED>(law, none, block),
+            (true, false, _) => I::run::<T, STATE>(law, none, block),
+            (true, true, _) if fibres => I::run::<T, SHEAR_STATE_FIBRES>(law, none, block),
+            (true, true, _) if law.aligned => I::run::<T, SHEAR_STATE_ALIGNED>(law, none, block),
+            (true, true, _) => I::run::<T, SHEAR_STATE>(law, none, block),
+            (_, _, true) if fibres => I::run::<T, STRESS_FIBRES>(law, none, block),
+            (_, _, true) if law.aligned => I::run::<T, STRESS_ALIGNED>(law, none, block),
+            (_, _, true) => I::run::<T, STRESS>(law, none, block),
+            _ if explicit && fibres => I::run::<T, WAVE_STATE_FIBRES>(law, none, block),
+            _ if explicit && law.aligned => I::run::<T, WAVE_STATE_ALIGNED>(law, none, block),
             _ => run_any::<T, I>(law, block),
         }
     }
@@ -169,7 +188,78 @@ unsafe fn run_any<T: Registers, I: Instructions>(law: &Hyperelastic<T>, block: &
     // Compared with the tangent, the products with the frame that an aligned fibre saves take little time.
     let aligned = law.aligned && block.fibre[0].is_null() && block.tangent.is_null();
     // SAFETY: the block fills a register, and the general kernel looks up which arrays it has.
-    unsafe { if aligned { I::run::<T, ANY_ALIGNED>(law, block) } else { I::run::<T, ANY>(law, block) } }
+    unsafe {
+        let none = &Friction::none();
+        if aligned { I::run::<T, ANY_ALIGNED>(law, none, block) } else { I::run::<T, ANY>(law, none, block) }
+    }
+}
+
+/// # Safety
+/// As for [`Precision::dispatch_frictional`].
+unsafe fn dispatch_frictional<T: Precision>(level: Level, law: &Frictional<T>, block: &Points<T>) -> i32 {
+    // SAFETY: as for `dispatch`.
+    unsafe {
+        match level {
+            #[cfg(target_arch = "x86_64")]
+            Level::Avx512 if block.n > lanes::<T, Avx512>() => run_frictional::<T, Avx512>(law, block),
+            #[cfg(target_arch = "x86_64")]
+            Level::Avx512 | Level::Avx2 if block.n >= lanes::<T, Avx2>() => run_frictional::<T, Avx2>(law, block),
+            #[cfg(target_arch = "x86_64")]
+            Level::Avx512 | Level::Avx2 => Avx2::run_padded::<T, Frictional<T>, FRICTIONAL_ROWS>(block, |points| {
+                run_frictional::<T, Avx2>(law, points)
+            }),
+            _ if block.n >= lanes::<T, Baseline>() => run_any_frictional::<T, Baseline>(law, block),
+            _ => Baseline::run_padded::<T, Frictional<T>, FRICTIONAL_ROWS>(block, |points| {
+                run_any_frictional::<T, Baseline>(law, points)
+            }),
+        }
+    }
+}
+
+/// Runs a kernel of the law with friction that is compiled for what solvers ask in every step, or else the general kernel.
+///
+/// # Safety
+/// As for [`run`].
+#[cfg(target_arch = "x86_64")]
+unsafe fn run_frictional<T: Registers, I: Instructions>(law: &Frictional<T>, block: &Points<T>) -> i32 {
+    let Frictional { elastic, friction } = law;
+    let Request { stress, energies, invariants, failure, modes, wave_modulus } = request::<T, ANY>(block);
+    let usual = stress && energies && invariants && failure && !modes && is_usual(block) && !elastic.shears;
+    let (fibres, limits) = (!block.fibre[0].is_null(), !block.limits(FAILURE).is_null());
+    const PLAIN: u8 = FRICTION + STATE;
+    const FIBRE: u8 = FRICTION + STATE + FIBRES;
+    const FIRST: u8 = FRICTION + STATE + ALIGNED;
+    const WAVE_FIBRE: u8 = WAVE + FIBRE;
+    const WAVE_FIRST: u8 = WAVE + FIRST;
+    // SAFETY: as for `run`.
+    unsafe {
+        match (usual && !limits, wave_modulus) {
+            (true, false) if fibres => I::run::<T, FIBRE>(elastic, friction, block),
+            (true, false) if elastic.aligned => I::run::<T, FIRST>(elastic, friction, block),
+            (true, false) => I::run::<T, PLAIN>(elastic, friction, block),
+            (true, true) if fibres => I::run::<T, WAVE_FIBRE>(elastic, friction, block),
+            (true, true) if elastic.aligned => I::run::<T, WAVE_FIRST>(elastic, friction, block),
+            _ => run_any_frictional::<T, I>(law, block),
+        }
+    }
+}
+
+/// Runs the general kernel of the law with friction.
+///
+/// # Safety
+/// As for [`run`].
+unsafe fn run_any_frictional<T: Registers, I: Instructions>(law: &Frictional<T>, block: &Points<T>) -> i32 {
+    const GENERAL: u8 = FRICTION + ANY;
+    const GENERAL_ALIGNED: u8 = GENERAL + ALIGNED;
+    let Frictional { elastic, friction } = law;
+    let aligned = elastic.aligned && block.fibre[0].is_null() && block.tangent.is_null();
+    // SAFETY: the block fills a register, and the general kernel looks up which arrays it has.
+    unsafe {
+        match aligned {
+            true => I::run::<T, GENERAL_ALIGNED>(elastic, friction, block),
+            false => I::run::<T, GENERAL>(elastic, friction, block),
+        }
+    }
 }
 
 /// # Safety

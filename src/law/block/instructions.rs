@@ -5,6 +5,7 @@ use core::ops::Range;
 
 use super::dispatch::Precision;
 use super::points::Points;
+use crate::law::frictional::Friction;
 use crate::law::hyperelastic::Hyperelastic;
 use crate::law::interface::Law;
 use crate::law::linear_elastic::LinearElastic;
@@ -20,7 +21,11 @@ pub(super) trait Instructions {
     ///
     /// # Safety
     /// As for [`sweep`](super::kernel::sweep), on a processor that has the instructions.
-    unsafe fn run<T: Registers, const WANT: u8>(law: &Hyperelastic<T>, block: &Points<T>) -> i32;
+    unsafe fn run<T: Registers, const WANT: u8>(
+        law: &Hyperelastic<T>,
+        friction: &Friction<T>,
+        block: &Points<T>,
+    ) -> i32;
 
     /// Runs a kernel of a law on copies of points that do not fill a register.
     ///

@@ -32,7 +32,9 @@ mod dispatch;
 mod instructions;
 mod kernel;
 mod linear;
+mod outputs;
 mod points;
+mod request;
 mod run;
 
 pub use arrays::{Arrays, Block};

@@ -9,16 +9,19 @@ use super::kernel::STAGED;
 use super::linear::with_tangents;
 use super::points::{Needs, Points, Strides};
 use crate::law::error::Error;
+use crate::law::frictional::Frictional;
 use crate::law::hyperelastic::Hyperelastic;
 use crate::law::interface::Law;
 use crate::law::linear_elastic::{LinearElastic, Rotation};
 use crate::law::number::real::WIDEST;
-use crate::law::state::{HYPERELASTIC_STATE, LINEAR_ELASTIC_STATE};
+use crate::law::state::{FRICTIONAL_STATE, HYPERELASTIC_STATE, LINEAR_ELASTIC_STATE};
 use crate::law::status;
 
 /// How many numbers a copy of a point takes, without and with modes and a tangent.
 const HYPERELASTIC_FEW: usize = rows(HYPERELASTIC_STATE, 0)[0];
 pub(super) const HYPERELASTIC_ROWS: usize = rows(HYPERELASTIC_STATE, 0)[1];
+const FRICTIONAL_FEW: usize = rows(FRICTIONAL_STATE, 0)[0];
+pub(super) const FRICTIONAL_ROWS: usize = rows(FRICTIONAL_STATE, 0)[1];
 /// F at the start, second axis, axes.
 const LINEAR_FEW: usize = rows(LINEAR_ELASTIC_STATE, 9 + 3 + 9)[0];
 pub(super) const LINEAR_ROWS: usize = rows(LINEAR_ELASTIC_STATE, 9 + 3 + 9)[1];
@@ -56,6 +59,23 @@ impl<T: Precision> Kernels<T> for Hyperelastic<T> {
             in_copies::<T, HYPERELASTIC_FEW, HYPERELASTIC_ROWS>(points, &Needs::of::<T, Self>(), |copies| {
                 self.run(copies)
             })
+        }
+    }
+}
+
+impl<T: Precision> Kernels<T> for Frictional<T> {
+    const IN_PLACE: bool = true;
+
+    #[inline(always)]
+    unsafe fn run(&self, points: &Points<T>) -> i32 {
+        // SAFETY: the points are valid and checked; `level` is one that the processor has.
+        unsafe { T::dispatch_frictional(points.level(), self, points) }
+    }
+
+    unsafe fn run_apart(&self, points: &Points<T>) -> i32 {
+        // SAFETY: the points are valid, and so are copies, which are next to each other.
+        unsafe {
+            in_copies::<T, FRICTIONAL_FEW, FRICTIONAL_ROWS>(points, &Needs::of::<T, Self>(), |copies| self.run(copies))
         }
     }
 }

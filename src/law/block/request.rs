@@ -1,0 +1,70 @@
+//! The requests that a kernel is compiled for, so that its loops contain no branches about them: sums of these flags.
+
+use super::points::Points;
+use crate::law::hyperelastic::Hyperelastic;
+use crate::law::number::real::Real;
+use crate::law::response::Request;
+use crate::law::state::part::{ENERGIES, FAILURE, INVARIANTS};
+
+/// The stress alone, with the fibre direction of the properties; the other flags are added to this.
+#[cfg_attr(not(target_arch = "x86_64"), allow(dead_code))]
+pub(super) const STRESS: u8 = 0;
+/// Energies, invariants, failure and the latch as well.
+pub(super) const STATE: u8 = 1;
+/// A fibre direction for each point.
+pub(super) const FIBRES: u8 = 2;
+/// The fibre direction of the properties is the first axis.
+pub(super) const ALIGNED: u8 = 4;
+/// All that the block has arrays for and, if the law has one, longitudinal shear: the kernel looks these up at run time for each
+/// group of registers.
+pub(super) const ANY: u8 = 8;
+/// Longitudinal shear, compiled with the state alone: it is rarely used.
+pub(super) const SHEAR: u8 = 16;
+/// The wave speed, compiled with the state alone: what explicit solvers request in every step.
+pub(super) const WAVE: u8 = 32;
+/// Points with failure limits of their own, beside the state.
+#[cfg_attr(not(target_arch = "x86_64"), allow(dead_code))]
+pub(super) const LIMITS: u8 = 64;
+/// The law with friction between the fibres. The last part of its state begins with four variables of its own.
+pub(super) const FRICTION: u8 = 128;
+pub(super) const LOST: usize = 0;
+pub(super) const I_TE: usize = 1;
+pub(super) const SLIP: usize = 2;
+
+/// The place of the failure index in the last part of the state, before latch and flag.
+pub(super) const fn index_row<const WANT: u8>() -> usize {
+    if WANT & FRICTION != 0 { 4 } else { 0 }
+}
+
+/// Whether the law has a longitudinal shear stiffness and the kernel is compiled for it.
+#[inline(always)]
+pub(super) fn shears<R: Real, const WANT: u8>(law: &Hyperelastic<R>) -> bool {
+    WANT & SHEAR != 0 || (WANT & ANY != 0 && law.shears)
+}
+
+/// The results that are requested of a kernel.
+#[inline(always)]
+pub(super) fn request<T, const WANT: u8>(block: &Points<T>) -> Request {
+    let asked = WANT & ANY != 0;
+    Request {
+        stress: !asked || !block.stress[0].is_null(),
+        energies: if asked { !block.state_new[ENERGIES].is_null() } else { WANT & STATE != 0 },
+        invariants: if asked { !block.state_new[INVARIANTS].is_null() } else { WANT & STATE != 0 },
+        failure: if asked { !block.state_new[FAILURE].is_null() } else { WANT & STATE != 0 },
+        modes: asked && !block.modes.is_null(),
+        wave_modulus: if asked { !block.wave_speed.is_null() } else { WANT & WAVE != 0 },
+    }
+}
+
+/// Whether kernels that are compiled for a request know all arrays of the block; else it takes the general one.
+#[cfg_attr(not(target_arch = "x86_64"), allow(dead_code))]
+#[inline(always)]
+pub(super) fn is_usual<T>(block: &Points<T>) -> bool {
+    block.tangent.is_null()
+}
+
+/// Whether the tangent is requested, which only the general kernel without an aligned fibre computes.
+#[inline(always)]
+pub(super) fn wants_tangent<T, const WANT: u8>(block: &Points<T>) -> bool {
+    WANT & ANY != 0 && WANT & ALIGNED == 0 && !block.tangent.is_null()
+}
