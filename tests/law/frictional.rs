@@ -693,3 +693,39 @@ fn wrong_properties_are_named() {
     assert!(Frictional::<f32>::new(&single).is_ok());
     assert!(Frictional::<f64>::new(&properties[..11]).is_err());
 }
+
+/// A wave of whole numbers, from 0 up to half a period and back.
+fn triangle(i: u32, period: u32) -> f64 {
+    let x = i % period;
+    f64::from(x.min(period - x))
+}
+
+#[test]
+fn a_million_steps_drift_by_few_roundings() {
+    // Evaluated in 40 digits by the formulas of docs/reference/theory.md.
+    let exact = [
+        (1_000, DRIFT[0]),
+        (100_000, DRIFT[1]),
+        (1_000_000, DRIFT[2]),
+    ];
+    let yarn = Yarn { k_el: 0.0, p: 3.0, k_td: 649.75, mu: 0.25, cohesion: 0.5, ..KEVLAR };
+    let law = yarn.law([1.0, 0.0, 0.0]);
+    let mut state = [0.0; FRICTIONAL_STATE];
+    let mut marks = exact.iter();
+    let mut next = marks.next();
+    for i in 1..=1_000_000_u32 {
+        let [a, b] = [triangle(i, 4096), triangle(i + 1000, 6144)].map(|x| x / 32768.0);
+        let [s, t] = [triangle(i + 500, 10240) - 2560.0, triangle(i + 2500, 2048) - 512.0].map(|x| x / 65536.0);
+        one(&law, &Matrix3::new(1.0078125, 0.0, 0.0, 0.0, 1.0 - a, s, 0.0, t, 1.0 - b), &mut state);
+        let Some((steps, [d1, d2, i_te, lost])) = next else { break };
+        if i == *steps {
+            for (value, exact) in [(state[SLIP], d1), (state[SLIP + 1], d2), (state[I_TE], i_te)] {
+                assert!((value - exact).abs() <= 1e-13, "{steps}: {value} {exact}");
+            }
+            // Every step rounds the sum.
+            let allowed = 4.0 * f64::EPSILON * f64::from(*steps).sqrt() * lost;
+            assert!((state[FRICTIONAL_LOST] - lost).abs() <= allowed, "{steps}: {} {lost}", state[FRICTIONAL_LOST]);
+            next = marks.next();
+        }
+    }
+}
