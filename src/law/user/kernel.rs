@@ -3,8 +3,7 @@
 use core::ops::Range;
 
 use super::{Array, Response, Step, User, UserMaterial};
-use crate::law::block::{Needs, Points, Precision, Strides, least_code};
-use crate::law::error::Error;
+use crate::law::block::{Kernels, Points, Precision, least_code};
 use crate::law::failure::Failure;
 use crate::law::kinematics::FibreFrame;
 use crate::law::number::level::Level;
@@ -149,30 +148,21 @@ fn determinant<R: Real>(f: &Matrix<R>) -> R {
     dot(f[0], accurate_cross(f[1], f[2]))
 }
 
-impl<M: UserMaterial, T: Precision> User<M, T> {
-    /// Checks the points and evaluates them. Returns the worst of the status codes.
-    ///
-    /// # Errors
-    /// As for [`Law::step`](super::super::interface::Law::step).
-    ///
-    /// # Safety
-    /// As for [`Law::step`](super::super::interface::Law::step).
-    pub(super) unsafe fn block(&self, points: &Points<T>) -> Result<i32, Error> {
-        points.check(&const { Needs::of::<T, Self>() })?;
-        if points.n == 0 {
-            return Ok(status::OK);
-        }
-        if points.strides != Strides::UNIT {
-            let text = "strides other than 1; allowed: points of a law of one's own next to each other";
-            return Err(Error::Setting { code: status::BAD_LEADING_DIMENSION, text });
-        }
-        let asks_for_derivatives = !points.tangent.is_null() || (!points.wave_speed.is_null() && !self.bounds_waves());
-        // SAFETY: the points are valid, and their layouts have just been checked; `Level::best` is what the processor has.
-        Ok(unsafe {
-            if asks_for_derivatives { self.with_derivatives(points) } else { self.run(points.level(), points) }
-        })
-    }
+// SAFETY: as many numbers as F at the start has, all that points of such a law may have besides.
+unsafe impl<M: UserMaterial, T: Precision> Kernels<T> for User<M, T> {
+    const IN_PLACE: bool = false;
+    type Else = [T; 9];
 
+    unsafe fn run(&self, points: &Points<T>) -> i32 {
+        let asks_for_derivatives = !points.tangent.is_null() || (!points.wave_speed.is_null() && !self.bounds_waves());
+        // SAFETY: the points are valid and checked; `level` is one that the processor has.
+        unsafe {
+            if asks_for_derivatives { self.with_derivatives(points) } else { self.sweeps(points.level(), points) }
+        }
+    }
+}
+
+impl<M: UserMaterial, T: Precision> User<M, T> {
     /// Whether the law has a bound of its wave speed.
     pub(super) fn bounds_waves(&self) -> bool {
         let law = self.doubled();
@@ -183,8 +173,8 @@ impl<M: UserMaterial, T: Precision> User<M, T> {
     }
 
     /// # Safety
-    /// As for [`block`](Self::block), on a processor that has the level's instructions.
-    unsafe fn run(&self, level: Level, points: &Points<T>) -> i32 {
+    /// As for [`Kernels::run`], on a processor that has the level's instructions.
+    unsafe fn sweeps(&self, level: Level, points: &Points<T>) -> i32 {
         let n = points.n;
         let whole = |count: usize, first: usize| n - (n - first) % count;
         // SAFETY: the ranges are points of the block, and whole registers where `sweep` asks for that; the processor has the level's
@@ -240,7 +230,7 @@ unsafe fn avx2<M: UserMaterial, T: Precision>(law: &User<M, T>, points: &Points<
 /// Evaluates the points of a range of the block. Returns the worst status code.
 ///
 /// # Safety
-/// As for [`User::block`], with a range of its points whose number is a multiple of COUNT, on a processor that has the lanes'
+/// As for [`Kernels::run`], with a range of its points whose number is a multiple of COUNT, on a processor that has the lanes'
 /// instructions.
 #[inline(always)]
 unsafe fn sweep<M: UserMaterial, T: Precision, R: Lanes<T>>(

@@ -34,7 +34,7 @@ pub mod state {
     pub use crate::law::state::{ALIVE_ROW as ALIVE, FAILED_ROW as FAILED, StateVariable, row as variable};
 }
 
-use super::block::Precision;
+use super::block::{Precision, evaluate};
 use super::bounds::check;
 use super::error::{Error, Value};
 use super::interface::{Law, Points};
@@ -312,7 +312,7 @@ unsafe impl<M: UserMaterial, T: Precision> Law<T> for User<M, T> {
     }
 
     unsafe fn step(&self, points: &Points<T>) -> Result<i32, Error> {
-        // SAFETY: the points are valid, as `block` asks.
-        unsafe { self.block(points) }
+        // SAFETY: the points are valid.
+        unsafe { evaluate(self, points) }
     }
 }

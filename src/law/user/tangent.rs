@@ -56,7 +56,7 @@ impl<M: UserMaterial, T: Precision> User<M, T> {
     /// overflow. Returns the worst status code.
     ///
     /// # Safety
-    /// As for [`User::block`].
+    /// As for [`Kernels::run`](crate::law::block::Kernels::run).
     pub(super) unsafe fn with_derivatives(&self, points: &Points<T>) -> i32 {
         let law = self.doubled();
         let at_rest = if points.wave_speed.is_null() { 0.0 } else { law.wave_modulus_at_rest() };
@@ -84,7 +84,7 @@ impl<M: UserMaterial> User<M, f64> {
     /// Evaluates point `i` and stores its results. Returns its status code.
     ///
     /// # Safety
-    /// As for [`User::block`], with i < n, on a processor that has the level's instructions.
+    /// As for [`with_derivatives`](User::with_derivatives), with i < n, on a processor that has the level's instructions.
     unsafe fn point<T: Precision>(&self, points: &Points<T>, i: usize, at_rest: f64, level: Level) -> i32 {
         let law = M::DESCRIPTION;
         // SAFETY: the arrays that the block has are valid for point i, here and below.
