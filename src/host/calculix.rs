@@ -19,7 +19,7 @@
 //! | failure | stress 0; stiff is 1e-6 of the bulk modulus on its diagonal, since nodes between failed elements would have no stiffness |
 //! | F inverted or not finite | state kept, pnewdt ≤ ¼ |
 //!
-//! The fibre, and the second axis, are given in the axes of `*ORIENTATION`, if there are any, else in global ones; everything else is
+//! The directions of a law, the fibre and others, are given in the axes of `*ORIENTATION`, if there are any, else in global ones; everything else is
 //! global. NLGEOM, and no initial stress. The header does not declare the entries: CalculiX alone calls them.
 
 use core::cell::Cell;
@@ -27,7 +27,7 @@ use core::ffi::c_char;
 
 use crate::law::block::{components, components_mut};
 use crate::law::derivative::SixBySix;
-use crate::law::description::Description;
+use crate::law::description::Direction;
 use crate::law::error::{Error, Value};
 use crate::law::hyperelastic::Hyperelastic;
 use crate::law::interface::{Law, Points};
@@ -302,9 +302,8 @@ impl Arguments<'_> {
         let Some((axes, place)) = self.orientation else { return Ok(law) };
         let mut turned_values = [0.0; MOST_PROPERTIES];
         turned_values.iter_mut().zip(values).for_each(|(to, &from)| *to = from);
-        let Description { fibre, second_axis, .. } = L::DESCRIPTION;
-        for first in [fibre, second_axis].into_iter().flatten() {
-            // A second axis of 0 is any one.
+        for &Direction { first, .. } in L::DESCRIPTION.directions {
+            // One that may be 0 stays so.
             if let Some(direction) = turned_values.get_mut(first..).and_then(<[f64]>::first_chunk_mut)
                 && *direction != [0.0; 3]
             {

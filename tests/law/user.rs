@@ -45,8 +45,7 @@ impl UserMaterial for Damaged {
         title: "damaged solid",
         properties: &PROPERTIES,
         state: &STATE,
-        fibre: None,
-        second_axis: None,
+        directions: &[],
         failed: 3,
         alive: 4,
         energies: 0..1,
@@ -538,7 +537,7 @@ fn rows_are_columns<M: UserMaterial, T: Precision + Default + std::fmt::Debug>(l
     state.iter_mut().step_by(3).for_each(|state| state[0] = T::splat(0.125));
     state[count - 1][M::DESCRIPTION.failed] = T::splat(1.0);
     let fibres: Vec<[T; 3]> = (0..count).map(|_| array::from_fn(|_| T::splat(random.f64() - 0.3))).collect();
-    let of_points = M::DESCRIPTION.fibre.map(|_| fibres);
+    let of_points = M::DESCRIPTION.has_fibre().then_some(fibres);
     for level in levels() {
         for measure in [None, Some(Measure::Jaumann), Some(Measure::Nominal)] {
             for (waves, fibre) in [(false, None), (true, of_points.clone()), (false, of_points.clone())] {

@@ -39,7 +39,7 @@ pub trait SolidLaw<T: Precision>: Law<T> {
 }
 
 impl<M: UserMaterial, T: Precision> SolidLaw<T> for User<M, T> {
-    const OPTIONS: usize = if M::DESCRIPTION.fibre.is_some() { 1 } else { 0 };
+    const OPTIONS: usize = if M::DESCRIPTION.has_fibre() { 1 } else { 0 };
 
     fn modulus_at_rest(properties: &[T]) -> Result<T, Error> {
         let [bulk, shear] = stiffness_at_rest(&User::<M, T>::new(properties)?)?.map(Into::into);

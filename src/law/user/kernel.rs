@@ -2,7 +2,7 @@
 
 use core::ops::Range;
 
-use super::{Array, Response, Step, User, UserMaterial};
+use super::{Array, MOST_DIRECTIONS, Response, Step, User, UserMaterial};
 use crate::law::block::{Kernels, Points, Precision, least_code};
 use crate::law::failure::Failure;
 use crate::law::kinematics::FibreFrame;
@@ -37,12 +37,12 @@ impl<R: Real, S: Array<R>> Outcome<R, S> {
     }
 }
 
-/// F, fibre and old state of the points in the lanes.
+/// F, directions and old state of the points in the lanes.
 #[derive(Clone, Copy)]
 pub(super) struct Input<R: Real, S> {
     pub f_old: Matrix<R>,
     pub f: Matrix<R>,
-    pub fibre: [R; 3],
+    pub directions: [[R; 3]; MOST_DIRECTIONS],
     /// Where the fibre direction is finite and not zero.
     pub usable: R::Mask,
     pub own: S,
@@ -50,20 +50,26 @@ pub(super) struct Input<R: Real, S> {
 }
 
 impl<R: Real, S: Array<R>> Input<R, S> {
-    /// A point at rest, with the fibre direction of the properties.
+    /// A point at rest, with the directions of the properties.
     #[inline(always)]
     pub fn at_rest<M: UserMaterial, T: Precision>(law: &User<M, T>) -> Self {
         let (zero, one) = (R::splat(0.0), R::splat(1.0));
         let identity = [[one, zero, zero], [zero, one, zero], [zero, zero, one]];
-        let [x, y, z] = law.fibre;
-        let fibre = [R::splat(x.into()), R::splat(y.into()), R::splat(z.into())];
-        Input { f_old: identity, f: identity, fibre, usable: zero.le(zero), own: S::filled(zero), failed: zero }
+        let (mut directions, mut k) = ([[zero; 3]; MOST_DIRECTIONS], 0);
+        while k < M::DESCRIPTION.directions.len().max(1) {
+            let [x, y, z] = law.directions[k];
+            directions[k] = [R::splat(x.into()), R::splat(y.into()), R::splat(z.into())];
+            k += 1;
+        }
+        Input { f_old: identity, f: identity, directions, usable: zero.le(zero), own: S::filled(zero), failed: zero }
     }
 
     /// What the law is evaluated from.
     #[inline(always)]
     pub fn step(&self) -> Step<R, S> {
-        Step { f_old: self.f_old, f: self.f, jacobian: determinant(&self.f), fibre: self.fibre, state: self.own }
+        let [fibre, a, b] = self.directions;
+        let (jacobian, other_directions) = (determinant(&self.f), [a, b]);
+        Step { f_old: self.f_old, f: self.f, jacobian, fibre, other_directions, state: self.own }
     }
 
     /// Where the step is taken, since the point has not failed before and can be evaluated; and where det F is positive. An entry of F
@@ -293,7 +299,7 @@ unsafe fn register<M: UserMaterial, T: Precision, R: Lanes<T>, const USUAL: bool
         if !USUAL && !points.fibre[0].is_null() {
             let [x, y, z] = points.fibre;
             let (frame, usable) = FibreFrame::new([R::load(x.add(i)), R::load(y.add(i)), R::load(z.add(i))]);
-            input.fibre = frame.m;
+            input.directions[0] = frame.m;
             input.usable = usable;
         }
         if USUAL || !points.state_old[0].is_null() {

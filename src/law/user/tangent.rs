@@ -98,7 +98,7 @@ impl<M: UserMaterial> User<M, f64> {
         input.f_old = if law.reads_old_gradient { matrix(points.f_old) } else { input.f };
         if !points.fibre[0].is_null() {
             let (frame, usable) = FibreFrame::new(points.fibre.map(load));
-            (input.fibre, input.usable) = (frame.m, usable);
+            (input.directions[0], input.usable) = (frame.m, usable);
         }
         if !points.state_old[0].is_null() {
             for (c, x) in input.own.as_mut().iter_mut().enumerate() {
@@ -223,7 +223,9 @@ fn differentiated<M: UserMaterial, R: Lanes<f64>>(
     let constants = law.constants::<Dual<R>>();
     let constant = |x: f64| Dual::new(R::splat(x), R::splat(0.0));
     let mut moved = Input::<Dual<R>, M::State<Dual<R>>>::at_rest(law);
-    moved.fibre = [constant(input.fibre[0]), constant(input.fibre[1]), constant(input.fibre[2])];
+    for (to, &from) in moved.directions.as_flattened_mut().iter_mut().zip(input.directions.as_flattened()) {
+        *to = constant(from);
+    }
     for (to, &from) in moved.own.as_mut().iter_mut().zip(input.own.as_ref()) {
         *to = constant(from);
     }

@@ -6,7 +6,7 @@
 use toron::user::parameters::{NUMBER, Property, STRESS, component, positive, positive_or_zero};
 use toron::user::state::{ALIVE, ENERGY_DENSITY, FAILED, StateVariable, variable};
 use toron::user::vector::{dot, image, scale, transposed};
-use toron::user::{Description, Real, Response, Step, UserMaterial};
+use toron::user::{Description, Direction, Real, Response, Step, UserMaterial};
 
 #[derive(Clone, Copy, Debug, Default)]
 pub struct ReinforcedSolid;
@@ -43,8 +43,7 @@ impl UserMaterial for ReinforcedSolid {
         title: "standard reinforcing model",
         properties: &PROPERTIES,
         state: &STATE,
-        fibre: Some(4),
-        second_axis: None,
+        directions: &[Direction::fibre(4)],
         energies: 0..1,
         failed: 2,
         alive: 3,

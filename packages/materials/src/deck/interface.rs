@@ -44,7 +44,7 @@ impl Interface {
                 behaviour: law.symbol,
                 openradioss: law.number,
                 // Where the fibre direction comes from.
-                options: usize::from(law.description.fibre.is_some()),
+                options: usize::from(law.description.has_fibre()),
             },
         }
     }
