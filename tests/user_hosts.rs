@@ -1,6 +1,6 @@
-//! Laws of one's own through every host but MGIS (`mgis.rs`), along a path in steps, against their own steps in Rust: one without
-//! anything but a stress, one that reads F at the start of a step and stores no energy, one with a fibre of each point, and one with two
-//! families of fibres.
+//! Laws of one's own through every host but MGIS (`mgis.rs`), along a path in steps, against their own steps in Rust:
+//! one without anything but a stress, one that reads F at the start of a step and stores no energy, one with a fibre of
+//! each point, and one with two families of fibres.
 
 use std::array;
 use std::ffi::c_char;
@@ -22,6 +22,7 @@ use toron::user::vector::{dot, image, scale, transposed};
 use toron::user::{Description, Direction, Real, Response, Step, User, UserMaterial};
 
 use reinforced_solid::ReinforcedSolid;
+use toron_test_support::block::levels;
 
 /// A compressible neo-Hookean solid: σ = μ (b − 1)/J + μ ln J/J. No fibre, no state of its own, no energy, no failure.
 #[derive(Clone, Copy, Debug, Default)]
@@ -46,6 +47,33 @@ static FAMILIES: [Property; 8] = [
     component("n_2", "n2", 1.0, "second family, any length"),
     component("n_3", "n3", 0.0, "second family, any length"),
 ];
+
+/// The bare solid, whose iteration is said not to converge beyond F11 = 1.2, and which wants a smaller step beyond 1.5.
+#[derive(Clone, Copy, Debug, Default)]
+struct Stubborn;
+
+const REFUSAL: &str = "the iteration of the stubborn solid does not converge";
+
+impl UserMaterial for Stubborn {
+    const DESCRIPTION: Description = Description { refusal: Some(REFUSAL), ..Bare::DESCRIPTION };
+    type Properties<R: Real> = [R; 1];
+    type State<R: Real> = [R; 0];
+    type Constants<R: Real> = R;
+
+    #[inline(always)]
+    fn constants<R: Real>(&[mu]: &[R; 1]) -> R {
+        mu
+    }
+
+    #[inline(always)]
+    fn respond<R: Real>(&mu: &R, step: &Step<R, [R; 0]>) -> Response<R, [R; 0]> {
+        let beyond = |limit: f64, code: i32, else_: R| {
+            R::select(R::splat(limit).lt(step.f[0][0]), R::splat(f64::from(code)), else_)
+        };
+        let status = beyond(1.2, status::LAW, R::splat(0.0));
+        Response { status: beyond(1.5, status::SMALLER_STEP, status), ..Response::new(neo_hooke(mu, step), []) }
+    }
+}
 
 static MODULUS: [Property; 1] = [positive("mu", "μ", STRESS, None, "shear modulus")];
 static VISCOUS: [Property; 3] = [
@@ -76,6 +104,7 @@ impl UserMaterial for Bare {
         alive: 1,
         energies: 0..0,
         reads_old_gradient: false,
+        refusal: None,
     };
     type Properties<R: Real> = [R; 1];
     type State<R: Real> = [R; 0];
@@ -88,7 +117,7 @@ impl UserMaterial for Bare {
 
     #[inline(always)]
     fn respond<R: Real>(&mu: &R, step: &Step<R, [R; 0]>) -> Response<R, [R; 0]> {
-        Response { stress: neo_hooke(mu, step), state: [], failed: R::never() }
+        Response::new(neo_hooke(mu, step), [])
     }
 }
 
@@ -102,6 +131,7 @@ impl UserMaterial for Families {
         alive: 1,
         energies: 0..0,
         reads_old_gradient: false,
+        refusal: None,
     };
     type Properties<R: Real> = [R; 8];
     type State<R: Real> = [R; 0];
@@ -122,7 +152,7 @@ impl UserMaterial for Families {
             let pairs = [x * a[0], y * a[1], z * a[2], x * a[1], y * a[2], z * a[0]];
             stress.iter_mut().zip(pairs).for_each(|(stress, of_fibres)| *stress = *stress + of_fibres);
         }
-        Response { stress, state: [], failed: R::never() }
+        Response::new(stress, [])
     }
 }
 
@@ -136,6 +166,7 @@ impl UserMaterial for Viscous {
         alive: 2,
         energies: 0..0,
         reads_old_gradient: true,
+        refusal: None,
     };
     type Properties<R: Real> = [R; 3];
     type State<R: Real> = [R; 1];
@@ -169,7 +200,7 @@ impl UserMaterial for Viscous {
             elastic[5] + over * dot(c, rows[0]),
         ];
         let way = step.state[0] + (s_11 + s_22 + s_33).abs() / eta;
-        Response { stress, state: [way], failed: limit.le(way) }
+        Response { failed: limit.le(way), ..Response::new(stress, [way]) }
     }
 }
 
@@ -655,7 +686,8 @@ tests! {
     families: Families;
 }
 
-/// A direction of length zero, and one that a plane element does not allow, is refused by the name that the law gives it.
+/// A direction of length zero, and one that a plane element does not allow, is refused by the name that the law gives
+/// it.
 #[test]
 fn every_direction_is_checked() {
     let with = |second: [f64; 3]| [&Families::VALUES[..5], &second].concat();
@@ -685,4 +717,97 @@ fn every_direction_is_checked() {
     let text = std::ffi::CStr::from_bytes_until_nul(&message).expect("a text").to_str().expect("a text");
     assert_eq!(code, status::FIBRE_OUT_OF_PLANE);
     assert!(text.starts_with("properties 6 to 8 (second family) are 1.0, 0.0, 1.0; allowed: a direction in"), "{text}");
+}
+
+/// A law's own refusal: by point and as the worst of a block, with and without tangents.
+#[test]
+fn a_law_may_refuse_a_point() {
+    let law = User::<Stubborn, f64>::new(&[2.0]).expect("a property that is right");
+    let stretches: Vec<f64> = (0..41).map(|i| 1.0 + 0.02 * f64::from(i)).collect();
+    let n = stretches.len();
+    let f: Vec<f64> =
+        (0..9).flat_map(|c| stretches.iter().map(move |&x| if c == 0 { x } else { f64::from(c % 4 == 0) })).collect();
+    for (tangents, level) in [false, true].into_iter().flat_map(|t| levels().into_iter().map(move |level| (t, level))) {
+        let (mut stress, mut codes, mut active, mut tangent) =
+            (vec![f64::NAN; 6 * n], vec![1; n], vec![7.0; n], vec![f64::NAN; 36 * n]);
+        let stress_ = stress.as_mut_ptr();
+        let points = Points {
+            f_new: array::from_fn(|c| f[c * n..].as_ptr()),
+            stress: array::from_fn(|c| stress_.wrapping_add(c * n)),
+            status: codes.as_mut_ptr(),
+            active: active.as_mut_ptr(),
+            tangent: if tangents { tangent.as_mut_ptr() } else { null_mut() },
+            level: Some(level),
+            ..Points::without_arrays(n, n)
+        };
+        // SAFETY: the arrays are those of n points.
+        let worst = unsafe { law.step(&points) }.expect("points that are right");
+        assert_eq!(worst, status::SMALLER_STEP);
+        for (i, &stretch) in stretches.iter().enumerate() {
+            let wanted = match stretch {
+                ..=1.2 => status::OK,
+                ..=1.5 => status::LAW,
+                _ => status::SMALLER_STEP,
+            };
+            assert_eq!(codes[i], wanted, "{stretch}");
+            assert_eq!(active[i], f64::from(wanted == status::OK), "{stretch}");
+            assert!(wanted == status::OK || (0..6).all(|c| stress[c * n + i] == 0.0), "{stretch}");
+            assert!(!tangents || (0..36).all(|c| (tangent[c * n + i] == 0.0) >= (wanted != status::OK)), "{stretch}");
+        }
+    }
+}
+
+/// In hosts the law's own words are the message; PNEWDT asks for a smaller step.
+#[test]
+fn messages_of_a_refusal_are_the_law_s() {
+    let (mut message, mu) = ([0_u8; 512], 2.0);
+    let text = |message: &[u8]| {
+        std::ffi::CStr::from_bytes_until_nul(message).expect("a text").to_str().expect("a text").to_string()
+    };
+    let f = Matrix3::from_diagonal(&[1.3, 1.0, 1.0].into());
+    let (mut statev, mut stress, mut sse, mut pnewdt) = ([0.0; 2], [0.0; 6], 0.0, 1.0);
+    let call = abaqus::Umat {
+        stress: stress.as_mut_ptr(),
+        statev: statev.as_mut_ptr(),
+        ddsdde: null_mut(),
+        sse: &mut sse,
+        pnewdt: &mut pnewdt,
+        dfgrd0: null(),
+        dfgrd1: f.as_ptr(),
+        props: &mu,
+        nprops: 1,
+        nstatv: 2,
+        ndi: 3,
+        nshr: 3,
+        nlgeom: 1,
+    };
+    // SAFETY: the arrays have the sizes that the structure tells, the message its capacity.
+    let code = unsafe { <User<Stubborn, f64> as StandardLaw>::umat(&call, message.as_mut_ptr().cast(), 512) };
+    assert_eq!((code, text(&message).as_str(), pnewdt), (status::LAW, REFUSAL, 0.25));
+
+    // SAFETY: numbers, which may be 0.
+    let mut law: PreparedOf<Listed<Stubborn>, f64> = unsafe { std::mem::zeroed() };
+    let size = size_of_val(&law);
+    // SAFETY: one property, and a law of its size.
+    assert_eq!(unsafe { listed::prepare::<Listed<Stubborn>, f64>(&mut law, size, &mu, 1, null_mut(), 0) }, status::OK);
+    let (two, mut codes) = ([1.0, 1.3, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 1.0], [7; 2]);
+    let zero = &raw const two[2];
+    // SAFETY: numbers and pointers, which may be 0.
+    let mut points: ListedPoints<Listed<Stubborn>, f64> = unsafe { std::mem::zeroed() };
+    points.size = size_of_val(&points);
+    points.n = 2;
+    points.f_new = array::from_fn(|c| {
+        if c == 0 {
+            two.as_ptr()
+        } else if c % 4 == 0 {
+            &raw const two[8]
+        } else {
+            zero
+        }
+    });
+    points.status = codes.as_mut_ptr();
+    // SAFETY: each component has two values.
+    let code = unsafe { listed::block::<Listed<Stubborn>, f64>(&law, &points, message.as_mut_ptr().cast(), 512) };
+    assert_eq!((code, codes), (status::LAW, [status::OK, status::LAW]));
+    assert_eq!(text(&message), format!("point 1, counted from 0: {REFUSAL}"));
 }

@@ -19,8 +19,9 @@
 //! | failure | stress 0; stiff is 1e-6 of the bulk modulus on its diagonal, since nodes between failed elements would have no stiffness |
 //! | F inverted or not finite | state kept, pnewdt ≤ ¼ |
 //!
-//! The directions of a law, the fibre and others, are given in the axes of `*ORIENTATION`, if there are any, else in global ones; everything else is
-//! global. NLGEOM, and no initial stress. The header does not declare the entries: CalculiX alone calls them.
+//! The directions of a law, the fibre and others, are given in the axes of `*ORIENTATION`, if there are any, else in
+//! global ones; everything else is global. NLGEOM, and no initial stress. The header does not declare the entries:
+//! CalculiX alone calls them.
 
 use core::cell::Cell;
 use core::ffi::c_char;
@@ -116,13 +117,23 @@ struct Answer<S> {
     kept: Option<[f64; 9]>,
     pnewdt: f64,
     status: i32,
+    /// Why the law has refused the point, if it has a reason of its own.
+    refusal: Option<&'static str>,
 }
 
 impl<S> Answer<S> {
     /// A state, and nothing else yet.
     #[inline(always)]
     const fn new(state: S) -> Self {
-        Answer { stress: [0.0; 6], stiffness: [0.0; 21], state, kept: None, pnewdt: 0.0, status: status::OK }
+        Answer {
+            stress: [0.0; 6],
+            stiffness: [0.0; 21],
+            state,
+            kept: None,
+            pnewdt: 0.0,
+            status: status::OK,
+            refusal: None,
+        }
     }
 }
 
@@ -288,6 +299,7 @@ impl Arguments<'_> {
         if L::DESCRIPTION.reads_old_gradient {
             answer.kept = Some(if answer.status == status::OK { *f_new } else { f_old });
         }
+        answer.refusal = L::DESCRIPTION.refusal.filter(|_| answer.status == status::LAW);
         self.finish(answer, || law.bulk_modulus(values))
     }
 
@@ -365,17 +377,17 @@ impl Message {
     }
 }
 
-/// Prints what is wrong as CalculiX prints its own errors, and ends the job as it does.
-fn refuse(material: &[u8; 80], message: &Message) -> ! {
-    let print = |text: &[u8]| {
+/// Prints a line as CalculiX prints its own errors and warnings.
+fn print_line(kind: &[u8], material: &[u8; 80], message: &[u8]) {
+    for text in [kind, b": toron, material ", material.trim_ascii_end(), b": ", message, b"\n"] {
         // SAFETY: the format takes a length and as many bytes.
         unsafe { libc::printf(c"%.*s".as_ptr(), text.len() as libc::c_int, text.as_ptr()) };
-    };
-    print(b" *ERROR: toron, material ");
-    print(material.trim_ascii_end());
-    print(b": ");
-    print(message.text.get(..message.length).unwrap_or_default());
-    print(b"\n");
+    }
+}
+
+/// Prints what is wrong as CalculiX prints its own errors, and ends the job as it does.
+fn refuse(material: &[u8; 80], message: &Message) -> ! {
+    print_line(b" *ERROR", material, message.text.get(..message.length).unwrap_or_default());
     // SAFETY: CalculiX itself ends in this way; open files are flushed.
     unsafe { libc::exit(EXIT_CODE) }
 }
@@ -485,6 +497,10 @@ unsafe fn answer<S>(call: &Behaviour, law: impl FnOnce(&Arguments<'_>) -> Result
                 *new.add(place) = *arguments.old_state.add(place);
             }
             *call.pnewdt = answer.pnewdt;
+            if let Some(text) = answer.refusal {
+                // CalculiX itself says only that a smaller increment is tried.
+                print_line(b" *WARNING", &*call.amat.cast(), text.as_bytes());
+            }
         },
         // SAFETY: a material's name has 80 characters.
         Err(()) => refuse(unsafe { &*call.amat.cast() }, &message),

@@ -178,7 +178,8 @@ pub unsafe fn block<N: Named<T>, T: Precision>(
         unsafe {
             let law = N::Law::of(numbers::<T, _>(law)?);
             let points = read(points, &mut buffer)?;
-            of_points(law.step(&points.checked()?)?, points.status, points.n)
+            let told = of_points(law.step(&points.checked()?)?, points.status, points.n);
+            N::Law::DESCRIPTION.told(told.map_err(|error| N::Law::DESCRIPTION.named(error))?)
         }
     };
     // SAFETY: the message is the C caller's, and so are the arguments, which `body` checks.

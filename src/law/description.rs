@@ -2,11 +2,13 @@
 
 use core::ops::Range;
 
+use super::error::Error;
 use super::number::real::Real;
 use super::parameters::{self, FIBRE, LINEAR_FIBRE, LINEAR_SECOND_AXIS, Property};
 use super::state::{
     self, ALIVE, ENERGIES, FAILED, INVARIANTS, LINEAR_ALIVE, LINEAR_FAILED, LINEAR_WORK, StateVariable,
 };
+use super::status::LAW;
 
 /// A law as the hosts see it.
 #[derive(Debug)]
@@ -15,8 +17,8 @@ pub struct Description {
     pub title: &'static str,
     pub properties: &'static [Property],
     pub state: &'static [StateVariable],
-    /// The directions among the properties: first the fibre, which each point may have its own of, then others. Hosts that turn a material
-    /// turn all of them.
+    /// The directions among the properties: first the fibre, which each point may have its own of, then others. Hosts
+    /// that turn a material turn all of them.
     pub directions: &'static [Direction],
     /// Indices into the state: the latch, the flag for element deletion, and the energies, whose sum is the energy per reference
     /// volume.
@@ -25,6 +27,9 @@ pub struct Description {
     pub energies: Range<usize>,
     /// Whether a step depends on F at its start.
     pub reads_old_gradient: bool,
+    /// Of a law that may refuse a point by a status of its own: why, as messages have it where that is
+    /// [`status::LAW`](super::status::LAW).
+    pub refusal: Option<&'static str>,
 }
 
 /// The most directions of a law.
@@ -68,6 +73,7 @@ pub const HYPERELASTIC: Description = Description {
     alive: ALIVE,
     energies: ENERGIES..INVARIANTS,
     reads_old_gradient: false,
+    refusal: None,
 };
 
 /// The linear elastic law.
@@ -83,6 +89,7 @@ pub const LINEAR_ELASTIC: Description = Description {
     alive: LINEAR_ALIVE,
     energies: LINEAR_WORK..LINEAR_WORK + 1,
     reads_old_gradient: true,
+    refusal: None,
 };
 
 impl Description {
@@ -101,6 +108,25 @@ impl Description {
         match self.directions {
             [Direction { first, .. }, ..] => *first..*first + 3,
             [] => 0..0,
+        }
+    }
+
+    /// The worst status code of a call: as an error with the law's own message where the law has refused a point.
+    ///
+    /// # Errors
+    /// It is [`status::LAW`](super::status::LAW) of a law that says why.
+    pub const fn told(&self, code: i32) -> Result<i32, Error> {
+        match self.refusal {
+            Some(text) if code == LAW => Err(Error::Setting { code, text }),
+            _ => Ok(code),
+        }
+    }
+
+    /// The error of a point, with the law's own message where the law has refused it.
+    pub const fn named(&self, error: Error) -> Error {
+        match (error, self.refusal) {
+            (Error::Point { code: LAW, index }, Some(text)) => Error::PointOfLaw { code: LAW, index, text },
+            _ => error,
         }
     }
 

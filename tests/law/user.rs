@@ -50,6 +50,7 @@ impl UserMaterial for Damaged {
         alive: 4,
         energies: 0..1,
         reads_old_gradient: true,
+        refusal: None,
     };
     type Properties<R: Real> = [R; 2];
     type State<R: Real> = [R; 3];
@@ -84,7 +85,7 @@ impl UserMaterial for Damaged {
         let [a, b, c] = step.f_old;
         let old = dot(a, [b[1] * c[2] - b[2] * c[1], b[2] * c[0] - b[0] * c[2], b[0] * c[1] - b[1] * c[0]]);
         let state = [mu * first, damage, way + (step.jacobian / old).ln().abs()];
-        Response { stress, state, failed: R::splat(0.95).le(damage) }
+        Response { failed: R::splat(0.95).le(damage), ..Response::new(stress, state) }
     }
 }
 

@@ -374,7 +374,7 @@ unsafe fn step<L: Law<f64>>(call: &Umat) -> Result<i32, Error> {
             *call.pnewdt = (*call.pnewdt).min(CUTBACK);
         }
     }
-    Ok(code)
+    L::DESCRIPTION.told(code)
 }
 
 /// The law's components 11 22 33 12 23 31 in Abaqus's order.

@@ -259,7 +259,7 @@ unsafe fn stretched<L: Law<T>, T: Precision>(
         }
         start += CHUNK;
     }
-    Ok(worst)
+    L::DESCRIPTION.told(worst)
 }
 
 /// Deletes a point that could not be evaluated, and writes its energy per mass, W/ρ0. The density that Abaqus passes is

@@ -84,7 +84,7 @@ pub unsafe extern "C" fn linear_elastic_in_plane(view: *mut BehaviourDataView) -
 #[inline(always)]
 unsafe fn of_law<L: Law<f64>>(view: *mut BehaviourDataView, plane: bool) -> i32 {
     // SAFETY: `view` is null or MGIS's, and `integrate` evaluates only if no pointer that is needed is null.
-    unsafe { integrate(view, |view, options| evaluate::<L>(view, options, plane)) }
+    unsafe { integrate(const { &L::DESCRIPTION }, view, |view, options| evaluate::<L>(view, options, plane)) }
 }
 
 /// Evaluates the law and writes what is requested. Returns the status of the point.

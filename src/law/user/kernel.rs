@@ -4,6 +4,7 @@ use core::ops::Range;
 
 use super::{Array, MOST_DIRECTIONS, Response, Step, User, UserMaterial};
 use crate::law::block::{Kernels, Points, Precision, least_code};
+use crate::law::description::Description;
 use crate::law::failure::Failure;
 use crate::law::kinematics::FibreFrame;
 use crate::law::number::level::Level;
@@ -80,7 +81,7 @@ impl<R: Real, S: Array<R>> Input<R, S> {
         step: &Step<R, S>,
         response: &Response<R, S>,
         wave_modulus: R,
-        reads_old_gradient: bool,
+        &Description { reads_old_gradient, refusal, .. }: &Description,
     ) -> (R::Mask, R::Mask) {
         let zero = R::splat(0.0);
         // A number times zero is zero unless it is NaN or infinite. Two sums: half as long a chain of operations.
@@ -95,6 +96,9 @@ impl<R: Real, S: Array<R>> Input<R, S> {
             other = x.mul_add(zero, other);
         }
         check = step.jacobian.mul_add(zero, wave_modulus.mul_add(zero, check)) + other;
+        if refusal.is_some() {
+            check = check - response.status; // a code is negative
+        }
         let mut not_inverted = zero.lt(step.jacobian);
         if reads_old_gradient {
             let jacobian = determinant(&self.f_old);
@@ -113,7 +117,8 @@ impl<R: Real, S: Array<R>> Input<R, S> {
         taken: R::Mask,
         not_inverted: R::Mask,
         at_rest: R,
-        reads_old_gradient: bool,
+        own_status: R,
+        &Description { reads_old_gradient, refusal, .. }: &Description,
     ) {
         let (zero, one) = (R::splat(0.0), R::splat(1.0));
         let code = |status: i32| R::splat(f64::from(status));
@@ -139,7 +144,9 @@ impl<R: Real, S: Array<R>> Input<R, S> {
             finite = finite & is_finite(&self.f_old);
         }
         // Later lines take precedence.
-        let why = R::select(not_inverted, code(status::OVERFLOW), code(status::INVERTED));
+        let why = code(status::OVERFLOW);
+        let why = if refusal.is_some() { R::select(own_status.lt(zero), own_status, why) } else { why };
+        let why = R::select(not_inverted, why, code(status::INVERTED));
         let why = R::select(known, why, code(status::STATE_NOT_FINITE));
         let why = R::select(self.usable, why, code(status::FIBRE_DIRECTION));
         let why = R::select(finite, why, code(status::NOT_FINITE));
@@ -236,8 +243,8 @@ unsafe fn avx2<M: UserMaterial, T: Precision>(law: &User<M, T>, points: &Points<
 /// Evaluates the points of a range of the block. Returns the worst status code.
 ///
 /// # Safety
-/// As for [`Kernels::run`], with a range of its points whose number is a multiple of COUNT, on a processor that has the lanes'
-/// instructions.
+/// As for [`Kernels::run`], with a range of its points whose number is a multiple of COUNT, on a processor that has the
+/// lanes' instructions.
 #[inline(always)]
 unsafe fn sweep<M: UserMaterial, T: Precision, R: Lanes<T>>(
     law: &User<M, T>,
@@ -317,13 +324,13 @@ unsafe fn register<M: UserMaterial, T: Precision, R: Lanes<T>, const USUAL: bool
         } else {
             M::wave_modulus(constants, &step, &response).unwrap_or(zero)
         };
-        let (taken, not_inverted) = input.taken(&step, &response, modulus, law.reads_old_gradient);
+        let (taken, not_inverted) = input.taken(&step, &response, modulus, &law);
         let mut outcome = Outcome::of(&response, modulus);
         if R::any(!taken) {
             if USUAL {
                 return None;
             }
-            input.restore(&mut outcome, taken, not_inverted, at_rest, law.reads_old_gradient);
+            input.restore(&mut outcome, taken, not_inverted, at_rest, response.status, &law);
         }
         if USUAL || !points.stress[0].is_null() {
             let mut c = 0;

@@ -57,8 +57,8 @@ pub trait UserMaterial: Copy + Default + Send + Sync + 'static {
     /// What is computed from the properties once for all points of a call.
     type Constants<R: Real>: Copy;
 
-    /// Checks what the table of properties does not: relations between properties. They are within their bounds, and no direction is
-    /// zero that may not be.
+    /// Checks what the table of properties does not: relations between properties. They are within their bounds, and no
+    /// direction is zero that may not be.
     ///
     /// # Errors
     /// [`Error::Argument`] names the property, its value and what is allowed.
@@ -115,11 +115,19 @@ pub struct Step<R, S> {
     pub jacobian: R,
     /// The unit vector of the fibre direction in the reference placement; of a law without fibre the first axis.
     pub fibre: [R; 3],
-    /// The unit vectors of the description's other directions in the reference placement, in its order; 0 for one that is 0, and
-    /// behind the last one.
+    /// The unit vectors of the description's other directions in the reference placement, in its order; 0 for one that
+    /// is 0, and behind the last one.
     pub other_directions: [[R; 3]; MOST_DIRECTIONS - 1],
     /// The old state variables, without `failed` and `alive`; all 0 at the start.
     pub state: S,
+}
+
+impl<R: Real, S> Response<R, S> {
+    /// The response of a point that neither fails nor is refused.
+    #[inline(always)]
+    pub fn new(stress: [R; 6], state: S) -> Self {
+        Response { stress, state, failed: R::never(), status: R::splat(0.0) }
+    }
 }
 
 impl<R: Real, S> Step<R, S> {
@@ -140,6 +148,10 @@ pub struct Response<R: Real, S> {
     pub state: S,
     /// Where the point has failed in this step; [`Real::never`] for a law without failure.
     pub failed: R::Mask,
+    /// 0, or why the point cannot be evaluated, a code of [`status`](crate::status): [`LAW`](status::LAW), which means
+    /// what the description's `refusal` says, [`SMALLER_STEP`](status::SMALLER_STEP), or another one. Such a point
+    /// keeps its old state. Read only of a law whose description has a refusal.
+    pub status: R,
 }
 
 /// A law in formulas, prepared from its properties: numbers only, without padding.

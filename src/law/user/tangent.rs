@@ -233,7 +233,7 @@ fn differentiated<M: UserMaterial, R: Lanes<f64>>(
         *to = constant(from);
     }
     let mut values = [0.0; WIDEST];
-    let mut answer = Response { stress: [0.0; 6], state: M::State::<f64>::filled(0.0), failed: false };
+    let mut answer = Response::new([0.0; 6], M::State::<f64>::filled(0.0));
     for (directions, rates) in directions.chunks_exact(R::COUNT).zip(rates.chunks_exact_mut(R::COUNT)) {
         // The motions L F, one in each lane.
         let mut slopes = [[0.0; WIDEST]; 9];
@@ -263,6 +263,7 @@ fn differentiated<M: UserMaterial, R: Lanes<f64>>(
         for (to, x) in answer.state.as_mut().iter_mut().zip(response.state.as_ref()) {
             *to = first(x.value);
         }
+        answer.status = first(response.status.value);
         answer.failed = first(R::select(response.failed, R::splat(1.0), R::splat(0.0))) == 1.0;
         for (c, x) in response.stress.iter().enumerate() {
             // SAFETY: as above.
@@ -283,18 +284,18 @@ fn finish<M: UserMaterial>(
     wave_modulus: f64,
     at_rest: f64,
 ) -> Outcome<f64, M::State<f64>> {
-    let old = M::DESCRIPTION.reads_old_gradient;
-    let (taken, not_inverted) = input.taken(step, response, wave_modulus, old);
+    let law = &M::DESCRIPTION;
+    let (taken, not_inverted) = input.taken(step, response, wave_modulus, law);
     let mut outcome = Outcome::of(response, wave_modulus);
     if !taken {
-        input.restore(&mut outcome, taken, not_inverted, at_rest, old);
+        input.restore(&mut outcome, taken, not_inverted, at_rest, response.status, law);
     }
     outcome
 }
 
 /// A response that is not finite: the point cannot be evaluated.
 fn overflowed<M: UserMaterial>() -> Response<f64, M::State<f64>> {
-    Response { stress: [f64::INFINITY; 6], state: M::State::<f64>::filled(0.0), failed: false }
+    Response::new([f64::INFINITY; 6], M::State::<f64>::filled(0.0))
 }
 
 /// A bound of ρ c² for waves in the current placement, from ∂τ/∂L over J for the six strains and the Cauchy stress.

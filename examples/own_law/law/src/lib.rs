@@ -48,6 +48,7 @@ impl UserMaterial for ReinforcedSolid {
         failed: 2,
         alive: 3,
         reads_old_gradient: false,
+        refusal: None,
     };
     type Properties<R: Real> = [R; 7];
     type State<R: Real> = [R; 2];
@@ -80,7 +81,7 @@ impl UserMaterial for ReinforcedSolid {
         let first = half * ((b_11 - one) + (b_22 - one) + (b_33 - one)) - logarithm;
         let second = (c.lambda * logarithm).mul_add(logarithm, c.k * elongation * elongation);
         let energy = c.mu.mul_add(first, half * second);
-        Response { stress, state: [energy, square.sqrt()], failed: c.limit.le(square) }
+        Response { failed: c.limit.le(square), ..Response::new(stress, [energy, square.sqrt()]) }
     }
 
     /// For a direction n and a polarisation u, unit vectors, ρ0 c² is at most (Λ (1 − ln J) + μ)(n·u)² + μ n·bn + 4k (a·n)²(a·u)² +

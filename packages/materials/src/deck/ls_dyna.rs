@@ -69,7 +69,8 @@ pub fn card(material: &Material, id: u32, number: Option<u32>, fibre: Fibre) -> 
     Ok(card)
 }
 
-/// The directions of a law, in the material axes: those of the fibre and of a second direction, if the law has one that is not along it.
+/// The directions of a law, in the material axes: those of the fibre and of a second direction, if the law has one that
+/// is not along it.
 fn along_the_axes(material: &Material, values: &mut [f64]) {
     let (a, d) = plane_of_the_axes(material);
     let e1 = a.normalize();
@@ -88,7 +89,8 @@ fn along_the_axes(material: &Material, values: &mut [f64]) {
     }
 }
 
-/// The fibre, and a vector that with it spans the plane of the first two axes: the law's second direction, or another one.
+/// The fibre, and a vector that with it spans the plane of the first two axes: the law's second direction, or another
+/// one.
 fn plane_of_the_axes(material: &Material) -> (Vector3<f64>, Vector3<f64>) {
     let directions = material.law.description().directions.iter().map(|direction| direction.of(&material.values));
     let mut vectors = directions.map(Vector3::from);
