@@ -40,9 +40,9 @@ use crate::law::state::HYPERELASTIC_STATE;
 use crate::law::status;
 use crate::law::stress::second_piola_kirchhoff;
 use crate::law::tangent::Measure;
-use crate::law::user::{User, UserMaterial};
 use nalgebra::{Matrix3, Vector3};
 
+use super::ByStep;
 use super::entry_points::{properties, start_at_rest};
 use super::environment::in_default_environment;
 use super::limit_variable;
@@ -411,7 +411,7 @@ pub trait CalculixLaw: Law<f64> {
     }
 }
 
-impl<M: UserMaterial> CalculixLaw for User<M, f64> {}
+impl<L: ByStep + Law<f64>> CalculixLaw for L {}
 
 impl CalculixLaw for Hyperelastic<f64> {
     #[inline(always)]

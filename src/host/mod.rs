@@ -20,6 +20,7 @@ pub mod calculix;
 pub mod constants;
 pub mod entry_points;
 pub mod environment;
+pub mod laws;
 mod limit_variable;
 pub mod linear_elastic;
 pub mod listed;
@@ -58,6 +59,13 @@ impl<T: Precision> Material<T> for Hyperelastic<f64> {
 impl<T: Precision> Material<T> for LinearElastic<f64> {
     type Law = LinearElastic<T>;
 }
+
+/// A law whose points every host evaluates by [`Law::step`] alone: with this it is a law of every host. The
+/// hyperelastic law has kernels of one point instead, and the hosts of the linear elastic one are compiled in this
+/// crate.
+pub trait ByStep {}
+
+impl<M: UserMaterial, T: Precision> ByStep for User<M, T> {}
 
 /// Whether a law may have this name in a library: capitals, digits and underscores, a capital first. Symbols are made of it.
 pub const fn is_name(name: &str) -> bool {

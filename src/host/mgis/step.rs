@@ -2,6 +2,7 @@
 
 use core::slice;
 
+use crate::host::ByStep;
 use crate::host::entry_points::check_plane;
 use crate::law::block::{components, components_mut};
 use crate::law::error::Error;
@@ -12,7 +13,6 @@ use crate::law::response::nan_unless_finite;
 use crate::law::status;
 use crate::law::stress::second_piola_kirchhoff;
 use crate::law::tangent::Measure;
-use crate::law::user::{User, UserMaterial};
 
 use super::operator::{cauchy_by_gradient, kirchhoff_by_increment, material, nominal};
 use super::results::{Results, Stress};
@@ -41,7 +41,7 @@ pub trait MgisLaw: Law<f64> {
     }
 }
 
-impl<M: UserMaterial> MgisLaw for User<M, f64> {}
+impl<L: ByStep + Law<f64>> MgisLaw for L {}
 
 impl MgisLaw for LinearElastic<f64> {
     #[inline(always)]
