@@ -45,6 +45,8 @@ module toron
   integer(c_int32_t), parameter :: toron_status_increment_too_large = -306
   integer(c_int32_t), parameter :: toron_status_material_axes = -307
   integer(c_int32_t), parameter :: toron_status_limit = -308
+  integer(c_int32_t), parameter :: toron_status_law = -309
+  integer(c_int32_t), parameter :: toron_status_smaller_step = -310
   integer(c_int32_t), parameter :: toron_module_abi_version = 2
   integer(c_int32_t), parameter :: toron_hyperelastic = 0
   integer(c_int32_t), parameter :: toron_linear_elastic = 1

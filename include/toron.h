@@ -142,6 +142,16 @@
 #define TORON_LIMIT -308
 
 /*
+ The law itself cannot evaluate the point, for instance since an iteration does not converge.
+ */
+#define TORON_LAW -309
+
+/*
+ The law can only evaluate the point in smaller steps.
+ */
+#define TORON_SMALLER_STEP -310
+
+/*
  Version of the binary interface. A program built against it runs with every later library of the same number.
  */
 #define TORON_ABI_VERSION 2

@@ -49,6 +49,7 @@ pub mod law;
 
 pub use law::block::{Arrays, Block};
 pub use law::error::{Error, Value};
+pub use law::frictional::Frictional;
 pub use law::hyperelastic::{Hyperelastic, Properties};
 pub use law::linear_elastic::{Criterion, LinearElastic, LinearPoint, Rotation};
 pub use law::linear_tangent::LinearTangent;

@@ -44,12 +44,12 @@ impl UserMaterial for NeoHooke {
         title: "neo-Hookean solid",
         properties: &PROPERTIES,
         state: &STATE,
-        fibre: None,
-        second_axis: None,
+        directions: &[],
         failed: 1,
         alive: 2,
         energies: 0..1,
         reads_old_gradient: false,
+        refusal: None,
     };
     type Properties<R: Real> = [R; 1];
     type State<R: Real> = [R; 1];
@@ -69,7 +69,7 @@ impl UserMaterial for NeoHooke {
         let stress = [normal(b_11), normal(b_22), normal(b_33), over * dot(x, y), over * dot(y, z), over * dot(z, x)];
         let trace = (b_11 - one) + (b_22 - one) + (b_33 - one);
         let energy = mu * (half * trace - logarithm + half * logarithm * logarithm);
-        Response { stress, state: [energy], failed: R::never() }
+        Response::new(stress, [energy])
     }
 }
 

@@ -1,5 +1,6 @@
-//! Laws of one's own through every host but MGIS (`mgis.rs`), along a path in steps, against their own steps in Rust: one without
-//! anything but a stress, one that reads F at the start of a step and stores no energy, and one with a fibre of each point.
+//! Laws of one's own through every host but MGIS (`mgis.rs`), along a path in steps, against their own steps in Rust:
+//! one without anything but a stress, one that reads F at the start of a step and stores no energy, one with a fibre of
+//! each point, and one with two families of fibres.
 
 use std::array;
 use std::ffi::c_char;
@@ -15,12 +16,13 @@ use toron::host::openradioss::{Group, Laws, Material, evaluate, read};
 use toron::law::interface::{Law, Points};
 use toron::law::status;
 use toron::law::stress::{components, matrix};
-use toron::user::parameters::{NUMBER, Property, STRESS, positive};
+use toron::user::parameters::{NUMBER, Property, STRESS, component, positive};
 use toron::user::state::{ALIVE, FAILED, StateVariable, variable};
-use toron::user::vector::{dot, transposed};
-use toron::user::{Description, Real, Response, Step, User, UserMaterial};
+use toron::user::vector::{dot, image, scale, transposed};
+use toron::user::{Description, Direction, Real, Response, Step, User, UserMaterial};
 
 use reinforced_solid::ReinforcedSolid;
+use toron_test_support::block::levels;
 
 /// A compressible neo-Hookean solid: σ = μ (b − 1)/J + μ ln J/J. No fibre, no state of its own, no energy, no failure.
 #[derive(Clone, Copy, Debug, Default)]
@@ -30,6 +32,48 @@ struct Bare;
 /// their size; it fails where that reaches a limit.
 #[derive(Clone, Copy, Debug, Default)]
 struct Viscous;
+
+/// A neo-Hookean solid with two families of fibres, k (I4 − 1) a⊗a/J each; the second one may be left out.
+#[derive(Clone, Copy, Debug, Default)]
+struct Families;
+
+static FAMILIES: [Property; 8] = [
+    positive("mu", "μ", STRESS, None, "shear modulus"),
+    positive("k", "k", STRESS, None, "stiffness of the fibres"),
+    component("m_1", "m1", 1.0, "first family, any length"),
+    component("m_2", "m2", 0.0, "first family, any length"),
+    component("m_3", "m3", 0.0, "first family, any length"),
+    component("n_1", "n1", 0.0, "second family, any length"),
+    component("n_2", "n2", 1.0, "second family, any length"),
+    component("n_3", "n3", 0.0, "second family, any length"),
+];
+
+/// The bare solid, whose iteration is said not to converge beyond F11 = 1.2, and which wants a smaller step beyond 1.5.
+#[derive(Clone, Copy, Debug, Default)]
+struct Stubborn;
+
+const REFUSAL: &str = "the iteration of the stubborn solid does not converge";
+
+impl UserMaterial for Stubborn {
+    const DESCRIPTION: Description = Description { refusal: Some(REFUSAL), ..Bare::DESCRIPTION };
+    type Properties<R: Real> = [R; 1];
+    type State<R: Real> = [R; 0];
+    type Constants<R: Real> = R;
+
+    #[inline(always)]
+    fn constants<R: Real>(&[mu]: &[R; 1]) -> R {
+        mu
+    }
+
+    #[inline(always)]
+    fn respond<R: Real>(&mu: &R, step: &Step<R, [R; 0]>) -> Response<R, [R; 0]> {
+        let beyond = |limit: f64, code: i32, else_: R| {
+            R::select(R::splat(limit).lt(step.f[0][0]), R::splat(f64::from(code)), else_)
+        };
+        let status = beyond(1.2, status::LAW, R::splat(0.0));
+        Response { status: beyond(1.5, status::SMALLER_STEP, status), ..Response::new(neo_hooke(mu, step), []) }
+    }
+}
 
 static MODULUS: [Property; 1] = [positive("mu", "μ", STRESS, None, "shear modulus")];
 static VISCOUS: [Property; 3] = [
@@ -55,12 +99,12 @@ impl UserMaterial for Bare {
         title: "bare solid",
         properties: &MODULUS,
         state: &FLAGS,
-        fibre: None,
-        second_axis: None,
+        directions: &[],
         failed: 0,
         alive: 1,
         energies: 0..0,
         reads_old_gradient: false,
+        refusal: None,
     };
     type Properties<R: Real> = [R; 1];
     type State<R: Real> = [R; 0];
@@ -73,7 +117,42 @@ impl UserMaterial for Bare {
 
     #[inline(always)]
     fn respond<R: Real>(&mu: &R, step: &Step<R, [R; 0]>) -> Response<R, [R; 0]> {
-        Response { stress: neo_hooke(mu, step), state: [], failed: R::never() }
+        Response::new(neo_hooke(mu, step), [])
+    }
+}
+
+impl UserMaterial for Families {
+    const DESCRIPTION: Description = Description {
+        title: "two families",
+        properties: &FAMILIES,
+        state: &FLAGS,
+        directions: &[Direction::fibre(2), Direction::new("second family", 5)],
+        failed: 0,
+        alive: 1,
+        energies: 0..0,
+        reads_old_gradient: false,
+        refusal: None,
+    };
+    type Properties<R: Real> = [R; 8];
+    type State<R: Real> = [R; 0];
+    type Constants<R: Real> = [R; 2];
+
+    #[inline(always)]
+    fn constants<R: Real>(&[mu, k, ..]: &[R; 8]) -> [R; 2] {
+        [mu, k]
+    }
+
+    #[inline(always)]
+    fn respond<R: Real>(&[mu, k]: &[R; 2], step: &Step<R, [R; 0]>) -> Response<R, [R; 0]> {
+        let mut stress = neo_hooke(mu, step);
+        let (one, over) = (R::splat(1.0), k * step.jacobian.reciprocal());
+        for m in [step.fibre, step.other_directions[0]] {
+            let a = image(&step.f, m);
+            let [x, y, z] = scale(over * (dot(a, a) - one), a);
+            let pairs = [x * a[0], y * a[1], z * a[2], x * a[1], y * a[2], z * a[0]];
+            stress.iter_mut().zip(pairs).for_each(|(stress, of_fibres)| *stress = *stress + of_fibres);
+        }
+        Response::new(stress, [])
     }
 }
 
@@ -82,12 +161,12 @@ impl UserMaterial for Viscous {
         title: "viscous solid",
         properties: &VISCOUS,
         state: &WAY,
-        fibre: None,
-        second_axis: None,
+        directions: &[],
         failed: 1,
         alive: 2,
         energies: 0..0,
         reads_old_gradient: true,
+        refusal: None,
     };
     type Properties<R: Real> = [R; 3];
     type State<R: Real> = [R; 1];
@@ -121,7 +200,7 @@ impl UserMaterial for Viscous {
             elastic[5] + over * dot(c, rows[0]),
         ];
         let way = step.state[0] + (s_11 + s_22 + s_33).abs() / eta;
-        Response { stress, state: [way], failed: limit.le(way) }
+        Response { failed: limit.le(way), ..Response::new(stress, [way]) }
     }
 }
 
@@ -140,6 +219,10 @@ impl Tried for Bare {
 impl Tried for Viscous {
     const VALUES: &'static [f64] = &[3.0, 2.0, 0.14];
     const FAILS: usize = 4;
+}
+impl Tried for Families {
+    const VALUES: &'static [f64] = &[3.0, 40.0, 2.0, -1.0, 0.0, 1.0, 1.5, 0.0];
+    const FAILS: usize = 0;
 }
 impl Tried for ReinforcedSolid {
     const VALUES: &'static [f64] = &[3.0, 17.0, 230.0, 1.022, 2.0, -1.0, 0.0];
@@ -378,13 +461,22 @@ fn ls_dyna<M: Tried>() {
     }
 }
 
-fn calculix<M: Tried>() {
+/// `oriented`: the directions are given in the axes of an `*ORIENTATION`.
+fn calculix<M: Tried>(oriented: bool) {
     let path = path(true);
+    let axes = Rotation3::new(Vector3::new(-0.4, 0.9, 2.0)).into_inner();
+    let [a, b] = [axes.column(0), axes.column(1)];
+    let orientation = [a[0], a[1], a[2], b[0], b[1], b[2], 1.0];
+    let mut values = M::VALUES.to_vec();
+    for direction in M::DESCRIPTION.directions.iter().filter(|_| oriented) {
+        let local = axes.tr_mul(&Vector3::from(direction.of(M::VALUES)));
+        values[direction.first..][..3].copy_from_slice(local.as_slice());
+    }
     let rows = M::DESCRIPTION.history();
     let (mut old, mut new) = (vec![0.0; rows], vec![f64::NAN; rows]);
     for (pair, truth) in path.windows(2).zip(truth::<M>(&path, Measure::Material)) {
         let (name, kode, zeros) = ([b' ' as c_char; 80], -100 - M::VALUES.len() as i32, [0.0; 9]);
-        let (one, none, count) = (1, 0, rows as i32);
+        let (one, number, count) = (1, i32::from(oriented), rows as i32);
         let f = pair[1];
         let strain = 0.5 * (f.tr_mul(&f) - Matrix3::identity());
         let strain = exchanged(components(&strain));
@@ -394,7 +486,7 @@ fn calculix<M: Tried>() {
             iel: &one,
             iint: &one,
             kode: &kode,
-            elconloc: M::VALUES.as_ptr(),
+            elconloc: values.as_ptr(),
             emec: strain.as_ptr(),
             beta: zeros.as_ptr(),
             xkl: f.as_ptr(),
@@ -404,24 +496,26 @@ fn calculix<M: Tried>() {
             xstate: new.as_mut_ptr(),
             stre: stress.as_mut_ptr(),
             stiff: stiffness.as_mut_ptr(),
-            iorien: &none,
+            iorien: &number,
             pgauss: zeros.as_ptr(),
-            orab: zeros.as_ptr(),
+            orab: orientation.as_ptr(),
             pnewdt: &mut pnewdt,
         };
         // SAFETY: the arrays have the sizes that the structure tells.
         unsafe { <User<M, f64> as CalculixLaw>::behaviour(&call) };
         let inverse = f.try_inverse().expect("a deformation");
         let second = inverse * matrix(&truth.stress) * inverse.transpose() * f.determinant();
-        assert_near::<M>(&stress, &exchanged(components(&second)), 1e-14, "stre");
+        // Turned directions are off by roundings, which the stiffness of the fibres multiplies.
+        let turned = if oriented { 1e-13 } else { 1e-14 };
+        assert_near::<M>(&stress, &exchanged(components(&second)), turned, "stre");
         let order = [0, 1, 2, 3, 5, 4];
         let half = |i: usize, j: usize| 0.5 * (truth.tangent[order[i]][order[j]] + truth.tangent[order[j]][order[i]]);
         let upper: Vec<f64> = (0..6).flat_map(|j| (0..=j).map(move |i| half(i, j))).collect();
         // A point that has failed keeps a millionth of a stiffness.
-        let tolerance = if truth.tangent == [[0.0; 6]; 6] { 1e-3 } else { 1e-13 };
+        let tolerance = if truth.tangent == [[0.0; 6]; 6] { 1e-3 } else { 10.0 * turned };
         assert_near::<M>(&stiffness, &upper, tolerance, "stiff");
         let state = M::DESCRIPTION.state.len();
-        assert_near::<M>(&new[..state], &truth.state, 1e-14, "xstate");
+        assert_near::<M>(&new[..state], &truth.state, turned, "xstate");
         assert_near::<M>(&new[state..], &f.as_slice()[..rows - state], 0.0, "F that is kept");
         assert_eq!(pnewdt, 1.0);
         old.clone_from(&new);
@@ -527,7 +621,7 @@ fn c_block<M: Tried>() {
             assert_eq!(active[point], 1.0 - truth.state[M::DESCRIPTION.failed]);
         }
         // What the law has not is refused, not ignored.
-        if M::DESCRIPTION.fibre.is_none() {
+        if !M::DESCRIPTION.has_fibre() {
             points.fibre[0] = ones.as_ptr();
             // SAFETY: as above.
             let code = unsafe { listed::block::<Listed<M>, f64>(&law, &points, null_mut(), 0) };
@@ -564,7 +658,12 @@ macro_rules! tests {
 
             #[test]
             fn in_calculix() {
-                calculix::<$law>();
+                calculix::<$law>(false);
+            }
+
+            #[test]
+            fn in_calculix_with_an_orientation() {
+                calculix::<$law>(true);
             }
 
             #[test]
@@ -584,4 +683,131 @@ tests! {
     bare: Bare;
     viscous: Viscous;
     reinforced: ReinforcedSolid;
+    families: Families;
+}
+
+/// A direction of length zero, and one that a plane element does not allow, is refused by the name that the law gives
+/// it.
+#[test]
+fn every_direction_is_checked() {
+    let with = |second: [f64; 3]| [&Families::VALUES[..5], &second].concat();
+    let error = User::<Families, f64>::new(&with([0.0; 3])).expect_err("no direction");
+    assert_eq!(error.to_string(), "properties 6 to 8 (second family) are 0.0, 0.0, 0.0; allowed: any vector but zero");
+    assert_eq!(error.code(), status::PROPERTY_DIRECTION);
+    let (mut statev, mut stress, mut sse, mut pnewdt) = ([0.0; 2], [0.0; 4], 0.0, 1.0);
+    let (f, props) = (Matrix3::<f64>::identity(), with([1.0, 0.0, 1.0]));
+    let mut message = [0_u8; 512];
+    let call = abaqus::Umat {
+        stress: stress.as_mut_ptr(),
+        statev: statev.as_mut_ptr(),
+        ddsdde: null_mut(),
+        sse: &mut sse,
+        pnewdt: &mut pnewdt,
+        dfgrd0: null(),
+        dfgrd1: f.as_ptr(),
+        props: props.as_ptr(),
+        nprops: 8,
+        nstatv: 2,
+        ndi: 3,
+        nshr: 1,
+        nlgeom: 1,
+    };
+    // SAFETY: the arrays have the sizes that the structure tells, the message its capacity.
+    let code = unsafe { <User<Families, f64> as StandardLaw>::umat(&call, message.as_mut_ptr().cast(), 512) };
+    let text = std::ffi::CStr::from_bytes_until_nul(&message).expect("a text").to_str().expect("a text");
+    assert_eq!(code, status::FIBRE_OUT_OF_PLANE);
+    assert!(text.starts_with("properties 6 to 8 (second family) are 1.0, 0.0, 1.0; allowed: a direction in"), "{text}");
+}
+
+/// A law's own refusal: by point and as the worst of a block, with and without tangents.
+#[test]
+fn a_law_may_refuse_a_point() {
+    let law = User::<Stubborn, f64>::new(&[2.0]).expect("a property that is right");
+    let stretches: Vec<f64> = (0..41).map(|i| 1.0 + 0.02 * f64::from(i)).collect();
+    let n = stretches.len();
+    let f: Vec<f64> =
+        (0..9).flat_map(|c| stretches.iter().map(move |&x| if c == 0 { x } else { f64::from(c % 4 == 0) })).collect();
+    for (tangents, level) in [false, true].into_iter().flat_map(|t| levels().into_iter().map(move |level| (t, level))) {
+        let (mut stress, mut codes, mut active, mut tangent) =
+            (vec![f64::NAN; 6 * n], vec![1; n], vec![7.0; n], vec![f64::NAN; 36 * n]);
+        let stress_ = stress.as_mut_ptr();
+        let points = Points {
+            f_new: array::from_fn(|c| f[c * n..].as_ptr()),
+            stress: array::from_fn(|c| stress_.wrapping_add(c * n)),
+            status: codes.as_mut_ptr(),
+            active: active.as_mut_ptr(),
+            tangent: if tangents { tangent.as_mut_ptr() } else { null_mut() },
+            level: Some(level),
+            ..Points::without_arrays(n, n)
+        };
+        // SAFETY: the arrays are those of n points.
+        let worst = unsafe { law.step(&points) }.expect("points that are right");
+        assert_eq!(worst, status::SMALLER_STEP);
+        for (i, &stretch) in stretches.iter().enumerate() {
+            let wanted = match stretch {
+                ..=1.2 => status::OK,
+                ..=1.5 => status::LAW,
+                _ => status::SMALLER_STEP,
+            };
+            assert_eq!(codes[i], wanted, "{stretch}");
+            assert_eq!(active[i], f64::from(wanted == status::OK), "{stretch}");
+            assert!(wanted == status::OK || (0..6).all(|c| stress[c * n + i] == 0.0), "{stretch}");
+            assert!(!tangents || (0..36).all(|c| (tangent[c * n + i] == 0.0) >= (wanted != status::OK)), "{stretch}");
+        }
+    }
+}
+
+/// In hosts the law's own words are the message; PNEWDT asks for a smaller step.
+#[test]
+fn messages_of_a_refusal_are_the_law_s() {
+    let (mut message, mu) = ([0_u8; 512], 2.0);
+    let text = |message: &[u8]| {
+        std::ffi::CStr::from_bytes_until_nul(message).expect("a text").to_str().expect("a text").to_string()
+    };
+    let f = Matrix3::from_diagonal(&[1.3, 1.0, 1.0].into());
+    let (mut statev, mut stress, mut sse, mut pnewdt) = ([0.0; 2], [0.0; 6], 0.0, 1.0);
+    let call = abaqus::Umat {
+        stress: stress.as_mut_ptr(),
+        statev: statev.as_mut_ptr(),
+        ddsdde: null_mut(),
+        sse: &mut sse,
+        pnewdt: &mut pnewdt,
+        dfgrd0: null(),
+        dfgrd1: f.as_ptr(),
+        props: &mu,
+        nprops: 1,
+        nstatv: 2,
+        ndi: 3,
+        nshr: 3,
+        nlgeom: 1,
+    };
+    // SAFETY: the arrays have the sizes that the structure tells, the message its capacity.
+    let code = unsafe { <User<Stubborn, f64> as StandardLaw>::umat(&call, message.as_mut_ptr().cast(), 512) };
+    assert_eq!((code, text(&message).as_str(), pnewdt), (status::LAW, REFUSAL, 0.25));
+
+    // SAFETY: numbers, which may be 0.
+    let mut law: PreparedOf<Listed<Stubborn>, f64> = unsafe { std::mem::zeroed() };
+    let size = size_of_val(&law);
+    // SAFETY: one property, and a law of its size.
+    assert_eq!(unsafe { listed::prepare::<Listed<Stubborn>, f64>(&mut law, size, &mu, 1, null_mut(), 0) }, status::OK);
+    let (two, mut codes) = ([1.0, 1.3, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 1.0], [7; 2]);
+    let zero = &raw const two[2];
+    // SAFETY: numbers and pointers, which may be 0.
+    let mut points: ListedPoints<Listed<Stubborn>, f64> = unsafe { std::mem::zeroed() };
+    points.size = size_of_val(&points);
+    points.n = 2;
+    points.f_new = array::from_fn(|c| {
+        if c == 0 {
+            two.as_ptr()
+        } else if c % 4 == 0 {
+            &raw const two[8]
+        } else {
+            zero
+        }
+    });
+    points.status = codes.as_mut_ptr();
+    // SAFETY: each component has two values.
+    let code = unsafe { listed::block::<Listed<Stubborn>, f64>(&law, &points, message.as_mut_ptr().cast(), 512) };
+    assert_eq!((code, codes), (status::LAW, [status::OK, status::LAW]));
+    assert_eq!(text(&message), format!("point 1, counted from 0: {REFUSAL}"));
 }

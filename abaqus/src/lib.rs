@@ -1,6 +1,7 @@
-//! libtoron_abaqus: both laws as Abaqus loads them from `usub_lib_dir`, with no Fortran and no compiler. Linked to as `libstandardU.so`
-//! it has the UMAT of Abaqus/Standard, as `libexplicitU-D.so` the VUMAT of jobs in double precision; libtoron_abaqus_sp, linked to as
-//! `libexplicitU.so`, has that of jobs in single precision. See `toron::host::abaqus`.
+//! libtoron_abaqus: the library's laws as Abaqus loads them from `usub_lib_dir`, with no Fortran and no compiler.
+//! Linked to as `libstandardU.so` it has the UMAT of Abaqus/Standard, as `libexplicitU-D.so` the VUMAT of jobs in
+//! double precision; libtoron_abaqus_sp, linked to as `libexplicitU.so`, has that of jobs in single precision. See
+//! `toron::host::abaqus`.
 //!
 //! A library of its own, since the symbols' names are Abaqus's choice, and since it ends the job where the deck is wrong: package
 //! `toron-solvers` has both.
@@ -8,31 +9,32 @@
 // Abaqus's routines are looked up as Unix has it, and its symbols have other names on Windows.
 #![cfg(unix)]
 
-use toron::law::parameters::LINEAR_ELASTIC_PROPERTIES;
-use toron::law::state::LINEAR_ELASTIC_STATE;
-use toron::{Hyperelastic, LinearElastic};
+use toron::host::laws::by_counts;
 
-/// The numbers of properties and of state variables of a material with the linear elastic law; every other one has the hyperelastic
-/// law. Ten properties and eleven state variables are a card of the hyperelastic law that lacks a property.
-const LINEAR_ELASTIC: [i32; 2] = [LINEAR_ELASTIC_PROPERTIES as i32, LINEAR_ELASTIC_STATE as i32];
+// The numbers of properties and of state variables tell the laws apart, and every other material has the hyperelastic
+// law. Ten properties and eleven state variables are a card of the hyperelastic law that lacks a property.
+macro_rules! routines {
+    ($($law:ident {
+        $name:literal, $title:literal, $symbol:literal, $behaviour:literal, user $user:literal, umat $umat:literal
+    })+) => {
+        #[cfg(not(feature = "single"))]
+        toron_solvers::abaqus_umat! {
+            |cmname, numbers| by_counts(numbers), [];
+            $($user => toron::$law;)+
+        }
 
-#[cfg(not(feature = "single"))]
-toron_solvers::abaqus_umat! {
-    |cmname, numbers| numbers == LINEAR_ELASTIC, [];
-    true => LinearElastic;
-    false => Hyperelastic;
+        #[cfg(not(feature = "single"))]
+        toron_solvers::abaqus_vumat! {
+            f64: |cmname, numbers| by_counts(numbers), [];
+            $($user => toron::$law;)+
+        }
+
+        #[cfg(feature = "single")]
+        toron_solvers::abaqus_vumat! {
+            f32: |cmname, numbers| by_counts(numbers), [];
+            $($user => toron::$law;)+
+        }
+    };
 }
 
-#[cfg(not(feature = "single"))]
-toron_solvers::abaqus_vumat! {
-    f64: |cmname, numbers| numbers == LINEAR_ELASTIC, [];
-    true => LinearElastic;
-    false => Hyperelastic;
-}
-
-#[cfg(feature = "single")]
-toron_solvers::abaqus_vumat! {
-    f32: |cmname, numbers| numbers == LINEAR_ELASTIC, [];
-    true => LinearElastic;
-    false => Hyperelastic;
-}
+toron::library_laws! { routines {} }

@@ -89,6 +89,10 @@ enum {
     REINFORCED_STATUS_MATERIAL_AXES = -307,
     /* the failure limit of this point is negative, NaN or infinite; 0 stands for that of the properties */
     REINFORCED_STATUS_LIMIT = -308,
+    /* the law cannot evaluate this point, for a reason of its own */
+    REINFORCED_STATUS_LAW = -309,
+    /* the law can evaluate this point in smaller steps only */
+    REINFORCED_STATUS_SMALLER_STEP = -310,
     /* room for any message */
     REINFORCED_MESSAGE_CAPACITY = 512
 };

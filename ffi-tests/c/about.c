@@ -31,7 +31,7 @@ static void messages(void)
                              TORON_PROPERTY_OUT_OF_BOUNDS, TORON_PROPERTY_DIRECTION, TORON_FIBRE_OUT_OF_PLANE,
                              TORON_STATE_COUNT, TORON_INVERTED, TORON_NOT_FINITE, TORON_OVERFLOW,
                              TORON_STATE_NOT_FINITE, TORON_FIBRE_DIRECTION, TORON_INCREMENT_TOO_LARGE, TORON_MATERIAL_AXES,
-                             TORON_LIMIT};
+                             TORON_LIMIT, TORON_LAW, TORON_SMALLER_STEP};
     for (size_t i = 0; i < sizeof codes / sizeof *codes; i++) {
         CHECK(toron_status_message(codes[i], text, sizeof text) == TORON_OK, "%d", codes[i]);
         CHECK(strstr(text, "no such") == NULL || codes[i] == TORON_UNKNOWN_NAME, "%d: %s", codes[i], text);

@@ -1,12 +1,17 @@
-//! libtoron_mgis: both laws as MGIS, MTest and whatever else loads MFront's libraries find them. See `toron::host::mgis`.
+//! libtoron_mgis: the library's laws as MGIS, MTest and whatever else loads MFront's libraries find them. See
+//! `toron::host::mgis`.
 //!
 //! A library of its own, since the names of the symbols are MFront's choice.
 
-toron_solvers::mgis! {
-    f64;
-    toron::Hyperelastic as "ToronHyperelastic", user 1;
-    toron::LinearElastic as "ToronLinearElastic", user 2;
+macro_rules! behaviours {
+    ($($law:ident {
+        $name:literal, $title:literal, $symbol:literal, $behaviour:literal, user $user:literal, umat $umat:literal
+    })+) => {
+        toron_solvers::mgis! { f64; $(toron::$law as $behaviour, user $user;)+ }
+    };
 }
+
+toron::library_laws! { behaviours {} }
 
 /// The bounds of a law's properties, each under both of MFront's names: outside them the property is refused. The properties that have
 /// bounds are listed, since a name of a symbol cannot be computed; the list is checked against the table.

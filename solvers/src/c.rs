@@ -125,9 +125,9 @@ where
         enumeration("STATE", &mut { state }),
         enumeration("STATUS", &mut { codes }),
     );
-    let fibre = match law.fibre {
-        Some(_) => "In, 3 components: the fibre direction of each point, of any length; null: that of the properties.",
-        None => "Null: this law has no fibre.",
+    let fibre = match law.has_fibre() {
+        true => "In, 3 components: the fibre direction of each point, of any length; null: that of the properties.",
+        false => "Null: this law has no fibre.",
     };
     let f_old = if law.reads_old_gradient { "Must not be null." } else { "Not read by this law." };
     let [n_properties, n_state, capacity] =

@@ -19,15 +19,16 @@
 //! | failure | stress 0; stiff is 1e-6 of the bulk modulus on its diagonal, since nodes between failed elements would have no stiffness |
 //! | F inverted or not finite | state kept, pnewdt ≤ ¼ |
 //!
-//! The fibre, and the second axis, are given in the axes of `*ORIENTATION`, if there are any, else in global ones; everything else is
-//! global. NLGEOM, and no initial stress. The header does not declare the entries: CalculiX alone calls them.
+//! The directions of a law, the fibre and others, are given in the axes of `*ORIENTATION`, if there are any, else in
+//! global ones; everything else is global. NLGEOM, and no initial stress. The header does not declare the entries:
+//! CalculiX alone calls them.
 
 use core::cell::Cell;
 use core::ffi::c_char;
 
 use crate::law::block::{components, components_mut};
 use crate::law::derivative::SixBySix;
-use crate::law::description::Description;
+use crate::law::description::Direction;
 use crate::law::error::{Error, Value};
 use crate::law::hyperelastic::Hyperelastic;
 use crate::law::interface::{Law, Points};
@@ -39,9 +40,9 @@ use crate::law::state::HYPERELASTIC_STATE;
 use crate::law::status;
 use crate::law::stress::second_piola_kirchhoff;
 use crate::law::tangent::Measure;
-use crate::law::user::{User, UserMaterial};
 use nalgebra::{Matrix3, Vector3};
 
+use super::ByStep;
 use super::entry_points::{properties, start_at_rest};
 use super::environment::in_default_environment;
 use super::limit_variable;
@@ -116,13 +117,23 @@ struct Answer<S> {
     kept: Option<[f64; 9]>,
     pnewdt: f64,
     status: i32,
+    /// Why the law has refused the point, if it has a reason of its own.
+    refusal: Option<&'static str>,
 }
 
 impl<S> Answer<S> {
     /// A state, and nothing else yet.
     #[inline(always)]
     const fn new(state: S) -> Self {
-        Answer { stress: [0.0; 6], stiffness: [0.0; 21], state, kept: None, pnewdt: 0.0, status: status::OK }
+        Answer {
+            stress: [0.0; 6],
+            stiffness: [0.0; 21],
+            state,
+            kept: None,
+            pnewdt: 0.0,
+            status: status::OK,
+            refusal: None,
+        }
     }
 }
 
@@ -288,6 +299,7 @@ impl Arguments<'_> {
         if L::DESCRIPTION.reads_old_gradient {
             answer.kept = Some(if answer.status == status::OK { *f_new } else { f_old });
         }
+        answer.refusal = L::DESCRIPTION.refusal.filter(|_| answer.status == status::LAW);
         self.finish(answer, || law.bulk_modulus(values))
     }
 
@@ -302,9 +314,8 @@ impl Arguments<'_> {
         let Some((axes, place)) = self.orientation else { return Ok(law) };
         let mut turned_values = [0.0; MOST_PROPERTIES];
         turned_values.iter_mut().zip(values).for_each(|(to, &from)| *to = from);
-        let Description { fibre, second_axis, .. } = L::DESCRIPTION;
-        for first in [fibre, second_axis].into_iter().flatten() {
-            // A second axis of 0 is any one.
+        for &Direction { first, .. } in L::DESCRIPTION.directions {
+            // One that may be 0 stays so.
             if let Some(direction) = turned_values.get_mut(first..).and_then(<[f64]>::first_chunk_mut)
                 && *direction != [0.0; 3]
             {
@@ -366,17 +377,17 @@ impl Message {
     }
 }
 
-/// Prints what is wrong as CalculiX prints its own errors, and ends the job as it does.
-fn refuse(material: &[u8; 80], message: &Message) -> ! {
-    let print = |text: &[u8]| {
+/// Prints a line as CalculiX prints its own errors and warnings.
+fn print_line(kind: &[u8], material: &[u8; 80], message: &[u8]) {
+    for text in [kind, b": toron, material ", material.trim_ascii_end(), b": ", message, b"\n"] {
         // SAFETY: the format takes a length and as many bytes.
         unsafe { libc::printf(c"%.*s".as_ptr(), text.len() as libc::c_int, text.as_ptr()) };
-    };
-    print(b" *ERROR: toron, material ");
-    print(material.trim_ascii_end());
-    print(b": ");
-    print(message.text.get(..message.length).unwrap_or_default());
-    print(b"\n");
+    }
+}
+
+/// Prints what is wrong as CalculiX prints its own errors, and ends the job as it does.
+fn refuse(material: &[u8; 80], message: &Message) -> ! {
+    print_line(b" *ERROR", material, message.text.get(..message.length).unwrap_or_default());
     // SAFETY: CalculiX itself ends in this way; open files are flushed.
     unsafe { libc::exit(EXIT_CODE) }
 }
@@ -400,7 +411,7 @@ pub trait CalculixLaw: Law<f64> {
     }
 }
 
-impl<M: UserMaterial> CalculixLaw for User<M, f64> {}
+impl<L: ByStep + Law<f64>> CalculixLaw for L {}
 
 impl CalculixLaw for Hyperelastic<f64> {
     #[inline(always)]
@@ -486,6 +497,10 @@ unsafe fn answer<S>(call: &Behaviour, law: impl FnOnce(&Arguments<'_>) -> Result
                 *new.add(place) = *arguments.old_state.add(place);
             }
             *call.pnewdt = answer.pnewdt;
+            if let Some(text) = answer.refusal {
+                // CalculiX itself says only that a smaller increment is tried.
+                print_line(b" *WARNING", &*call.amat.cast(), text.as_bytes());
+            }
         },
         // SAFETY: a material's name has 80 characters.
         Err(()) => refuse(unsafe { &*call.amat.cast() }, &message),

@@ -67,21 +67,17 @@ fn oblique(index: usize, name: &'static str, value: [f64; 3]) -> Error {
 /// The direction among the properties that does not.
 #[inline(never)]
 pub(super) fn check_plane<T: Precision, L: Law<T>>(law: &L, properties: &[T]) -> Result<(), Error> {
-    let direction = |first: usize| -> [f64; 3] {
-        let components = properties.get(first..).and_then(<[T]>::first_chunk);
-        components.map_or([0.0; 3], |components: &[T; 3]| components.map(Into::into)) // their number has been checked
-    };
-    let Description { fibre, second_axis, .. } = L::DESCRIPTION;
-    if let Some(fibre) = fibre.filter(|&fibre| out_of_plane(direction(fibre))) {
-        return Err(oblique(fibre, "fibre direction", direction(fibre)).for_caller_of::<T>());
-    }
-    match second_axis {
-        // Another axis may be oblique only because of the second one.
-        Some(second) if law.axes().into_iter().any(out_of_plane) => {
-            Err(oblique(second, "second axis", direction(second)).for_caller_of::<T>())
+    let Description { directions, .. } = L::DESCRIPTION;
+    // An axis that is made orthogonal to the fibre may be oblique only because of the second direction.
+    let axes_are_oblique = L::HAS_AXES && law.axes().into_iter().any(out_of_plane);
+    for (i, direction) in directions.iter().enumerate() {
+        let vector = direction.of(properties);
+        let is_oblique = if L::HAS_AXES && i > 0 { axes_are_oblique } else { out_of_plane(vector) };
+        if is_oblique {
+            return Err(oblique(direction.first, direction.name, vector).for_caller_of::<T>());
         }
-        _ => Ok(()),
     }
+    Ok(())
 }
 
 /// Bulk and shear modulus of a law, for a time step.

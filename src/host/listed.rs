@@ -121,7 +121,7 @@ impl<N: Named<T>, T: Precision> ListedPoints<N, T> {
         layout.check(&self.f_new, null(), n, "f_new, one of its components,", distances!("f_new"))?;
         layout.check(&self.fibre, null(), n, "fibre, one of its components,", distances!("fibre"))?;
         layout.check(&self.stress, null_mut(), n, "stress, one of its components,", distances!("stress"))?;
-        if N::Law::DESCRIPTION.fibre.is_none() && !self.fibre[0].is_null() {
+        if !N::Law::DESCRIPTION.has_fibre() && !self.fibre[0].is_null() {
             let text = "argument fibre is not null; allowed: null, since this law has no fibre";
             return Err(Error::Setting { code: status::BAD_ARGUMENT, text });
         }
@@ -178,7 +178,8 @@ pub unsafe fn block<N: Named<T>, T: Precision>(
         unsafe {
             let law = N::Law::of(numbers::<T, _>(law)?);
             let points = read(points, &mut buffer)?;
-            of_points(law.step(&points.checked()?)?, points.status, points.n)
+            let told = of_points(law.step(&points.checked()?)?, points.status, points.n);
+            N::Law::DESCRIPTION.told(told.map_err(|error| N::Law::DESCRIPTION.named(error))?)
         }
     };
     // SAFETY: the message is the C caller's, and so are the arguments, which `body` checks.

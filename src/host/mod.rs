@@ -20,6 +20,7 @@ pub mod calculix;
 pub mod constants;
 pub mod entry_points;
 pub mod environment;
+pub mod laws;
 mod limit_variable;
 pub mod linear_elastic;
 pub mod listed;
@@ -33,12 +34,13 @@ pub mod tables;
 pub mod units;
 
 use crate::law::block::Precision;
+use crate::law::frictional::Frictional;
 use crate::law::hyperelastic::Hyperelastic;
 use crate::law::interface::Law;
 use crate::law::linear_elastic::LinearElastic;
 use crate::law::user::{User, UserMaterial, check_tables};
 
-/// A law by its name, without a precision: a [`UserMaterial`], [`Hyperelastic`] or [`LinearElastic`].
+/// A law by its name, without a precision: a [`UserMaterial`], or a law of the library.
 pub trait Material<T: Precision> {
     /// The law in this precision.
     type Law: Law<T>;
@@ -55,9 +57,21 @@ impl<T: Precision> Material<T> for Hyperelastic<f64> {
     type Law = Hyperelastic<T>;
 }
 
+impl<T: Precision> Material<T> for Frictional<f64> {
+    type Law = Frictional<T>;
+}
+
 impl<T: Precision> Material<T> for LinearElastic<f64> {
     type Law = LinearElastic<T>;
 }
+
+/// A law whose points every host evaluates by [`Law::step`] alone: with this it is a law of every host. The
+/// hyperelastic law has kernels of one point instead, and the hosts of the linear elastic one are compiled in this
+/// crate.
+pub trait ByStep {}
+
+impl<M: UserMaterial, T: Precision> ByStep for User<M, T> {}
+impl<T: Precision> ByStep for Frictional<T> {}
 
 /// Whether a law may have this name in a library: capitals, digits and underscores, a capital first. Symbols are made of it.
 pub const fn is_name(name: &str) -> bool {

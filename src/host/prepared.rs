@@ -5,10 +5,11 @@ use libc::size_t;
 use super::entry_points::{Message, entry, properties};
 use crate::law::block::Precision;
 use crate::law::error::Error;
+use crate::law::frictional::Frictional;
 use crate::law::hyperelastic::Hyperelastic;
 use crate::law::interface::Law;
 use crate::law::linear_elastic::LinearElastic;
-use crate::law::prepared::{PreparedHyperelastic, PreparedLinearElastic};
+use crate::law::prepared::{PreparedFrictional, PreparedHyperelastic, PreparedLinearElastic};
 use crate::law::status;
 use crate::law::user::{User, UserMaterial};
 
@@ -22,6 +23,19 @@ pub trait AsNumbers<T: Precision>: Law<T> {
 
 impl<T: Precision> AsNumbers<T> for Hyperelastic<T> {
     type Numbers = PreparedHyperelastic<T>;
+
+    fn numbers(&self) -> Self::Numbers {
+        self.into()
+    }
+
+    #[inline(always)]
+    fn of(numbers: &Self::Numbers) -> Self {
+        numbers.law()
+    }
+}
+
+impl<T: Precision> AsNumbers<T> for Frictional<T> {
+    type Numbers = PreparedFrictional<T>;
 
     fn numbers(&self) -> Self::Numbers {
         self.into()

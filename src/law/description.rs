@@ -2,12 +2,14 @@
 
 use core::ops::Range;
 
+use super::error::Error;
 use super::number::real::Real;
 use super::parameters::{self, FIBRE, LINEAR_FIBRE, LINEAR_SECOND_AXIS, Property};
 use super::state::{
     self, ALIVE, ENERGIES, FAILED, FRICTIONAL_ALIVE, FRICTIONAL_FAILED, INVARIANTS, LINEAR_ALIVE, LINEAR_FAILED,
     LINEAR_WORK, StateVariable,
 };
+use super::status::LAW;
 
 /// A law as the hosts see it.
 #[derive(Debug)]
@@ -16,10 +18,9 @@ pub struct Description {
     pub title: &'static str,
     pub properties: &'static [Property],
     pub state: &'static [StateVariable],
-    /// Index of the first component of the fibre direction among the properties, and that of a second axis; `None` for a law that has
-    /// none.
-    pub fibre: Option<usize>,
-    pub second_axis: Option<usize>,
+    /// The directions among the properties: first the fibre, which each point may have its own of, then others. Hosts
+    /// that turn a material turn all of them.
+    pub directions: &'static [Direction],
     /// Indices into the state: the latch, the flag for element deletion, and the energies, whose sum is the energy per reference
     /// volume.
     pub failed: usize,
@@ -27,6 +28,40 @@ pub struct Description {
     pub energies: Range<usize>,
     /// Whether a step depends on F at its start.
     pub reads_old_gradient: bool,
+    /// Of a law that may refuse a point by a status of its own: why, as messages have it where that is
+    /// [`status::LAW`](super::status::LAW).
+    pub refusal: Option<&'static str>,
+}
+
+/// The most directions of a law.
+pub const MOST_DIRECTIONS: usize = 3;
+
+/// Three properties that are the components of a vector of any length in the reference placement.
+#[derive(Clone, Copy, Debug)]
+pub struct Direction {
+    /// What messages call it.
+    pub name: &'static str,
+    /// The place of its first component among the properties.
+    pub first: usize,
+    /// Whether it may be 0, where any direction will do; else that is an error.
+    pub may_be_zero: bool,
+}
+
+impl Direction {
+    pub const fn new(name: &'static str, first: usize) -> Self {
+        Direction { name, first, may_be_zero: false }
+    }
+
+    /// The direction of the fibre.
+    pub const fn fibre(first: usize) -> Self {
+        Direction::new("fibre direction", first)
+    }
+
+    /// The vector that properties have there.
+    pub fn of<T: Real + Into<f64>>(&self, properties: &[T]) -> [f64; 3] {
+        let components = properties.get(self.first..).and_then(<[T]>::first_chunk);
+        components.map_or([0.0; 3], |&[x, y, z]| [x.into(), y.into(), z.into()]) // there are so many properties
+    }
 }
 
 /// The hyperelastic law.
@@ -34,12 +69,12 @@ pub const HYPERELASTIC: Description = Description {
     title: "hyperelastic yarn law",
     properties: &parameters::HYPERELASTIC,
     state: &state::HYPERELASTIC,
-    fibre: Some(FIBRE),
-    second_axis: None,
+    directions: &[Direction::fibre(FIBRE)],
     failed: FAILED,
     alive: ALIVE,
     energies: ENERGIES..INVARIANTS,
     reads_old_gradient: false,
+    refusal: None,
 };
 
 /// The law with friction between the fibres of a section.
@@ -47,12 +82,12 @@ pub const FRICTIONAL: Description = Description {
     title: "yarn law with friction",
     properties: &parameters::FRICTIONAL,
     state: &state::FRICTIONAL,
-    fibre: Some(FIBRE),
-    second_axis: None,
+    directions: &[Direction::fibre(FIBRE)],
     failed: FRICTIONAL_FAILED,
     alive: FRICTIONAL_ALIVE,
     energies: ENERGIES..INVARIANTS,
     reads_old_gradient: false,
+    refusal: None,
 };
 
 /// The linear elastic law.
@@ -60,12 +95,15 @@ pub const LINEAR_ELASTIC: Description = Description {
     title: "linear elastic law",
     properties: &parameters::LINEAR_ELASTIC,
     state: &state::LINEAR_ELASTIC,
-    fibre: Some(LINEAR_FIBRE),
-    second_axis: Some(LINEAR_SECOND_AXIS),
+    directions: &[
+        Direction::fibre(LINEAR_FIBRE),
+        Direction { may_be_zero: true, ..Direction::new("second axis", LINEAR_SECOND_AXIS) },
+    ],
     failed: LINEAR_FAILED,
     alive: LINEAR_ALIVE,
     energies: LINEAR_WORK..LINEAR_WORK + 1,
     reads_old_gradient: true,
+    refusal: None,
 };
 
 impl Description {
@@ -74,11 +112,35 @@ impl Description {
         if self.reads_old_gradient { 9 } else { 0 }
     }
 
+    /// Whether the law has a fibre.
+    pub const fn has_fibre(&self) -> bool {
+        !self.directions.is_empty()
+    }
+
     /// The places of the fibre direction among the properties; none of a law without fibre.
     pub const fn fibre_components(&self) -> Range<usize> {
-        match self.fibre {
-            Some(first) => first..first + 3,
-            None => 0..0,
+        match self.directions {
+            [Direction { first, .. }, ..] => *first..*first + 3,
+            [] => 0..0,
+        }
+    }
+
+    /// The worst status code of a call: as an error with the law's own message where the law has refused a point.
+    ///
+    /// # Errors
+    /// It is [`status::LAW`](super::status::LAW) of a law that says why.
+    pub const fn told(&self, code: i32) -> Result<i32, Error> {
+        match self.refusal {
+            Some(text) if code == LAW => Err(Error::Setting { code, text }),
+            _ => Ok(code),
+        }
+    }
+
+    /// The error of a point, with the law's own message where the law has refused it.
+    pub const fn named(&self, error: Error) -> Error {
+        match (error, self.refusal) {
+            (Error::Point { code: LAW, index }, Some(text)) => Error::PointOfLaw { code: LAW, index, text },
+            _ => error,
         }
     }
 

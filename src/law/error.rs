@@ -68,6 +68,8 @@ pub enum Error {
     Size { structure: &'static str, size: usize, known: usize },
     /// What is wrong at a point of a block, counted from 0.
     Point { code: i32, index: usize },
+    /// The same, for a reason of the law's own.
+    PointOfLaw { code: i32, index: usize, text: &'static str },
     /// What is wrong at an element, by its number in the host's model.
     Element { code: i32, number: i64 },
     /// A setting of the host's model is wrong; the text says what is to be set.
@@ -87,6 +89,7 @@ impl Error {
             Error::Count { code, .. }
             | Error::Property { code, .. }
             | Error::Point { code, .. }
+            | Error::PointOfLaw { code, .. }
             | Error::Element { code, .. }
             | Error::Setting { code, .. }
             | Error::ElementSetting { code, .. }
@@ -204,10 +207,12 @@ impl Error {
                 sink(" in this version of the library");
             }
             Error::Point { code, index } => {
-                sink("point ");
-                describe_integer(index as i64, sink);
-                sink(", counted from 0: ");
+                describe_point(index, sink);
                 Error::Plain(code).describe(sink);
+            }
+            Error::PointOfLaw { index, text, .. } => {
+                describe_point(index, sink);
+                sink(text);
             }
             Error::Element { code, number } => {
                 sink("element ");
@@ -240,6 +245,12 @@ impl Error {
             },
         }
     }
+}
+
+fn describe_point(index: usize, sink: &mut dyn FnMut(&str)) {
+    sink("point ");
+    describe_integer(index as i64, sink);
+    sink(", counted from 0: ");
 }
 
 /// Passes the digits to `sink` one by one. The crate `itoa` is not used: its bounds checks would leave a panic in the program.

@@ -175,6 +175,16 @@ impl<R: Real> Friction<R> {
         Friction { mu, cohesion, per_stiffness }
     }
 
+    /// Its numbers, from which [`from_numbers`](Self::from_numbers) makes it again.
+    pub fn numbers(&self) -> [R; 3] {
+        [self.mu, self.cohesion, self.per_stiffness]
+    }
+
+    #[inline(always)]
+    pub fn from_numbers([mu, cohesion, per_stiffness]: [R; 3]) -> Self {
+        Friction { mu, cohesion, per_stiffness }
+    }
+
     /// The same friction in another number type.
     #[inline(always)]
     pub fn lanes<L: Real>(&self) -> Friction<L>

@@ -14,7 +14,7 @@ use nalgebra::Matrix3;
 use super::error::Error;
 use super::failure::Failure;
 use super::kinematics::FibreFrame;
-use super::number::real::{Lanes, Real};
+use super::number::real::Real;
 use super::number::vector::{
     Matrix, along, cofactors, cross, difference, dot, image, is_finite, product, scale, scaled, selected, square_norm,
     sum, transposed, unit,
@@ -212,6 +212,18 @@ impl LinearElastic {
     }
 }
 
+/// What a step does to the material axes, and the strain increment in them.
+struct Motion<R: Real> {
+    /// The material axes at both ends, as columns.
+    q0: Matrix<R>,
+    q1: Matrix<R>,
+    strain: [R; 6],
+    /// The mean of det F at both ends.
+    jacobian: R,
+    /// Where the logarithm has been computed.
+    converged: R::Mask,
+}
+
 /// The arguments of a step.
 #[derive(Clone, Copy)]
 pub(super) struct Step<'a, R> {
@@ -265,47 +277,28 @@ impl<R: Real> LinearElastic<R> {
         (axes, usable & apart)
     }
 
-    /// One step for the points in the lanes. `reference` holds their material axes in the reference placement, `usable` says where
-    /// there are such axes.
+    /// The motion of a step, of the points in `able`, given det F0 and its cofactors, and det F1. `reference` holds
+    /// their material axes in the reference placement.
     #[inline(always)]
-    pub(super) fn respond<T>(
-        &self,
-        step: Step<'_, R>,
+    fn motion(
+        step: &Step<'_, R>,
         reference: &Matrix<R>,
-        usable: R::Mask,
-        old: &[R; LINEAR_ELASTIC_STATE],
-        wanted: Wanted,
-    ) -> Answer<R>
-    where
-        R: Lanes<T>,
-    {
-        let Step { f0, f1, axes, limit, rotation, criterion } = step;
-        let (zero, half) = (R::splat(0.0), R::splat(0.5));
-        let ((j0, minors), (j1, _)) = (cofactors(f0), cofactors(f1));
-        let upright = zero.lt(j0) & zero.lt(j1);
-        let (start, usable, unusable) = match rotation {
-            Rotation::Spin => {
-                let (start, near) = orthonormal(axes);
-                (start, near, status::MATERIAL_AXES)
-            }
-            Rotation::Fibre | Rotation::Polar => (*axes, usable, status::FIBRE_DIRECTION),
-        };
-        let (strength, may_have) = match limit {
-            Some(limit) => (R::select(zero.lt(limit), limit, self.limit), Failure::is_limit(limit)),
-            None => (self.limit, zero.le(zero)),
-        };
-        let able = upright & usable & may_have & Failure::intact(old[LINEAR_FAILED]);
+        able: R::Mask,
+        (j0, minors): &(R, Matrix<R>),
+        j1: R,
+    ) -> Motion<R> {
+        let (half, Step { f0, f1, axes, .. }) = (R::splat(0.5), step);
         // F1 F0⁻¹ − 1.
         let inverse = j0.reciprocal();
-        let change = product(&difference(f1, f0), &transposed(&minors));
+        let change = product(&difference(f1, f0), &transposed(minors));
         let change = scaled(inverse, &change);
-        let (q0, q1) = match rotation {
+        let (q0, q1) = match step.rotation {
             Rotation::Fibre => (fibre_axes(f0, reference), fibre_axes(f1, reference)),
             Rotation::Polar => {
                 let (r0, r1) = (polar_rotation(f0, able), polar_rotation(f1, able));
                 (product(&r0, reference), product(&r1, reference))
             }
-            Rotation::Spin => (start, rotated_by_spin(&start, &change)),
+            Rotation::Spin => (**axes, rotated_by_spin(axes, &change)),
         };
         let turn = difference(&q1, &q0);
         let back = transposed(&q1);
@@ -321,7 +314,49 @@ impl<R: Real> LinearElastic<R> {
             half * (rate[1][2] + rate[2][1]),
             half * (rate[2][0] + rate[0][2]),
         ];
-        let (stress, state) = self.advance(&strain, half * (j0 + j1), old, (criterion, strength), wanted);
+        Motion { q0, q1, strain, jacobian: half * (*j0 + j1), converged }
+    }
+
+    /// The Cauchy stress, in global axes, at the end of a step of a point that takes it.
+    #[inline(always)]
+    pub(super) fn stress(&self, step: &Step<'_, R>, reference: &Matrix<R>, old: &[R; LINEAR_ELASTIC_STATE]) -> [R; 6] {
+        let wanted = Wanted { stress: true, state: false, wave_modulus: false };
+        let (everywhere, (j1, _)) = (R::splat(0.0).le(R::splat(0.0)), cofactors(step.f1));
+        let motion = Self::motion(step, reference, everywhere, &cofactors(step.f0), j1);
+        let (stress, _) = self.advance(&motion.strain, motion.jacobian, old, (step.criterion, self.limit), wanted);
+        turned(&motion.q1, &stress)
+    }
+
+    /// One step for the points in the lanes. `reference` holds their material axes in the reference placement, `usable`
+    /// says where there are such axes.
+    #[inline(always)]
+    pub(super) fn respond(
+        &self,
+        step: Step<'_, R>,
+        reference: &Matrix<R>,
+        usable: R::Mask,
+        old: &[R; LINEAR_ELASTIC_STATE],
+        wanted: Wanted,
+    ) -> Answer<R> {
+        let Step { f0, f1, axes, limit, rotation, criterion } = step;
+        let zero = R::splat(0.0);
+        let ((j0, minors), (j1, _)) = (cofactors(f0), cofactors(f1));
+        let upright = zero.lt(j0) & zero.lt(j1);
+        let (start, usable, unusable) = match rotation {
+            Rotation::Spin => {
+                let (start, near) = orthonormal(axes);
+                (start, near, status::MATERIAL_AXES)
+            }
+            Rotation::Fibre | Rotation::Polar => (*axes, usable, status::FIBRE_DIRECTION),
+        };
+        let (strength, may_have) = match limit {
+            Some(limit) => (R::select(zero.lt(limit), limit, self.limit), Failure::is_limit(limit)),
+            None => (self.limit, zero.le(zero)),
+        };
+        let able = upright & usable & may_have & Failure::intact(old[LINEAR_FAILED]);
+        let Motion { q0, q1, strain, jacobian, converged } =
+            Self::motion(&Step { axes: &start, ..step }, reference, able, &(j0, minors), j1);
+        let (stress, state) = self.advance(&strain, jacobian, old, (criterion, strength), wanted);
         // Its size is the same in the material axes.
         let wave_modulus = if wanted.wave_modulus { self.wave_modulus_at(j1, &stress) } else { zero };
         let stress = if wanted.stress { turned(&q1, &stress) } else { stress };
@@ -476,7 +511,7 @@ fn rotated_by_spin<R: Real>(axes: &Matrix<R>, increment: &Matrix<R>) -> Matrix<R
 /// The rotation R of F = R U of the points in `able`, where det F > 0, by Newton's iteration X ← ½(γX + X⁻ᵀ/γ). γ² is the ratio
 /// of the norms, or 1 once X is near R, where scaling would only add a rounding (Higham, SIAM J. Sci. Stat. Comput. 7, 1986).
 #[inline(always)]
-fn polar_rotation<T, R: Lanes<T>>(f: &Matrix<R>, able: R::Mask) -> Matrix<R> {
+fn polar_rotation<R: Real>(f: &Matrix<R>, able: R::Mask) -> Matrix<R> {
     /// With the scaling a few steps suffice for any stretch.
     const STEPS: usize = 20;
     const NEAR: f64 = 0.01;
@@ -513,7 +548,7 @@ fn half_gradient<R: Real>(x: &Matrix<R>) -> Matrix<R> {
 /// ln(1 + X) as 2 artanh(X (2 + X)⁻¹), and where the series has converged. Only the points in `able` determine the number of
 /// terms.
 #[inline(always)]
-fn logarithm<T, R: Lanes<T>>(x: &Matrix<R>, able: R::Mask) -> (Matrix<R>, R::Mask) {
+fn logarithm<R: Real>(x: &Matrix<R>, able: R::Mask) -> (Matrix<R>, R::Mask) {
     const TERMS: i32 = 120;
     /// A squared norm of X far above that of any step that converges; beyond, (2 + X)⁻¹ has too few correct digits.
     const LARGEST: f64 = 1e6;

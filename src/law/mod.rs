@@ -6,6 +6,7 @@ pub mod block;
 pub mod bounds;
 pub(crate) mod derivative;
 pub mod description;
+pub(crate) mod differentiated;
 pub(crate) mod error;
 pub(crate) mod failure;
 pub mod frictional;

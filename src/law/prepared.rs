@@ -3,6 +3,7 @@
 
 use super::error::Error;
 use super::failure::Failure;
+use super::frictional::{Friction, Frictional};
 use super::hyperelastic::Hyperelastic;
 use super::kinematics::{FibreFrame, Strain};
 use super::linear_elastic::LinearElastic;
@@ -22,6 +23,14 @@ pub struct PreparedHyperelastic<T>(pub [T; PreparedHyperelastic::<f64>::COUNT]);
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(transparent)]
 pub struct PreparedLinearElastic<T>(pub [T; PreparedLinearElastic::<f64>::COUNT]);
+
+/// A prepared law with friction: the hyperelastic one, µ, c and 2/k_td.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C)]
+pub struct PreparedFrictional<T> {
+    elastic: PreparedHyperelastic<T>,
+    friction: [T; 3],
+}
 
 impl PreparedHyperelastic<f64> {
     pub(crate) const COUNT: usize = 26;
@@ -142,6 +151,20 @@ impl<T: Real + Into<f64>> Source<T> for &PreparedHyperelastic<T> {
     #[inline(always)]
     fn power_and_failure<R: Single<T>>(&self, law: &Hyperelastic<R>, strain: &Strain<R>) -> (R, Failure<R>) {
         (law.compaction(strain).reduce(&law.exponent).finish(), law.failure)
+    }
+}
+
+impl<T: Real + Into<f64>> From<&Frictional<T>> for PreparedFrictional<T> {
+    fn from(law: &Frictional<T>) -> Self {
+        PreparedFrictional { elastic: (&law.elastic).into(), friction: law.friction.numbers() }
+    }
+}
+
+impl<T: Real + Into<f64>> PreparedFrictional<T> {
+    /// The law that these numbers came from.
+    #[inline(always)]
+    pub(crate) fn law(&self) -> Frictional<T> {
+        Frictional { elastic: self.elastic.law(), friction: Friction::from_numbers(self.friction) }
     }
 }
 

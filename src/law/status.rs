@@ -53,9 +53,13 @@ pub const MATERIAL_AXES: i32 = -307;
 
 /// The failure limit given for this point is negative, NaN or infinite.
 pub const LIMIT: i32 = -308;
+/// The law itself cannot evaluate the point, for instance since an iteration does not converge.
+pub const LAW: i32 = -309;
+/// The law can only evaluate the point in smaller steps.
+pub const SMALLER_STEP: i32 = -310;
 
 /// Every code with its name and meaning.
-pub const TABLE: [(i32, &str, &str); 24] = [
+pub const TABLE: [(i32, &str, &str); 26] = [
     (OK, "ok", "no error"),
     (NULL_ARGUMENT, "null_argument", "an argument that must not be null is null"),
     (BAD_COUNT, "bad_count", "a count that this function does not support"),
@@ -112,6 +116,8 @@ pub const TABLE: [(i32, &str, &str); 24] = [
         "limit",
         "the failure limit of this point is negative, NaN or infinite; 0 stands for that of the properties",
     ),
+    (LAW, "law", "the law cannot evaluate this point, for a reason of its own"),
+    (SMALLER_STEP, "smaller_step", "the law can evaluate this point in smaller steps only"),
 ];
 
 /// The short name of a status code; `None` if there is no such code.

@@ -694,6 +694,8 @@ fn wrong_properties_are_named() {
     assert!(Frictional::<f64>::new(&properties[..11]).is_err());
 }
 
+const DRIFT: [[f64; 4]; 3] = [[0.0; 4]; 3];
+
 /// A wave of whole numbers, from 0 up to half a period and back.
 fn triangle(i: u32, period: u32) -> f64 {
     let x = i % period;
@@ -703,11 +705,7 @@ fn triangle(i: u32, period: u32) -> f64 {
 #[test]
 fn a_million_steps_drift_by_few_roundings() {
     // Evaluated in 40 digits by the formulas of docs/reference/theory.md.
-    let exact = [
-        (1_000, DRIFT[0]),
-        (100_000, DRIFT[1]),
-        (1_000_000, DRIFT[2]),
-    ];
+    let exact = [(1_000, DRIFT[0]), (100_000, DRIFT[1]), (1_000_000, DRIFT[2])];
     let yarn = Yarn { k_el: 0.0, p: 3.0, k_td: 649.75, mu: 0.25, cohesion: 0.5, ..KEVLAR };
     let law = yarn.law([1.0, 0.0, 0.0]);
     let mut state = [0.0; FRICTIONAL_STATE];

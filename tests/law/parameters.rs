@@ -404,7 +404,8 @@ fn descriptions_say_where_the_tables_have_what() {
         let property = |place: usize| law.properties[place].name;
         let fibre: Vec<&str> = law.fibre_components().map(property).collect();
         assert_eq!(fibre, ["m_1", "m_2", "m_3"], "{}", law.title);
-        assert_eq!(law.second_axis.map(property), law.second_axis.map(|_| "n_1"), "{}", law.title);
+        let second = law.directions.get(1);
+        assert_eq!(second.map(|second| property(second.first)), second.map(|_| "n_1"), "{}", law.title);
         assert_eq!([law.failed, law.alive].map(|place| law.state[place].name), ["failed", "alive"], "{}", law.title);
         let energies: Vec<usize> = law.energies.clone().collect();
         let rows: Vec<usize> =

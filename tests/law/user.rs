@@ -5,7 +5,7 @@ use std::array;
 
 use fastrand::Rng;
 use nalgebra::{Matrix3, Vector3};
-use toron::law::block::Precision;
+use toron::law::block::{Precision, Strides};
 use toron::law::interface::{Law, Points};
 use toron::law::status;
 use toron::law::stress::{components, first_piola_kirchhoff, matrix, pulled_back, truesdell_of_jaumann};
@@ -45,12 +45,12 @@ impl UserMaterial for Damaged {
         title: "damaged solid",
         properties: &PROPERTIES,
         state: &STATE,
-        fibre: None,
-        second_axis: None,
+        directions: &[],
         failed: 3,
         alive: 4,
         energies: 0..1,
         reads_old_gradient: true,
+        refusal: None,
     };
     type Properties<R: Real> = [R; 2];
     type State<R: Real> = [R; 3];
@@ -85,7 +85,7 @@ impl UserMaterial for Damaged {
         let [a, b, c] = step.f_old;
         let old = dot(a, [b[1] * c[2] - b[2] * c[1], b[2] * c[0] - b[0] * c[2], b[0] * c[1] - b[1] * c[0]]);
         let state = [mu * first, damage, way + (step.jacobian / old).ln().abs()];
-        Response { stress, state, failed: R::splat(0.95).le(damage) }
+        Response { failed: R::splat(0.95).le(damage), ..Response::new(stress, state) }
     }
 }
 
@@ -165,6 +165,80 @@ fn run<M: UserMaterial, T: Precision + Default>(law: &User<M, T>, given: &Given<
         tangent: rows_of(&tangent, entries),
         speed,
         status: codes,
+        active,
+        worst,
+    }
+}
+
+/// Evaluates the points in rows: all numbers of a point in one row, with gaps that nothing may write to. An old state
+/// elsewhere, or in the place of the new one.
+fn run_in_rows<M: UserMaterial, T: Precision + Default>(
+    law: &User<M, T>,
+    given: &Given<T>,
+    in_place: bool,
+) -> Answer<T> {
+    const GAP: f64 = -7.25;
+    let (n, variables) = (given.f.len(), M::DESCRIPTION.state.len());
+    let entries = given.measure.map_or(0, Measure::components);
+    // F at both ends, fibre, old and new state, stress, tangent: each with a gap behind it.
+    let lengths = [9, 9, 3, variables, variables, 6, entries];
+    let starts: [usize; 7] = array::from_fn(|k| lengths[..k].iter().sum::<usize>() + k);
+    let stride = starts[6] + entries + 1;
+    let mut rows = vec![T::splat(GAP); n * stride];
+    for (i, row) in rows.chunks_mut(stride).enumerate() {
+        row[starts[0]..][..9].copy_from_slice(&given.f_old[i]);
+        row[starts[1]..][..9].copy_from_slice(&given.f[i]);
+        if let Some(fibre) = &given.fibre {
+            row[starts[2]..][..3].copy_from_slice(&fibre[i]);
+        }
+        for start in if in_place { 4..5 } else { 3..4 } {
+            row[starts[start]..][..variables].copy_from_slice(&given.state[i]);
+        }
+    }
+    let (mut speed, mut active, mut status) = (vec![T::default(); n], vec![T::default(); n], vec![1; n]);
+    let base = rows.as_mut_ptr();
+    let at = |k: usize, c: usize| base.wrapping_add(starts[k] + c);
+    let mut points = Points::without_arrays(n, 1);
+    points.strides = Strides {
+        deformation_gradient: stride,
+        fibre: stride,
+        limit: stride,
+        axes: stride,
+        state: stride,
+        stress: stride,
+        modes: stride,
+        tangent: stride,
+    };
+    points.f_old = array::from_fn(|c| at(0, c).cast_const());
+    points.f_new = array::from_fn(|c| at(1, c).cast_const());
+    if given.fibre.is_some() {
+        points.fibre = array::from_fn(|c| at(2, c).cast_const());
+    }
+    points.state_old = User::<M, T>::parts(at(if in_place { 4 } else { 3 }, 0), 1);
+    points.state_new = User::<M, T>::parts_mut(at(4, 0), 1);
+    points.stress = array::from_fn(|c| at(5, c));
+    if let Some(measure) = given.measure {
+        (points.measure, points.tangent) = (measure, at(6, 0));
+    }
+    if given.waves {
+        (points.density, points.wave_speed) = (T::splat(4.0), speed.as_mut_ptr());
+    }
+    (points.status, points.active) = (status.as_mut_ptr(), active.as_mut_ptr());
+    points.level = given.level;
+    // SAFETY: each row has what the strides say.
+    let worst = unsafe { law.step(&points) }.expect("points that are right");
+    let part = |k: usize, row: &[T]| row[starts[k]..][..lengths[k]].to_vec();
+    for row in rows.chunks(stride) {
+        for k in 0..7 {
+            assert!(row[starts[k] + lengths[k]] == T::splat(GAP), "a gap has been written to");
+        }
+    }
+    Answer {
+        stress: rows.chunks(stride).map(|row| array::from_fn(|c| row[starts[5] + c])).collect(),
+        state: rows.chunks(stride).map(|row| part(4, row)).collect(),
+        tangent: rows.chunks(stride).map(|row| part(6, row)).collect(),
+        speed,
+        status,
         active,
         worst,
     }
@@ -447,6 +521,51 @@ fn results_do_not_depend_on_how_a_block_is_divided() {
                 .map(|level| run(&law, &Given { level: Some(level), ..given.clone() }, &[]));
             assert_eq!(narrow, wide);
         }
+    }
+}
+
+/// A law in points of rows against the same in columns, bit by bit: with and without tangents, wave speeds and fibres
+/// of the points.
+fn rows_are_columns<M: UserMaterial, T: Precision + Default + std::fmt::Debug>(law: &User<M, T>, count: usize) {
+    let single = |f: [f64; 9]| f.map(T::splat);
+    let variables = M::DESCRIPTION.state.len();
+    let mut random = Rng::with_seed(11);
+    let mut f: Vec<[T; 9]> = deformations(count, 0.3).iter().map(|f| single(flat(f))).collect();
+    f[count / 2] = [T::splat(-1.0); 9];
+    f[0][4] = T::splat(f64::NAN);
+    let f_old = deformations(count + 1, 0.2).iter().skip(1).map(|f| single(flat(f))).collect();
+    let mut state = vec![vec![T::default(); variables]; count];
+    state.iter_mut().step_by(3).for_each(|state| state[0] = T::splat(0.125));
+    state[count - 1][M::DESCRIPTION.failed] = T::splat(1.0);
+    let fibres: Vec<[T; 3]> = (0..count).map(|_| array::from_fn(|_| T::splat(random.f64() - 0.3))).collect();
+    let of_points = M::DESCRIPTION.has_fibre().then_some(fibres);
+    for level in levels() {
+        for measure in [None, Some(Measure::Jaumann), Some(Measure::Nominal)] {
+            for (waves, fibre) in [(false, None), (true, of_points.clone()), (false, of_points.clone())] {
+                let (f, f_old, state) = (f.clone(), Vec::clone(&f_old), state.clone());
+                let given = Given { f_old, f, fibre, state, measure, waves, level: Some(level) };
+                let columns = format!("{:?}", run(law, &given, &[]));
+                for in_place in [true, false] {
+                    let rows = format!("{:?}", run_in_rows(law, &given, in_place));
+                    assert_eq!(rows, columns, "{count} points, {}, {measure:?}, {waves}, {in_place}", level.name());
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn points_in_rows_give_the_bytes_of_points_in_columns() {
+    let solid = [MU, LAMBDA, K, 1.2, 2.0, -1.0, 0.5];
+    let single = User::<ReinforcedSolid, f32>::new(&solid.map(|x| x as f32)).expect("properties that are right");
+    let damaged = User::<Damaged, f64>::new(&[2.0, 0.3]).expect("properties that are right");
+    let damaged_single = User::<Damaged, f32>::new(&[2.0, 0.3]).expect("properties that are right");
+    // Fewer than are copied at a time, and more.
+    for count in [1, 3, 8, 9, 33, 70] {
+        rows_are_columns(&reinforced(1.2), count);
+        rows_are_columns(&single, count);
+        rows_are_columns(&damaged, count);
+        rows_are_columns(&damaged_single, count);
     }
 }
 
@@ -738,9 +857,6 @@ fn points_have_what_the_law_has() {
     ] {
         assert_eq!(step(wrong).map_err(|error| error.code()), Err(status::BAD_ARGUMENT));
     }
-    let mut rows = points;
-    rows.strides.state = 4;
-    assert_eq!(step(rows).map_err(|error| error.code()), Err(status::BAD_LEADING_DIMENSION));
     assert_eq!(step(Points { tangent: near.as_mut_ptr(), ..points }), Ok(status::OK));
     let tangent_leading_dimension = 2;
     assert_eq!(step(Points { tangent: apart.as_mut_ptr(), tangent_leading_dimension, ..points }), Ok(status::OK));

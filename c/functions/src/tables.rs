@@ -4,29 +4,27 @@ use libc::{c_char, size_t};
 use toron::Error;
 use toron::host::entry_points::{Message, look_up, name};
 use toron::host::environment::in_default_environment;
+use toron::host::laws::LAWS;
 use toron::host::tables::{TableRow, write_row};
 use toron::host::units::UnitSystem;
 use toron::law::block::Precision;
 use toron::law::bounds::wrong_number;
-use toron::law::description::{self, Description};
+use toron::law::description::Description;
 use toron::law::{parameters, status};
-
-use crate::constants::{TORON_HYPERELASTIC, TORON_LINEAR_ELASTIC};
 
 /// The law of a number.
 ///
 /// # Errors
 /// There is no such law.
 fn description(law: i32) -> Result<&'static Description, Error> {
-    const LAST: i64 = TORON_LINEAR_ELASTIC as i64;
-    match law {
-        TORON_HYPERELASTIC => Ok(&description::HYPERELASTIC),
-        TORON_LINEAR_ELASTIC => Ok(&description::LINEAR_ELASTIC),
-        _ => {
-            let (code, name, value) = (status::UNKNOWN_NAME, "law", i64::from(law));
-            Err(Error::Range { code, name, value, least: 0, greatest: LAST })
-        }
-    }
+    let found = usize::try_from(law).ok().and_then(|place| LAWS.get(place));
+    found.map(|law| law.description).ok_or(Error::Range {
+        code: status::UNKNOWN_NAME,
+        name: "law",
+        value: i64::from(law),
+        least: 0,
+        greatest: LAWS.len() as i64 - 1,
+    })
 }
 
 /// The index of a name among those of a table, or a status code.

@@ -171,12 +171,12 @@ mod panicking {
             title: "law that panics",
             properties: const { &[positive("mu", "μ", STRESS, None, "shear modulus")] },
             state: const { &[FAILED, ALIVE] },
-            fibre: None,
-            second_axis: None,
+            directions: &[],
             failed: 0,
             alive: 1,
             energies: 0..0,
             reads_old_gradient: false,
+            refusal: None,
         };
         type Properties<R: Real> = [R; 1];
         type State<R: Real> = [R; 0];

@@ -3,16 +3,24 @@
 use std::path::{Path, PathBuf};
 
 use clap::Parser;
+use nalgebra::Matrix3;
 use reinforced_solid::ReinforcedSolid;
 use serde_json::Value;
+use toron::host::laws::LAWS;
 use toron::host::units::UnitSystem;
+use toron::user::parameters::{Property, STRESS, component, positive};
+use toron::user::state::{ALIVE, FAILED};
+use toron::user::{Description, Direction, Real, Response, Step, UserMaterial};
+use toron::{Criterion, Request, Rotation};
+use toron_materials::deck::interface::Interface;
 use toron_materials::eval::own_law::{Entry, evaluate};
 use toron_materials::load_path::columns::columns;
 use toron_materials::load_path::command::Arguments;
 use toron_materials::load_path::path::LoadPath;
 use toron_materials::load_path::run::{End, run};
 use toron_materials::load_path::table;
-use toron_materials::material::laws::Laws;
+use toron_materials::material::laws::{LawName, Laws};
+use toron_materials::material::model::{Law, Material, Origin};
 use toron_materials::material::own_law::OwnLaw;
 use toron_materials::{deck, params};
 
@@ -164,12 +172,16 @@ struct Deck {
 
 /// The card of a solid, whose file is in this folder.
 fn card(folder: &Path, arguments: &[&str]) -> Result<String, String> {
+    card_of(laws(), SOLID, folder, arguments)
+}
+
+fn card_of(laws: Laws, preset: &str, folder: &Path, arguments: &[&str]) -> Result<String, String> {
     let file = folder.join("my-solid.toml");
-    std::fs::write(&file, SOLID).expect("a file can be written");
+    std::fs::write(&file, preset).expect("a file can be written");
     let file = file.display().to_string();
     let given = ["deck", "--preset", &file].into_iter().chain(arguments.iter().copied());
     let deck = Deck::try_parse_from(given).map_err(|error| error.to_string())?;
-    deck::command::card(laws(), &deck.arguments).map(|(card, _)| card).map_err(|error| error.to_string())
+    deck::command::card(laws, &deck.arguments).map(|(card, _)| card).map_err(|error| error.to_string())
 }
 
 #[test]
@@ -213,6 +225,69 @@ fn cards_have_the_law_s_names_and_counts() {
         [numbers[0], numbers[2], numbers[3], numbers[4], numbers[6], numbers[7]],
         ["1", "41", "9", "4", "8", "9"]
     );
+}
+
+/// A law of two directions, for its card alone.
+#[derive(Clone, Copy, Debug, Default)]
+struct Crossed;
+
+static CROSSED: [Property; 7] = [
+    positive("mu", "μ", STRESS, None, "shear modulus"),
+    component("m_1", "m1", 1.0, "first family"),
+    component("m_2", "m2", 0.0, "first family"),
+    component("m_3", "m3", 0.0, "first family"),
+    component("n_1", "n1", 0.0, "second family"),
+    component("n_2", "n2", 1.0, "second family"),
+    component("n_3", "n3", 0.0, "second family"),
+];
+
+impl UserMaterial for Crossed {
+    const DESCRIPTION: Description = Description {
+        title: "crossed",
+        properties: &CROSSED,
+        state: const { &[FAILED, ALIVE] },
+        directions: &[Direction::fibre(1), Direction::new("second family", 4)],
+        failed: 0,
+        alive: 1,
+        energies: 0..0,
+        reads_old_gradient: false,
+        refusal: None,
+    };
+    type Properties<R: Real> = [R; 7];
+    type State<R: Real> = [R; 0];
+    type Constants<R: Real> = R;
+
+    fn constants<R: Real>(&[mu, ..]: &[R; 7]) -> R {
+        mu
+    }
+
+    fn respond<R: Real>(&mu: &R, step: &Step<R, [R; 0]>) -> Response<R, [R; 0]> {
+        let pressure = mu * step.log_jacobian();
+        let zero = R::splat(0.0);
+        Response::new([pressure, pressure, pressure, zero, zero, zero], [])
+    }
+}
+
+/// In LS-DYNA's material axes every direction of a law has its components along these axes.
+#[test]
+fn a_card_in_material_axes_turns_all_directions() {
+    let folder = folder("crossed");
+    let law = Box::leak(Box::new(OwnLaw::new::<Crossed>("CROSSED", 4).expect("a name and a number")));
+    let preset = "name = \"my-solid\"\nsource = \"a test\"\nunits = \"mm-tonne-s\"\ndensity = 1.1e-9\n[properties]\nmu = 2\n\
+                  m_1 = 0\nm_3 = 2\nn_2 = 3\nn_3 = 3\n";
+    let lines = |axes: &[&str]| -> Vec<String> {
+        let arguments = [&["--host", "ls-dyna"], axes].concat();
+        let card = card_of(Laws::Own(law), preset, &folder, &arguments).expect("the card");
+        let numbers = card.lines().filter(|line| !line.starts_with(['$', '*']));
+        numbers.map(|line| line.split_whitespace().collect::<Vec<_>>().join(" ")).collect()
+    };
+    let has = |lines: &[String], start: &str| lines.iter().any(|line| line.starts_with(start));
+    assert!(has(&lines(&[]), "2.0 0.0 0.0 2.0 0.0 3.0 3.0 "), "{:?}", lines(&[]));
+    let turned = lines(&["--axes"]);
+    // m along the first axis, n with as much along it as along the second.
+    assert!(has(&turned, "2.0 1.0 0.0 0.0 3.0 3.0 0.0 "), "{turned:?}");
+    assert!(turned.iter().any(|line| line.ends_with("0.0 0.0 2.0")), "the first axis: {turned:?}");
+    assert!(turned.iter().any(|line| line.contains("0.0 3.0 3.0 0.0 0")), "in the plane of the first two: {turned:?}");
 }
 
 #[test]
@@ -269,4 +344,26 @@ fn points_answer_by_the_names_of_the_law() {
 fn the_header_is_that_of_the_example() {
     let committed = include_str!("../../../examples/own_law/reinforced.h");
     assert_eq!((law().header)(law().symbol), committed);
+}
+
+/// A law of the library that the program knows by its description alone: the same names in solvers, the same load path.
+#[test]
+fn a_law_of_the_library_needs_no_more_than_its_description() {
+    let by_description = OwnLaw::of_library::<toron::LinearElastic>(&LAWS[1]);
+    let by_description = LawName::Own(Box::leak(Box::new(by_description)));
+    let known = Laws::Toron.find("linear-elastic").expect("a law");
+    assert_eq!(Laws::Toron.names().len(), LAWS.len());
+    assert_eq!(by_description.text(), known.text());
+    assert_eq!(format!("{:?}", Interface::of(by_description)), format!("{:?}", Interface::of(known)));
+    let values = [80e3, 800.0, 126.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0];
+    let [first, second] = [by_description, known].map(|name| {
+        let law = Law::new(name, &values, Rotation::Fibre, Criterion::LargestPrincipal).expect("right properties");
+        let origin = Origin::default();
+        let material = Material { law, density: None, label: String::new(), own: String::new(), origin };
+        let f = Matrix3::new(1.01, 0.1, 0.0, 0.0, 0.97, 0.02, 0.0, 0.0, 1.03);
+        material.evaluate(&f, &material.at_rest(), Request::STRESS_AND_STATE).expect("a point").cauchy
+    });
+    for (first, second) in first.iter().zip(second) {
+        assert!((first - second).abs() <= 1e-12 * 80e3, "{first}, not {second}");
+    }
 }

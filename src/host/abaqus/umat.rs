@@ -6,6 +6,7 @@ use core::slice;
 use libc::{c_char, size_t};
 
 use super::{UMAT_COUNTS, check_counts, property_count};
+use crate::host::ByStep;
 use crate::host::entry_points::{Message, check_plane, check_pointers, entry, properties};
 use crate::host::limit_variable;
 use crate::law::block::{components, components_mut};
@@ -21,7 +22,6 @@ use crate::law::point::{Call, Own, Point, Sink, evaluate_call};
 use crate::law::state::HYPERELASTIC_STATE;
 use crate::law::status;
 use crate::law::tangent::Measure;
-use crate::law::user::{User, UserMaterial};
 use crate::law::voigt::Moduli;
 
 /// The value that PNEWDT is lowered to if a point cannot be evaluated.
@@ -119,7 +119,7 @@ pub trait StandardLaw: Law<f64> {
     }
 }
 
-impl<M: UserMaterial> StandardLaw for User<M, f64> {}
+impl<L: ByStep + Law<f64>> StandardLaw for L {}
 
 impl StandardLaw for LinearElastic<f64> {
     #[inline(never)]
@@ -374,7 +374,7 @@ unsafe fn step<L: Law<f64>>(call: &Umat) -> Result<i32, Error> {
             *call.pnewdt = (*call.pnewdt).min(CUTBACK);
         }
     }
-    Ok(code)
+    L::DESCRIPTION.told(code)
 }
 
 /// The law's components 11 22 33 12 23 31 in Abaqus's order.

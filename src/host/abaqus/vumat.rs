@@ -5,6 +5,7 @@ use core::mem::MaybeUninit;
 use libc::{c_char, size_t};
 
 use super::{VUMAT_COUNTS, check_counts, property_count};
+use crate::host::ByStep;
 use crate::host::arguments::level;
 use crate::host::entry_points::{Message, check_plane, check_pointers, entry, properties, stiffness_at_rest};
 use crate::host::limit_variable;
@@ -16,7 +17,6 @@ use crate::law::interface::{Law, Points};
 use crate::law::linear_elastic::LinearElastic;
 use crate::law::number::level::Level;
 use crate::law::status;
-use crate::law::user::{User, UserMaterial};
 
 /// The arguments of a VUMAT that the laws use, stored as in Abaqus: arrays are (nblock, components), column-major.
 #[repr(C)]
@@ -259,7 +259,7 @@ unsafe fn stretched<L: Law<T>, T: Precision>(
         }
         start += CHUNK;
     }
-    Ok(worst)
+    L::DESCRIPTION.told(worst)
 }
 
 /// Deletes a point that could not be evaluated, and writes its energy per mass, W/ρ0. The density that Abaqus passes is
@@ -309,7 +309,7 @@ pub trait ExplicitLaw<T: Precision>: Law<T> {
     }
 }
 
-impl<M: UserMaterial, T: Precision> ExplicitLaw<T> for User<M, T> {}
+impl<L: ByStep + Law<T>, T: Precision> ExplicitLaw<T> for L {}
 
 /// The VUMAT of a law, compiled here in one precision, once for whatever package uses it.
 macro_rules! compiled {

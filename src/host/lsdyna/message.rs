@@ -1,9 +1,9 @@
 //! Messages that name a law, composed at compile time: errors hold texts of the program.
 
+use crate::host::ByStep;
 use crate::law::block::Precision;
 use crate::law::interface::Law;
 use crate::law::linear_elastic::LinearElastic;
-use crate::law::user::{User, UserMaterial};
 
 /// What messages say of a law's history.
 pub trait History<T: Precision>: Law<T> {
@@ -23,7 +23,7 @@ pub trait History<T: Precision>: Law<T> {
 }
 
 impl<T: Precision> History<T> for LinearElastic<T> {}
-impl<M: UserMaterial, T: Precision> History<T> for User<M, T> {}
+impl<L: ByStep + Law<T>, T: Precision> History<T> for L {}
 
 /// A text that grows; one that is too long does not compile.
 struct Text {

@@ -28,6 +28,7 @@ use libc::{c_char, size_t};
 
 use message::History;
 
+use crate::host::ByStep;
 use crate::host::entry_points::{Message, check_pointers, entry, properties, stiffness_at_rest, store};
 use crate::law::block::Precision;
 use crate::law::description::Description;
@@ -38,7 +39,6 @@ use crate::law::linear_elastic::LinearElastic;
 use crate::law::number::real::Scalar;
 use crate::law::number::vector::dot;
 use crate::law::status;
-use crate::law::user::{User, UserMaterial};
 
 /// The arguments of a scalar material routine, `umat41`. Who makes these structures promises that every array that is not null has as
 /// many values as its field says, valid for what it is used for; behind the history, `nhv` variables, are the 9 entries of F by columns.
@@ -154,7 +154,7 @@ pub trait UserRoutines<T: Precision>: History<T> {
     }
 }
 
-impl<M: UserMaterial, T: Precision> UserRoutines<T> for User<M, T> {}
+impl<L: ByStep + Law<T>, T: Precision> UserRoutines<T> for L {}
 
 /// `count` elements of a vector block from `first` on, counted from 0.
 struct Elements<T> {

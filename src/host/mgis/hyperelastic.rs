@@ -5,6 +5,7 @@ use core::slice;
 
 use crate::host::entry_points;
 use crate::law::derivative::{self, JaumannModulus, NineByNine, NoTangent, SixBySix};
+use crate::law::description::HYPERELASTIC;
 use crate::law::error::Error;
 use crate::law::failure::Failure;
 use crate::law::hyperelastic::Hyperelastic;
@@ -43,7 +44,7 @@ impl MgisLaw for Hyperelastic<f64> {
 #[inline(never)]
 pub unsafe extern "C" fn hyperelastic(view: *mut BehaviourDataView) -> i32 {
     // SAFETY: `view` is null or MGIS's, and `integrate` evaluates only if no pointer that is needed is null.
-    unsafe { integrate(view, |view, options| evaluate(view, options, false)) }
+    unsafe { integrate(&HYPERELASTIC, view, |view, options| evaluate(view, options, false)) }
 }
 
 /// `ToronHyperelastic_PlaneStrain` and `ToronHyperelastic_Axisymmetrical`.
@@ -53,7 +54,7 @@ pub unsafe extern "C" fn hyperelastic(view: *mut BehaviourDataView) -> i32 {
 #[inline(never)]
 pub unsafe extern "C" fn hyperelastic_in_plane(view: *mut BehaviourDataView) -> i32 {
     // SAFETY: as above.
-    unsafe { integrate(view, |view, options| evaluate(view, options, true)) }
+    unsafe { integrate(&HYPERELASTIC, view, |view, options| evaluate(view, options, true)) }
 }
 
 /// Evaluates the law and writes what is requested. Returns the status of the point.

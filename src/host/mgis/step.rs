@@ -2,6 +2,7 @@
 
 use core::slice;
 
+use crate::host::ByStep;
 use crate::host::entry_points::check_plane;
 use crate::law::block::{components, components_mut};
 use crate::law::error::Error;
@@ -12,7 +13,6 @@ use crate::law::response::nan_unless_finite;
 use crate::law::status;
 use crate::law::stress::second_piola_kirchhoff;
 use crate::law::tangent::Measure;
-use crate::law::user::{User, UserMaterial};
 
 use super::operator::{cauchy_by_gradient, kirchhoff_by_increment, material, nominal};
 use super::results::{Results, Stress};
@@ -41,7 +41,7 @@ pub trait MgisLaw: Law<f64> {
     }
 }
 
-impl<M: UserMaterial> MgisLaw for User<M, f64> {}
+impl<L: ByStep + Law<f64>> MgisLaw for L {}
 
 impl MgisLaw for LinearElastic<f64> {
     #[inline(always)]
@@ -84,7 +84,7 @@ pub unsafe extern "C" fn linear_elastic_in_plane(view: *mut BehaviourDataView) -
 #[inline(always)]
 unsafe fn of_law<L: Law<f64>>(view: *mut BehaviourDataView, plane: bool) -> i32 {
     // SAFETY: `view` is null or MGIS's, and `integrate` evaluates only if no pointer that is needed is null.
-    unsafe { integrate(view, |view, options| evaluate::<L>(view, options, plane)) }
+    unsafe { integrate(const { &L::DESCRIPTION }, view, |view, options| evaluate::<L>(view, options, plane)) }
 }
 
 /// Evaluates the law and writes what is requested. Returns the status of the point.

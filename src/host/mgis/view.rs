@@ -3,6 +3,7 @@
 use core::ffi::c_char;
 
 use crate::host::entry_points::{Message, entry};
+use crate::law::description::Description;
 use crate::law::error::{Error, Value};
 use crate::law::status;
 use crate::law::wave_speed::check_density;
@@ -201,12 +202,14 @@ impl BehaviourDataView {
     }
 }
 
-/// Runs an entry: reads the request, passes it to `evaluate`, which returns the status of the point, and answers MGIS.
+/// Runs an entry of a law: reads the request, passes it to `evaluate`, which returns the status of the point, and
+/// answers MGIS.
 ///
 /// # Safety
 /// `view` is null or points to what [`BehaviourDataView`] says.
 #[inline(always)]
 pub(super) unsafe fn integrate(
+    law: &'static Description,
     view: *const BehaviourDataView,
     evaluate: impl FnOnce(&BehaviourDataView, Options) -> Result<i32, Error>,
 ) -> i32 {
@@ -229,7 +232,7 @@ pub(super) unsafe fn integrate(
             // SAFETY: not null, as just checked: one value.
             unsafe { *view.rdt = (*view.rdt).min(CUTBACK) };
         }
-        Ok(code)
+        law.told(code)
     };
     // SAFETY: the message is null or has MESSAGE_CAPACITY bytes.
     match unsafe { entry(message, body) } {

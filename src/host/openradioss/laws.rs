@@ -1,5 +1,6 @@
 //! The laws that a library has, and what starter and engine call for each.
 
+use crate::host::ByStep;
 use crate::host::entry_points::stiffness_at_rest;
 use crate::law::block::Precision;
 use crate::law::error::Error;
@@ -9,7 +10,6 @@ use crate::law::linear_elastic::LinearElastic;
 use crate::law::parameters::HYPERELASTIC_PROPERTIES;
 use crate::law::response::Request;
 use crate::law::state::HYPERELASTIC_STATE;
-use crate::law::user::{User, UserMaterial};
 
 use super::card::{Card, Layout, OPTIONS};
 use super::engine::Group;
@@ -38,11 +38,13 @@ pub trait SolidLaw<T: Precision>: Law<T> {
     unsafe fn evaluate_group(group: &Group<T>, card: &Card<'_, T>) -> Result<(), Error>;
 }
 
-impl<M: UserMaterial, T: Precision> SolidLaw<T> for User<M, T> {
-    const OPTIONS: usize = if M::DESCRIPTION.fibre.is_some() { 1 } else { 0 };
+impl<L: ByStep + Law<T>, T: Precision> SolidLaw<T> for L {
+    const OPTIONS: usize = if L::DESCRIPTION.has_fibre() { 1 } else { 0 };
+
+    const HAS_OWN_OPTION: bool = L::HAS_LIMIT;
 
     fn modulus_at_rest(properties: &[T]) -> Result<T, Error> {
-        let [bulk, shear] = stiffness_at_rest(&User::<M, T>::new(properties)?)?.map(Into::into);
+        let [bulk, shear] = stiffness_at_rest(&L::new(properties)?)?.map(Into::into);
         Ok(T::splat(bulk + 4.0 * shear / 3.0))
     }
 
@@ -140,13 +142,30 @@ macro_rules! toron_laws {
             }
         }
 
+        crate::library_laws! { listed { $t; } }
+    )*};
+}
+
+macro_rules! listed {
+    ($t:ty;
+        $first:ident {
+            $first_name:literal, $first_title:literal, $first_symbol:literal, $first_behaviour:literal,
+            user $first_user:literal, umat $first_umat:literal
+        }
+        $($law:ident {
+            $name:literal, $title:literal, $symbol:literal, $behaviour:literal, user $user:literal, umat $umat:literal
+        })*
+    ) => {
         impl MyReal for $t {
             const TORON: Laws<$t> = Laws::new(
-                &[Material::of::<Hyperelastic<$t>>(1), Material::of::<LinearElastic<$t>>(2)],
-                "1 (USER01, hyperelastic yarn law), 2 (USER02, linear elastic law)",
+                &[Material::of::<crate::$first<$t>>($first_user), $(Material::of::<crate::$law<$t>>($user)),*],
+                concat!(
+                    $first_user, " (USER0", $first_user, ", ", $first_title, ")",
+                    $(", ", $user, " (USER0", $user, ", ", $title, ")"),*
+                ),
             );
         }
-    )*};
+    };
 }
 
 toron_laws! { f64 f32 }

@@ -60,10 +60,13 @@ pub fn read<T: Precision>(laws: &Laws<T>, number: i32, values: &[T], uparam: &mu
 /// Sets a fibre direction that is 0 0 0 to an axis that is not along the second axis: elements have their own.
 fn give_a_direction<T: Precision>(layout: &Layout, uparam: &mut [T]) {
     let read = |first: usize| uparam.get(1 + first..).and_then(<[_]>::first_chunk).map(|v: &[T; 3]| v.map(Into::into));
-    let Some(fibre) = layout.law.fibre.filter(|&first| read(first) == Some([0.0; 3])) else { return };
-    let second: [f64; 3] = layout.law.second_axis.and_then(read).unwrap_or_default();
+    let [fibre, others @ ..] = layout.law.directions else { return };
+    if read(fibre.first) != Some([0.0; 3]) {
+        return;
+    }
+    let second: [f64; 3] = others.first().and_then(|other| read(other.first)).unwrap_or_default();
     let along_x = second[0].abs() > second[1].abs() + second[2].abs();
-    if let Some(axis) = uparam.get_mut(1 + fibre + usize::from(along_x)) {
+    if let Some(axis) = uparam.get_mut(1 + fibre.first + usize::from(along_x)) {
         *axis = T::splat(1.0);
     }
 }

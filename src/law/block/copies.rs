@@ -6,15 +6,28 @@ use core::mem::MaybeUninit;
 use core::ops::Range;
 use core::ptr::{null, null_mut};
 
+use super::dispatch::Precision;
 use super::points::{Needs, PARTS, Points, Strides, components, components_mut};
+use super::run::Kernels;
 use crate::law::number::real::{Lanes, Scalar, WIDEST};
 use crate::law::status;
 
-/// How many numbers a point of a law takes in copies, with modes and the largest tangent, and without: what all laws have, F at the
-/// start, second axis and axes of a law that has them, and the state.
-pub(super) const fn rows(state: usize, motion: usize) -> [usize; 2] {
-    let few = 9 + 3 + 1 + state + 6 + 1 + 1 + motion;
-    [few, few + 24 + 81]
+/// How many numbers a point of every law takes in copies: F, fibre, limit, stress, wave speed and `active`; and with
+/// modes and the largest tangent. A law's state is added to them, and what else its points have, see [`Kernels::Else`].
+const FEW: usize = 9 + 3 + 1 + 6 + 1 + 1;
+const ALL: usize = FEW + 24 + 81;
+
+/// All numbers of a point of a law with so many variables, and so many numbers of [`Kernels::Else`].
+pub(super) const fn rows(state: usize, other: usize) -> usize {
+    ALL + state + other
+}
+
+/// Memory for the numbers of `COUNT` points of a law: `ROWS` of every law's.
+#[repr(C)]
+struct Memory<T: Precision, L: Kernels<T>, const COUNT: usize, const ROWS: usize> {
+    rows: [[MaybeUninit<T>; COUNT]; ROWS],
+    others: [MaybeUninit<L::Else>; COUNT],
+    state: [MaybeUninit<L::State>; COUNT],
 }
 
 /// The index in the block of each of `COUNT` copies; the last ones repeat if there are fewer points.
@@ -159,16 +172,13 @@ const APART: usize = 32;
 const LARGE_APART: usize = 16;
 const FEW_APART: usize = 8;
 
-/// Runs a kernel on copies of the points, part by part, and copies the results back; `FEW` and `ALL` are the [`rows`] of the law.
-/// Returns the worst of the kernel's results.
+/// Runs the kernels of a law on copies of the points, part by part, and copies the results back. Returns the worst of
+/// the status codes.
 ///
 /// # Safety
-/// The points are valid, see [`Points`].
-pub(super) unsafe fn in_copies<T: Scalar, const FEW: usize, const ALL: usize>(
-    points: &Points<T>,
-    needs: &Needs,
-    run: impl Fn(&Points<T>) -> i32,
-) -> i32 {
+/// The points are valid, see [`Points`], and checked.
+#[inline(never)]
+pub(super) unsafe fn in_copies<T: Precision, L: Kernels<T>>(law: &L, points: &Points<T>) -> i32 {
     let few = points.modes.is_null() && points.tangent.is_null();
     let large = !few && size_of::<T>() > size_of::<f32>();
     let (mut worst, apart) = (status::OK, if large { LARGE_APART } else { APART });
@@ -177,31 +187,31 @@ pub(super) unsafe fn in_copies<T: Scalar, const FEW: usize, const ALL: usize>(
         // SAFETY: the points are valid, those of the range are one at least and no more than there are copies.
         worst = worst.min(unsafe {
             match (range.len(), few) {
-                (0..=FEW_APART, true) => copied::<T, FEW_APART, FEW>(points, range, needs, &run),
-                (0..=FEW_APART, false) => copied::<T, FEW_APART, ALL>(points, range, needs, &run),
-                (_, true) => copied::<T, APART, FEW>(points, range, needs, &run),
-                (_, false) if large => copied::<T, LARGE_APART, ALL>(points, range, needs, &run),
-                (_, false) => copied::<T, APART, ALL>(points, range, needs, &run),
+                (0..=FEW_APART, true) => copied::<T, L, FEW_APART, FEW>(law, points, range),
+                (0..=FEW_APART, false) => copied::<T, L, FEW_APART, ALL>(law, points, range),
+                (_, true) => copied::<T, L, APART, FEW>(law, points, range),
+                (_, false) if large => copied::<T, L, LARGE_APART, ALL>(law, points, range),
+                (_, false) => copied::<T, L, APART, ALL>(law, points, range),
             }
         });
     }
     worst
 }
 
-/// Copies the points of a range, at least one and at most `COUNT`, whose arrays have no more than `ROWS` components together, runs a
-/// kernel on the copies and copies the results back. Returns the kernel's result. Not inlined, so that the stack has copies of one
-/// size alone.
+/// Copies the points of a range, at least one and at most `COUNT`, that have no modes and no tangent if `ROWS` is
+/// [`FEW`], runs the law's kernels on the copies and copies the results back. Returns the worst of the status codes.
+/// Not inlined, so that the stack has copies of one size alone.
 ///
 /// # Safety
-/// The points are valid, see [`Points`], and those of the range are some of them.
+/// The points are valid, see [`Points`], and checked, and those of the range are some of them.
 #[inline(never)]
-pub(super) unsafe fn copied<T: Scalar, const COUNT: usize, const ROWS: usize>(
+unsafe fn copied<T: Precision, L: Kernels<T>, const COUNT: usize, const ROWS: usize>(
+    law: &L,
     points: &Points<T>,
     range: Range<usize>,
-    needs: &Needs,
-    run: impl FnOnce(&Points<T>) -> i32,
 ) -> i32 {
-    let mut memory = [[const { MaybeUninit::<T>::uninit() }; COUNT]; ROWS];
+    let needs = const { &Needs::of::<T, L>() };
+    let mut memory = MaybeUninit::<Memory<T, L, COUNT, ROWS>>::uninit();
     let mut codes = [status::OK; COUNT];
     let copies = Copies::<COUNT>::new(range);
     let of_copies = points.in_memory(memory.as_mut_ptr().cast(), COUNT, codes.as_mut_ptr(), needs);
@@ -231,7 +241,7 @@ pub(super) unsafe fn copied<T: Scalar, const COUNT: usize, const ROWS: usize>(
                 (false, false) => state.copy_in(from, to, needs.read(part, components)),
             }
         }
-        let worst = run(&of_copies);
+        let worst = law.run(&of_copies);
         for (from, to) in of_copies.stress.into_iter().zip(points.stress) {
             copies.group(stress, 0).copy_out(from, to, 1);
         }
@@ -251,7 +261,7 @@ pub(super) unsafe fn copied<T: Scalar, const COUNT: usize, const ROWS: usize>(
 }
 
 /// Runs a kernel on copies of all points, at least one and fewer than a register `R` holds; the other lanes repeat the last one.
-/// `ROWS` is the greater of the [`rows`] of the law. Returns the kernel's result.
+/// `ROWS` is the number of [`rows`] of the law. Returns the kernel's result.
 ///
 /// # Safety
 /// The points are valid, see [`Points`], and next to each other; the processor has the instructions of `R`.

@@ -186,7 +186,8 @@ unsafe fn point_with_tangent<T: Scalar>(law: &LinearElastic, block: &Points<T>, 
     let wanted = Wanted { stress: true, state: state_wanted, wave_modulus: !block.wave_speed.is_null() };
     let limit = if block.limits(0).is_null() { None } else { Some(load(block.limit, i)) };
     let step = Step { f0: &f0, f1: &f1, axes: &axes, limit, rotation: block.rotation, criterion: block.criterion };
-    let (mut answer, tangent) = law.respond_with_tangent(step, &reference, usable, &state, wanted);
+    let (mut answer, tangent) =
+        law.respond_with_tangent(step, &reference, usable, &state, wanted, (block.measure, block.level()));
     let (mut entries, size) = by_rows(&tangent, block.measure, &f1.into(), &answer.stress);
     let speed = |answer: &Answer<f64>| wave_speed::wave_speed(answer.wave_modulus, block.density.into());
     // Rounded to T, a number that does not fit is not finite.

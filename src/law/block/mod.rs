@@ -40,6 +40,6 @@ mod run;
 pub use arrays::{Arrays, Block};
 pub use dispatch::Precision;
 pub(crate) use kernel::least_code;
-pub(crate) use points::{MOST, Needs, check_layout, distances, parts};
+pub(crate) use points::{MOST, check_layout, distances, parts};
 pub use points::{PARTS, Points, Strides, components, components_mut};
-pub(crate) use run::{at_fault, evaluate};
+pub(crate) use run::{Kernels, at_fault, evaluate};

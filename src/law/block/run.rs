@@ -17,71 +17,60 @@ use crate::law::number::real::WIDEST;
 use crate::law::state::{FRICTIONAL_STATE, HYPERELASTIC_STATE, LINEAR_ELASTIC_STATE};
 use crate::law::status;
 
-/// How many numbers a copy of a point takes, without and with modes and a tangent.
-const HYPERELASTIC_FEW: usize = rows(HYPERELASTIC_STATE, 0)[0];
-pub(super) const HYPERELASTIC_ROWS: usize = rows(HYPERELASTIC_STATE, 0)[1];
-const FRICTIONAL_FEW: usize = rows(FRICTIONAL_STATE, 0)[0];
-pub(super) const FRICTIONAL_ROWS: usize = rows(FRICTIONAL_STATE, 0)[1];
+/// How many numbers a copy of a point takes.
+pub(super) const HYPERELASTIC_ROWS: usize = rows(HYPERELASTIC_STATE, 0);
+pub(super) const FRICTIONAL_ROWS: usize = rows(FRICTIONAL_STATE, 0);
+pub(super) const LINEAR_ROWS: usize = rows(LINEAR_ELASTIC_STATE, LINEAR_ELSE);
+
 /// F at the start, second axis, axes.
-const LINEAR_FEW: usize = rows(LINEAR_ELASTIC_STATE, 9 + 3 + 9)[0];
-pub(super) const LINEAR_ROWS: usize = rows(LINEAR_ELASTIC_STATE, 9 + 3 + 9)[1];
+const LINEAR_ELSE: usize = 9 + 3 + 9;
 
 /// The kernels of a law.
-pub(crate) trait Kernels<T: Precision>: Law<T> {
+///
+/// # Safety
+/// The numbers of `Else` are at least as many as [`Needs`] says beside what points of every law have.
+pub(crate) unsafe trait Kernels<T: Precision>: Law<T> {
     /// Whether they read the old state from the arrays of the new one.
     const IN_PLACE: bool;
+    /// An array of the numbers of a point that not every law has, besides state and modes: F at the start, directions,
+    /// axes.
+    type Else: Copy;
 
     /// Runs them. Returns the worst of the status codes.
     ///
     /// # Safety
     /// The points are valid, see [`Points`], checked, and next to each other, one at least.
     unsafe fn run(&self, points: &Points<T>) -> i32;
-
-    /// The same for points that are not next to each other, by copies.
-    ///
-    /// # Safety
-    /// As for [`run`](Self::run), but for the places of the points.
-    unsafe fn run_apart(&self, points: &Points<T>) -> i32;
 }
 
-impl<T: Precision> Kernels<T> for Hyperelastic<T> {
+// SAFETY: F at the end and a fibre are all that points of this law have.
+unsafe impl<T: Precision> Kernels<T> for Hyperelastic<T> {
     const IN_PLACE: bool = true;
+    type Else = [T; 0];
 
     #[inline(always)]
     unsafe fn run(&self, points: &Points<T>) -> i32 {
         // SAFETY: the points are valid and checked; `level` is one that the processor has.
         unsafe { T::dispatch(points.level(), self, points) }
     }
-
-    unsafe fn run_apart(&self, points: &Points<T>) -> i32 {
-        // SAFETY: the points are valid, and so are copies, which are next to each other.
-        unsafe {
-            in_copies::<T, HYPERELASTIC_FEW, HYPERELASTIC_ROWS>(points, &Needs::of::<T, Self>(), |copies| {
-                self.run(copies)
-            })
-        }
-    }
 }
 
-impl<T: Precision> Kernels<T> for Frictional<T> {
+// SAFETY: as of the hyperelastic law.
+unsafe impl<T: Precision> Kernels<T> for Frictional<T> {
     const IN_PLACE: bool = true;
+    type Else = [T; 0];
 
     #[inline(always)]
     unsafe fn run(&self, points: &Points<T>) -> i32 {
         // SAFETY: the points are valid and checked; `level` is one that the processor has.
         unsafe { T::dispatch_frictional(points.level(), self, points) }
     }
-
-    unsafe fn run_apart(&self, points: &Points<T>) -> i32 {
-        // SAFETY: the points are valid, and so are copies, which are next to each other.
-        unsafe {
-            in_copies::<T, FRICTIONAL_FEW, FRICTIONAL_ROWS>(points, &Needs::of::<T, Self>(), |copies| self.run(copies))
-        }
-    }
 }
 
-impl<T: Precision> Kernels<T> for LinearElastic<T> {
+// SAFETY: as many as F at the start, a second axis and axes.
+unsafe impl<T: Precision> Kernels<T> for LinearElastic<T> {
     const IN_PLACE: bool = false;
+    type Else = [T; LINEAR_ELSE];
 
     unsafe fn run(&self, points: &Points<T>) -> i32 {
         // SAFETY: the points are valid and checked; `level` is one that the processor has.
@@ -92,11 +81,6 @@ impl<T: Precision> Kernels<T> for LinearElastic<T> {
                 with_tangents(self, points)
             }
         }
-    }
-
-    unsafe fn run_apart(&self, points: &Points<T>) -> i32 {
-        // SAFETY: the points are valid, and so are copies, which are next to each other.
-        unsafe { in_copies::<T, LINEAR_FEW, LINEAR_ROWS>(points, &Needs::of::<T, Self>(), |copies| self.run(copies)) }
     }
 }
 
@@ -120,7 +104,7 @@ pub(crate) unsafe fn evaluate<T: Precision, L: Kernels<T>>(law: &L, points: &Poi
     // SAFETY: the points are valid, checked, and at least one.
     unsafe {
         if points.strides != Strides::UNIT {
-            return Ok(law.run_apart(points));
+            return Ok(in_copies(law, points));
         }
         if !L::IN_PLACE || points.in_place() {
             return Ok(law.run(points));

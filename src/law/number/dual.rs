@@ -137,6 +137,10 @@ impl<R: Real> Real for Dual<R> {
         Dual::new(R::select(mask, a.value, b.value), R::select(mask, a.slope, b.slope))
     }
     #[inline(always)]
+    fn any(mask: R::Mask) -> bool {
+        R::any(mask)
+    }
+    #[inline(always)]
     fn split_exponent(self) -> (Self, Self) {
         let (z, k) = self.value.split_exponent();
         let scale = R::splat(1.0).times_power_of_two(-k);

@@ -106,6 +106,9 @@ pub trait Real:
     /// `a` where the mask holds, `b` elsewhere; the value that is not selected has no influence, even if it is NaN.
     fn select(mask: Self::Mask, a: Self, b: Self) -> Self;
     #[doc(hidden)]
+    /// Whether a mask holds for any of the points.
+    fn any(mask: Self::Mask) -> bool;
+    #[doc(hidden)]
     /// `(z, k)` with `self = z · 2^k`, z in [¾, 1½), for positive normal numbers; unspecified for others.
     fn split_exponent(self) -> (Self, Self);
     #[doc(hidden)]
@@ -245,6 +248,4 @@ pub trait Lanes<T>: Real {
     unsafe fn store_integers(self, to: *mut i32);
     /// Prefetches the cache line of an address, which need not be valid.
     fn prefetch(place: *const T);
-    /// Whether a mask holds for any of the points.
-    fn any(mask: Self::Mask) -> bool;
 }

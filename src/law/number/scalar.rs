@@ -84,6 +84,10 @@ macro_rules! scalar {
                 if mask { a } else { b }
             }
             #[inline(always)]
+            fn any(mask: bool) -> bool {
+                mask
+            }
+            #[inline(always)]
             fn split_exponent(self) -> (Self, Self) {
                 // Shifted, the exponent field changes at ¾ instead of at a power of two.
                 const MANTISSA: u32 = $t::MANTISSA_DIGITS - 1;
@@ -126,10 +130,6 @@ macro_rules! scalar {
             }
             #[inline(always)]
             fn prefetch(_: *const $t) {}
-            #[inline(always)]
-            fn any(mask: bool) -> bool {
-                mask
-            }
         }
     };
 }

@@ -94,6 +94,10 @@ impl<R: Real> Real for Twice<R> {
         Twice(R::select(mask.0, a.0, b.0), R::select(mask.1, a.1, b.1))
     }
     #[inline(always)]
+    fn any(mask: Self::Mask) -> bool {
+        R::any(mask.0 | mask.1)
+    }
+    #[inline(always)]
     fn split_exponent(self) -> (Self, Self) {
         let ((z, k), (other_z, other_k)) = (self.0.split_exponent(), self.1.split_exponent());
         (Twice(z, other_z), Twice(k, other_k))
@@ -126,9 +130,5 @@ impl<T, R: Lanes<T>> Lanes<T> for Twice<R> {
     #[inline(always)]
     fn prefetch(place: *const T) {
         R::prefetch(place);
-    }
-    #[inline(always)]
-    fn any(mask: Self::Mask) -> bool {
-        R::any(mask.0 | mask.1)
     }
 }

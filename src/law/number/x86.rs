@@ -168,6 +168,12 @@ macro_rules! register {
                 $name(unsafe { $select })
             }
             #[inline(always)]
+            fn any($any_mask: $mask) -> bool {
+                // SAFETY: the dispatch has checked that the processor has the instructions.
+                #[allow(unused_unsafe)]
+                unsafe { $any }
+            }
+            #[inline(always)]
             fn split_exponent(self) -> (Self, Self) {
                 let $sx = self;
                 $split
@@ -283,12 +289,6 @@ macro_rules! register {
             fn prefetch(place: *const $t) {
                 // SAFETY: a prefetch never faults.
                 unsafe { _mm_prefetch::<_MM_HINT_T0>(place.cast()) }
-            }
-            #[inline(always)]
-            fn any($any_mask: $mask) -> bool {
-                // SAFETY: the dispatch has checked that the processor has the instructions.
-                #[allow(unused_unsafe)]
-                unsafe { $any }
             }
         }
     };

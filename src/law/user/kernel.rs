@@ -2,9 +2,9 @@
 
 use core::ops::Range;
 
-use super::{Array, Response, Step, User, UserMaterial};
-use crate::law::block::{Needs, Points, Precision, Strides, least_code};
-use crate::law::error::Error;
+use super::{Array, MOST_DIRECTIONS, Response, Step, User, UserMaterial};
+use crate::law::block::{Kernels, Points, Precision, least_code};
+use crate::law::description::Description;
 use crate::law::failure::Failure;
 use crate::law::kinematics::FibreFrame;
 use crate::law::number::level::Level;
@@ -38,12 +38,12 @@ impl<R: Real, S: Array<R>> Outcome<R, S> {
     }
 }
 
-/// F, fibre and old state of the points in the lanes.
+/// F, directions and old state of the points in the lanes.
 #[derive(Clone, Copy)]
 pub(super) struct Input<R: Real, S> {
     pub f_old: Matrix<R>,
     pub f: Matrix<R>,
-    pub fibre: [R; 3],
+    pub directions: [[R; 3]; MOST_DIRECTIONS],
     /// Where the fibre direction is finite and not zero.
     pub usable: R::Mask,
     pub own: S,
@@ -51,20 +51,26 @@ pub(super) struct Input<R: Real, S> {
 }
 
 impl<R: Real, S: Array<R>> Input<R, S> {
-    /// A point at rest, with the fibre direction of the properties.
+    /// A point at rest, with the directions of the properties.
     #[inline(always)]
     pub fn at_rest<M: UserMaterial, T: Precision>(law: &User<M, T>) -> Self {
         let (zero, one) = (R::splat(0.0), R::splat(1.0));
         let identity = [[one, zero, zero], [zero, one, zero], [zero, zero, one]];
-        let [x, y, z] = law.fibre;
-        let fibre = [R::splat(x.into()), R::splat(y.into()), R::splat(z.into())];
-        Input { f_old: identity, f: identity, fibre, usable: zero.le(zero), own: S::filled(zero), failed: zero }
+        let (mut directions, mut k) = ([[zero; 3]; MOST_DIRECTIONS], 0);
+        while k < M::DESCRIPTION.directions.len().max(1) {
+            let [x, y, z] = law.directions[k];
+            directions[k] = [R::splat(x.into()), R::splat(y.into()), R::splat(z.into())];
+            k += 1;
+        }
+        Input { f_old: identity, f: identity, directions, usable: zero.le(zero), own: S::filled(zero), failed: zero }
     }
 
     /// What the law is evaluated from.
     #[inline(always)]
     pub fn step(&self) -> Step<R, S> {
-        Step { f_old: self.f_old, f: self.f, jacobian: determinant(&self.f), fibre: self.fibre, state: self.own }
+        let [fibre, a, b] = self.directions;
+        let (jacobian, other_directions) = (determinant(&self.f), [a, b]);
+        Step { f_old: self.f_old, f: self.f, jacobian, fibre, other_directions, state: self.own }
     }
 
     /// Where the step is taken, since the point has not failed before and can be evaluated; and where det F is positive. An entry of F
@@ -75,7 +81,7 @@ impl<R: Real, S: Array<R>> Input<R, S> {
         step: &Step<R, S>,
         response: &Response<R, S>,
         wave_modulus: R,
-        reads_old_gradient: bool,
+        &Description { reads_old_gradient, refusal, .. }: &Description,
     ) -> (R::Mask, R::Mask) {
         let zero = R::splat(0.0);
         // A number times zero is zero unless it is NaN or infinite. Two sums: half as long a chain of operations.
@@ -90,6 +96,9 @@ impl<R: Real, S: Array<R>> Input<R, S> {
             other = x.mul_add(zero, other);
         }
         check = step.jacobian.mul_add(zero, wave_modulus.mul_add(zero, check)) + other;
+        if refusal.is_some() {
+            check = check - response.status; // a code is negative
+        }
         let mut not_inverted = zero.lt(step.jacobian);
         if reads_old_gradient {
             let jacobian = determinant(&self.f_old);
@@ -108,7 +117,8 @@ impl<R: Real, S: Array<R>> Input<R, S> {
         taken: R::Mask,
         not_inverted: R::Mask,
         at_rest: R,
-        reads_old_gradient: bool,
+        own_status: R,
+        &Description { reads_old_gradient, refusal, .. }: &Description,
     ) {
         let (zero, one) = (R::splat(0.0), R::splat(1.0));
         let code = |status: i32| R::splat(f64::from(status));
@@ -134,7 +144,9 @@ impl<R: Real, S: Array<R>> Input<R, S> {
             finite = finite & is_finite(&self.f_old);
         }
         // Later lines take precedence.
-        let why = R::select(not_inverted, code(status::OVERFLOW), code(status::INVERTED));
+        let why = code(status::OVERFLOW);
+        let why = if refusal.is_some() { R::select(own_status.lt(zero), own_status, why) } else { why };
+        let why = R::select(not_inverted, why, code(status::INVERTED));
         let why = R::select(known, why, code(status::STATE_NOT_FINITE));
         let why = R::select(self.usable, why, code(status::FIBRE_DIRECTION));
         let why = R::select(finite, why, code(status::NOT_FINITE));
@@ -149,30 +161,21 @@ fn determinant<R: Real>(f: &Matrix<R>) -> R {
     dot(f[0], accurate_cross(f[1], f[2]))
 }
 
-impl<M: UserMaterial, T: Precision> User<M, T> {
-    /// Checks the points and evaluates them. Returns the worst of the status codes.
-    ///
-    /// # Errors
-    /// As for [`Law::step`](super::super::interface::Law::step).
-    ///
-    /// # Safety
-    /// As for [`Law::step`](super::super::interface::Law::step).
-    pub(super) unsafe fn block(&self, points: &Points<T>) -> Result<i32, Error> {
-        points.check(&const { Needs::of::<T, Self>() })?;
-        if points.n == 0 {
-            return Ok(status::OK);
-        }
-        if points.strides != Strides::UNIT {
-            let text = "strides other than 1; allowed: points of a law of one's own next to each other";
-            return Err(Error::Setting { code: status::BAD_LEADING_DIMENSION, text });
-        }
-        let asks_for_derivatives = !points.tangent.is_null() || (!points.wave_speed.is_null() && !self.bounds_waves());
-        // SAFETY: the points are valid, and their layouts have just been checked; `Level::best` is what the processor has.
-        Ok(unsafe {
-            if asks_for_derivatives { self.with_derivatives(points) } else { self.run(points.level(), points) }
-        })
-    }
+// SAFETY: as many numbers as F at the start has, all that points of such a law may have besides.
+unsafe impl<M: UserMaterial, T: Precision> Kernels<T> for User<M, T> {
+    const IN_PLACE: bool = false;
+    type Else = [T; 9];
 
+    unsafe fn run(&self, points: &Points<T>) -> i32 {
+        let asks_for_derivatives = !points.tangent.is_null() || (!points.wave_speed.is_null() && !self.bounds_waves());
+        // SAFETY: the points are valid and checked; `level` is one that the processor has.
+        unsafe {
+            if asks_for_derivatives { self.with_derivatives(points) } else { self.sweeps(points.level(), points) }
+        }
+    }
+}
+
+impl<M: UserMaterial, T: Precision> User<M, T> {
     /// Whether the law has a bound of its wave speed.
     pub(super) fn bounds_waves(&self) -> bool {
         let law = self.doubled();
@@ -183,8 +186,8 @@ impl<M: UserMaterial, T: Precision> User<M, T> {
     }
 
     /// # Safety
-    /// As for [`block`](Self::block), on a processor that has the level's instructions.
-    unsafe fn run(&self, level: Level, points: &Points<T>) -> i32 {
+    /// As for [`Kernels::run`], on a processor that has the level's instructions.
+    unsafe fn sweeps(&self, level: Level, points: &Points<T>) -> i32 {
         let n = points.n;
         let whole = |count: usize, first: usize| n - (n - first) % count;
         // SAFETY: the ranges are points of the block, and whole registers where `sweep` asks for that; the processor has the level's
@@ -240,8 +243,8 @@ unsafe fn avx2<M: UserMaterial, T: Precision>(law: &User<M, T>, points: &Points<
 /// Evaluates the points of a range of the block. Returns the worst status code.
 ///
 /// # Safety
-/// As for [`User::block`], with a range of its points whose number is a multiple of COUNT, on a processor that has the lanes'
-/// instructions.
+/// As for [`Kernels::run`], with a range of its points whose number is a multiple of COUNT, on a processor that has the
+/// lanes' instructions.
 #[inline(always)]
 unsafe fn sweep<M: UserMaterial, T: Precision, R: Lanes<T>>(
     law: &User<M, T>,
@@ -303,7 +306,7 @@ unsafe fn register<M: UserMaterial, T: Precision, R: Lanes<T>, const USUAL: bool
         if !USUAL && !points.fibre[0].is_null() {
             let [x, y, z] = points.fibre;
             let (frame, usable) = FibreFrame::new([R::load(x.add(i)), R::load(y.add(i)), R::load(z.add(i))]);
-            input.fibre = frame.m;
+            input.directions[0] = frame.m;
             input.usable = usable;
         }
         if USUAL || !points.state_old[0].is_null() {
@@ -321,13 +324,13 @@ unsafe fn register<M: UserMaterial, T: Precision, R: Lanes<T>, const USUAL: bool
         } else {
             M::wave_modulus(constants, &step, &response).unwrap_or(zero)
         };
-        let (taken, not_inverted) = input.taken(&step, &response, modulus, law.reads_old_gradient);
+        let (taken, not_inverted) = input.taken(&step, &response, modulus, &law);
         let mut outcome = Outcome::of(&response, modulus);
         if R::any(!taken) {
             if USUAL {
                 return None;
             }
-            input.restore(&mut outcome, taken, not_inverted, at_rest, law.reads_old_gradient);
+            input.restore(&mut outcome, taken, not_inverted, at_rest, response.status, &law);
         }
         if USUAL || !points.stress[0].is_null() {
             let mut c = 0;

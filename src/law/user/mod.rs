@@ -16,7 +16,7 @@
 mod kernel;
 mod tangent;
 
-pub use super::description::Description;
+pub use super::description::{Description, Direction, MOST_DIRECTIONS};
 pub use super::number::dual::Dual;
 pub use super::number::real::Real;
 pub use super::number::vector;
@@ -34,7 +34,7 @@ pub mod state {
     pub use crate::law::state::{ALIVE_ROW as ALIVE, FAILED_ROW as FAILED, StateVariable, row as variable};
 }
 
-use super::block::Precision;
+use super::block::{Precision, evaluate};
 use super::bounds::check;
 use super::error::{Error, Value};
 use super::interface::{Law, Points};
@@ -57,8 +57,8 @@ pub trait UserMaterial: Copy + Default + Send + Sync + 'static {
     /// What is computed from the properties once for all points of a call.
     type Constants<R: Real>: Copy;
 
-    /// Checks what the table of properties does not: relations between properties. They are within their bounds, and the fibre
-    /// direction is not zero.
+    /// Checks what the table of properties does not: relations between properties. They are within their bounds, and no
+    /// direction is zero that may not be.
     ///
     /// # Errors
     /// [`Error::Argument`] names the property, its value and what is allowed.
@@ -115,8 +115,19 @@ pub struct Step<R, S> {
     pub jacobian: R,
     /// The unit vector of the fibre direction in the reference placement; of a law without fibre the first axis.
     pub fibre: [R; 3],
+    /// The unit vectors of the description's other directions in the reference placement, in its order; 0 for one that
+    /// is 0, and behind the last one.
+    pub other_directions: [[R; 3]; MOST_DIRECTIONS - 1],
     /// The old state variables, without `failed` and `alive`; all 0 at the start.
     pub state: S,
+}
+
+impl<R: Real, S> Response<R, S> {
+    /// The response of a point that neither fails nor is refused.
+    #[inline(always)]
+    pub fn new(stress: [R; 6], state: S) -> Self {
+        Response { stress, state, failed: R::never(), status: R::splat(0.0) }
+    }
 }
 
 impl<R: Real, S> Step<R, S> {
@@ -137,6 +148,10 @@ pub struct Response<R: Real, S> {
     pub state: S,
     /// Where the point has failed in this step; [`Real::never`] for a law without failure.
     pub failed: R::Mask,
+    /// 0, or why the point cannot be evaluated, a code of [`status`](crate::status): [`LAW`](status::LAW), which means
+    /// what the description's `refusal` says, [`SMALLER_STEP`](status::SMALLER_STEP), or another one. Such a point
+    /// keeps its old state. Read only of a law whose description has a refusal.
+    pub status: R,
 }
 
 /// A law in formulas, prepared from its properties: numbers only, without padding.
@@ -144,8 +159,8 @@ pub struct Response<R: Real, S> {
 #[derive(Clone, Copy, Debug)]
 pub struct User<M: UserMaterial, T: Real> {
     properties: M::Properties<T>,
-    fibre: [T; 3],
-    second: [[T; 3]; 2],
+    /// Unit vectors: the fibre, or the first axis of a law without one, and the other directions.
+    directions: [[T; 3]; MOST_DIRECTIONS],
 }
 
 /// The state of a point: the law's own variables, then `failed` and `alive`.
@@ -181,7 +196,7 @@ impl<S: Array<T>, T> AsMut<[T]> for UserState<S, T> {
 
 /// Checks at compile time that a law's tables fit its types.
 pub(crate) const fn check_tables<M: UserMaterial>() {
-    let Description { properties, state, failed, alive, energies, .. } = M::DESCRIPTION;
+    let Description { properties, state, directions, failed, alive, energies, .. } = M::DESCRIPTION;
     let own = <M::State<f64> as Array<f64>>::LENGTH;
     assert!(properties.len() == <M::Properties<f64> as Array<f64>>::LENGTH, "a row of the table for each property");
     assert!(state.len() == own + 2, "a row of the table for each state variable, and for `failed` and `alive`");
@@ -191,8 +206,15 @@ pub(crate) const fn check_tables<M: UserMaterial>() {
         energies.start <= energies.end && energies.end <= own,
         "the energies are among the law's own state variables"
     );
-    assert!(M::DESCRIPTION.fibre_components().end <= properties.len(), "the fibre's three components are properties");
-    assert!(M::DESCRIPTION.second_axis.is_none(), "a law of one's own has one direction, that of the fibre");
+    assert!(directions.len() <= MOST_DIRECTIONS, "a law has at most three directions");
+    let mut i = 0;
+    while i < directions.len() {
+        let Direction { name, first, may_be_zero } = directions[i];
+        assert!(first + 3 <= properties.len(), "the three components of a direction are properties");
+        assert!(!name.is_empty() && name.len() < 60, "a direction has a name of fewer than 60 bytes");
+        assert!(i > 0 || !may_be_zero, "the first direction, that of the fibre, may not be zero");
+        i += 1;
+    }
     assert!(!properties.is_empty(), "a law has properties");
     let mut i = 0;
     while i < properties.len() {
@@ -238,28 +260,38 @@ impl<M: UserMaterial, T: Precision> User<M, T> {
     pub fn new(properties: &[T]) -> Result<Self, Error> {
         const { check_tables::<M>() };
         check(M::DESCRIPTION.properties, properties)?;
-        let (zero, one) = (T::splat(0.0), T::splat(1.0));
+        let zero = T::splat(0.0);
         let mut own = M::Properties::<T>::filled(zero);
         let mut doubled = M::Properties::<f64>::filled(0.0);
         for ((to, double), &from) in own.as_mut().iter_mut().zip(doubled.as_mut()).zip(properties) {
             (*to, *double) = (from, from.into());
         }
-        let frame = match M::DESCRIPTION.fibre {
-            None => FibreFrame::first_axis(),
-            Some(index) => {
-                let direction: [T; 3] =
-                    properties.get(index..).and_then(<[T]>::first_chunk).copied().unwrap_or([one, zero, zero]);
-                let (frame, usable) = FibreFrame::new(direction);
-                if !usable {
-                    let (code, value) = (status::PROPERTY_DIRECTION, direction.map(Value::of));
-                    let wanted = "any vector but zero";
-                    return Err(Error::Direction { code, index, name: "fibre direction", value, wanted });
-                }
-                frame
-            }
-        };
+        let directions = Self::directions(properties)?;
         M::check(&doubled).map_err(Error::for_caller_of::<T>)?;
-        Ok(User { properties: own, fibre: frame.m, second: [frame.t1, frame.t2] })
+        Ok(User { properties: own, directions })
+    }
+
+    /// The unit vectors of the directions.
+    ///
+    /// # Errors
+    /// The first one that is zero and may not be, or has no length in this precision.
+    fn directions(properties: &[T]) -> Result<[[T; 3]; MOST_DIRECTIONS], Error> {
+        let zero = [T::splat(0.0); 3];
+        let mut units = [FibreFrame::first_axis().m, zero, zero];
+        for (unit, direction) in units.iter_mut().zip(M::DESCRIPTION.directions) {
+            let vector = properties.get(direction.first..).and_then(<[T]>::first_chunk).copied().unwrap_or(zero);
+            let (frame, usable) = FibreFrame::new(vector);
+            *unit = match (usable, direction.may_be_zero && vector == zero) {
+                (true, _) => frame.m,
+                (false, true) => zero,
+                (false, false) => {
+                    let Direction { name, first: index, .. } = *direction;
+                    let (code, value) = (status::PROPERTY_DIRECTION, vector.map(Value::of));
+                    return Err(Error::Direction { code, index, name, value, wanted: "any vector but zero" });
+                }
+            };
+        }
+        Ok(units)
     }
 
     /// The same law in double precision.
@@ -268,9 +300,7 @@ impl<M: UserMaterial, T: Precision> User<M, T> {
         for (to, &from) in properties.as_mut().iter_mut().zip(self.properties.as_ref()) {
             *to = from.into();
         }
-        let [a, b] = self.second;
-        let vector = |v: [T; 3]| v.map(Into::into);
-        User { properties, fibre: vector(self.fibre), second: [vector(a), vector(b)] }
+        User { properties, directions: self.directions.map(|direction| direction.map(Into::into)) }
     }
 
     /// The constants of the formulas in the lanes of `R`, or with derivatives.
@@ -302,8 +332,9 @@ unsafe impl<M: UserMaterial, T: Precision> Law<T> for User<M, T> {
     }
 
     fn axes(&self) -> [[f64; 3]; 3] {
-        let [a, b] = self.second;
-        [self.fibre, a, b].map(|axis| axis.map(Into::into))
+        let [fibre, ..] = self.directions;
+        let (FibreFrame { t1, t2, .. }, _) = FibreFrame::new(fibre);
+        [fibre, t1, t2].map(|axis| axis.map(Into::into))
     }
 
     fn bulk_and_shear(&self) -> [T; 2] {
@@ -312,7 +343,7 @@ unsafe impl<M: UserMaterial, T: Precision> Law<T> for User<M, T> {
     }
 
     unsafe fn step(&self, points: &Points<T>) -> Result<i32, Error> {
-        // SAFETY: the points are valid, as `block` asks.
-        unsafe { self.block(points) }
+        // SAFETY: the points are valid.
+        unsafe { evaluate(self, points) }
     }
 }

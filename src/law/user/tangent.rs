@@ -1,49 +1,21 @@
 //! The tangent of a law in formulas, by forward differentiation of its stress, and from it a bound of the wave speed where the law has
 //! none.
-//!
-//! One point at a time: each lane of a register moves F in another direction, F + ε L F, so that two registers of four numbers hold
-//! the six strains.
 
 use super::kernel::{Input, Outcome, wave_modulus};
 use super::{Array, Response, Step, User, UserMaterial};
 use crate::law::block::Precision;
+use crate::law::differentiated::{Rates, Stress, first};
 use crate::law::interface::Points;
 use crate::law::kinematics::FibreFrame;
 use crate::law::linear_tangent::{LinearTangent, by_rows};
 use crate::law::number::dual::Dual;
 use crate::law::number::level::Level;
-use crate::law::number::real::{Lanes, WIDEST};
-use crate::law::number::registers::Registers;
-use crate::law::number::vector::{Matrix, image};
+use crate::law::number::real::{Lanes, Real};
+use crate::law::number::vector::Matrix;
 use crate::law::status;
 use crate::law::tangent::Measure;
 use crate::law::voigt::PAIRS;
 use crate::law::wave_speed::wave_speed;
-
-/// The directions L of the motions F + ε L F: six strains, the shears of engineering measure 1, and nine entries 11 21 31 12 22 32 13
-/// 23 33; filled up to whole registers.
-const STRAINS: [Matrix<f64>; 8] = strains();
-const ENTRIES: [Matrix<f64>; 16] = entries();
-
-const fn strains() -> [Matrix<f64>; 8] {
-    let (mut directions, mut c) = ([[[0.0; 3]; 3]; 8], 0);
-    while c < 6 {
-        let (k, l) = PAIRS[c];
-        directions[c][k][l] += 0.5;
-        directions[c][l][k] += 0.5;
-        c += 1;
-    }
-    directions
-}
-
-const fn entries() -> [Matrix<f64>; 16] {
-    let (mut directions, mut c) = ([[[0.0; 3]; 3]; 16], 0);
-    while c < 9 {
-        directions[c][c / 3][c % 3] = 1.0; // the column of L that it multiplies
-        c += 1;
-    }
-    directions
-}
 
 /// The results at a point, and ∂τ/∂L over J.
 struct Answer<S> {
@@ -56,7 +28,7 @@ impl<M: UserMaterial, T: Precision> User<M, T> {
     /// overflow. Returns the worst status code.
     ///
     /// # Safety
-    /// As for [`User::block`].
+    /// As for [`Kernels::run`](crate::law::block::Kernels::run).
     pub(super) unsafe fn with_derivatives(&self, points: &Points<T>) -> i32 {
         let law = self.doubled();
         let at_rest = if points.wave_speed.is_null() { 0.0 } else { law.wave_modulus_at_rest() };
@@ -84,7 +56,8 @@ impl<M: UserMaterial> User<M, f64> {
     /// Evaluates point `i` and stores its results. Returns its status code.
     ///
     /// # Safety
-    /// As for [`User::block`], with i < n, on a processor that has the level's instructions.
+    /// As for [`with_derivatives`](User::with_derivatives), with i < n, on a processor that has the level's
+    /// instructions.
     unsafe fn point<T: Precision>(&self, points: &Points<T>, i: usize, at_rest: f64, level: Level) -> i32 {
         let law = M::DESCRIPTION;
         // SAFETY: the arrays that the block has are valid for point i, here and below.
@@ -98,7 +71,7 @@ impl<M: UserMaterial> User<M, f64> {
         input.f_old = if law.reads_old_gradient { matrix(points.f_old) } else { input.f };
         if !points.fibre[0].is_null() {
             let (frame, usable) = FibreFrame::new(points.fibre.map(load));
-            (input.fibre, input.usable) = (frame.m, usable);
+            (input.directions[0], input.usable) = (frame.m, usable);
         }
         if !points.state_old[0].is_null() {
             for (c, x) in input.own.as_mut().iter_mut().enumerate() {
@@ -150,7 +123,7 @@ impl<M: UserMaterial> User<M, f64> {
         code
     }
 
-    /// The results of a point and its tangent: for [`Measure::Nominal`] by nine motions, else by six strains.
+    /// The results of a point and its tangent.
     fn answer(
         &self,
         input: &Input<f64, M::State<f64>>,
@@ -159,31 +132,11 @@ impl<M: UserMaterial> User<M, f64> {
         waves: bool,
         level: Level,
     ) -> Answer<M::State<f64>> {
-        let mut rates = [[0.0; 6]; 16];
-        let nominal = measure == Measure::Nominal;
-        let directions: &[Matrix<f64>] = if nominal { &ENTRIES } else { &STRAINS };
-        let response = match level {
-            // SAFETY: the processor has the level's instructions.
-            #[cfg(target_arch = "x86_64")]
-            Level::Avx2 | Level::Avx512 => unsafe { avx2(self, input, directions, &mut rates) },
-            _ => differentiated::<M, <f64 as Registers>::Baseline>(self, input, directions, &mut rates),
-        };
-        let step = input.step();
-        let mut tangent = LinearTangent::default();
-        for (c, entry) in rates.iter_mut().zip(directions).enumerate().take(if nominal { 9 } else { 6 }) {
-            let (rate, direction) = entry;
-            // ∂τ/∂L over J, τ = Jσ.
-            let trace = direction[0][0] + direction[1][1] + direction[2][2];
-            for (x, stress) in rate.iter_mut().zip(response.stress) {
-                *x += trace * stress;
-            }
-            if nominal {
-                tangent.0[c] = *rate;
-            } else {
-                let (k, l) = PAIRS[c];
-                (tangent.0[k + 3 * l], tangent.0[l + 3 * k]) = (*rate, *rate);
-            }
-        }
+        let response = Response::new([0.0; 6], M::State::<f64>::filled(0.0));
+        let mut formulas = Formulas { law: self, input, response };
+        let rates = Rates::of(&mut formulas, &input.f, measure, level);
+        let (response, step) = (formulas.response, input.step());
+        let tangent = rates.tangent(&response.stress);
         let own = if waves { M::wave_modulus(&self.constants::<f64>(), &step, &response) } else { Some(0.0) };
         let bound = match own {
             Some(bound) => bound,
@@ -198,79 +151,52 @@ impl<M: UserMaterial> User<M, f64> {
     }
 }
 
-/// # Safety
-/// The processor has these instructions.
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2,fma")]
-unsafe fn avx2<M: UserMaterial>(
-    law: &User<M, f64>,
-    input: &Input<f64, M::State<f64>>,
-    directions: &[Matrix<f64>],
-    rates: &mut [[f64; 6]; 16],
-) -> Response<f64, M::State<f64>> {
-    differentiated::<M, <f64 as Registers>::Avx2>(law, input, directions, rates)
+/// The formulas of a law at a point; the response is that of the last evaluation.
+struct Formulas<'a, M: UserMaterial> {
+    law: &'a User<M, f64>,
+    input: &'a Input<f64, M::State<f64>>,
+    response: Response<f64, M::State<f64>>,
 }
 
-/// Evaluates the law with derivatives along these motions, as many at a time as there are lanes. Returns the values; the derivatives
-/// of the stress go to `rates`.
-#[inline(always)]
-fn differentiated<M: UserMaterial, R: Lanes<f64>>(
-    law: &User<M, f64>,
-    input: &Input<f64, M::State<f64>>,
-    directions: &[Matrix<f64>],
-    rates: &mut [[f64; 6]; 16],
-) -> Response<f64, M::State<f64>> {
-    let constants = law.constants::<Dual<R>>();
-    let constant = |x: f64| Dual::new(R::splat(x), R::splat(0.0));
-    let mut moved = Input::<Dual<R>, M::State<Dual<R>>>::at_rest(law);
-    moved.fibre = [constant(input.fibre[0]), constant(input.fibre[1]), constant(input.fibre[2])];
-    for (to, &from) in moved.own.as_mut().iter_mut().zip(input.own.as_ref()) {
-        *to = constant(from);
-    }
-    for (to, &from) in moved.f_old.as_flattened_mut().iter_mut().zip(input.f_old.as_flattened()) {
-        *to = constant(from);
-    }
-    let mut values = [0.0; WIDEST];
-    let mut answer = Response { stress: [0.0; 6], state: M::State::<f64>::filled(0.0), failed: false };
-    for (directions, rates) in directions.chunks_exact(R::COUNT).zip(rates.chunks_exact_mut(R::COUNT)) {
-        // The motions L F, one in each lane.
-        let mut slopes = [[0.0; WIDEST]; 9];
-        for (lane, l) in directions.iter().enumerate() {
-            for (column, f) in input.f.iter().enumerate() {
-                for (row, x) in image(l, *f).into_iter().enumerate() {
-                    slopes[3 * column + row][lane] = x;
-                }
-            }
+impl<M: UserMaterial> Stress for Formulas<'_, M> {
+    type Prepared<R: Lanes<f64>> = (M::Constants<Dual<R>>, Input<Dual<R>, M::State<Dual<R>>>);
+
+    #[inline(always)]
+    fn prepared<R: Lanes<f64>>(&self) -> Self::Prepared<R> {
+        let mut moved = Input::<Dual<R>, M::State<Dual<R>>>::at_rest(self.law);
+        for (to, &from) in moved.directions.as_flattened_mut().iter_mut().zip(self.input.directions.as_flattened()) {
+            *to = Dual::splat(from);
         }
-        for ((to, &from), slope) in moved.f.as_flattened_mut().iter_mut().zip(input.f.as_flattened()).zip(&slopes) {
-            // SAFETY: the widest register fits.
-            *to = Dual::new(R::splat(from), unsafe { R::load(slope.as_ptr()) });
+        for (to, &from) in moved.own.as_mut().iter_mut().zip(self.input.own.as_ref()) {
+            *to = Dual::splat(from);
         }
+        for (to, &from) in moved.f_old.as_flattened_mut().iter_mut().zip(self.input.f_old.as_flattened()) {
+            *to = Dual::splat(from);
+        }
+        (self.law.constants(), moved)
+    }
+
+    #[inline(always)]
+    fn stress<R: Lanes<f64>>(
+        &mut self,
+        (constants, moved): &mut Self::Prepared<R>,
+        f: &Matrix<Dual<R>>,
+    ) -> [Dual<R>; 6] {
+        moved.f = *f;
         if !M::DESCRIPTION.reads_old_gradient {
-            moved.f_old = moved.f;
+            moved.f_old = *f;
         }
-        let response = M::respond(&constants, &moved.step());
-        let mut first = |x: R| -> f64 {
-            // SAFETY: as above.
-            unsafe { x.store(values.as_mut_ptr()) };
-            values[0]
-        };
-        for (to, x) in answer.stress.iter_mut().zip(response.stress) {
+        let response = M::respond(constants, &moved.step());
+        for (to, x) in self.response.stress.iter_mut().zip(response.stress) {
             *to = first(x.value);
         }
-        for (to, x) in answer.state.as_mut().iter_mut().zip(response.state.as_ref()) {
+        for (to, x) in self.response.state.as_mut().iter_mut().zip(response.state.as_ref()) {
             *to = first(x.value);
         }
-        answer.failed = first(R::select(response.failed, R::splat(1.0), R::splat(0.0))) == 1.0;
-        for (c, x) in response.stress.iter().enumerate() {
-            // SAFETY: as above.
-            unsafe { x.slope.store(values.as_mut_ptr()) };
-            for (rate, &value) in rates.iter_mut().zip(&values) {
-                rate[c] = value;
-            }
-        }
+        self.response.status = first(response.status.value);
+        self.response.failed = first(R::select(response.failed, R::splat(1.0), R::splat(0.0))) == 1.0;
+        response.stress
     }
-    answer
 }
 
 /// The results of a point, from what the law has answered.
@@ -281,18 +207,18 @@ fn finish<M: UserMaterial>(
     wave_modulus: f64,
     at_rest: f64,
 ) -> Outcome<f64, M::State<f64>> {
-    let old = M::DESCRIPTION.reads_old_gradient;
-    let (taken, not_inverted) = input.taken(step, response, wave_modulus, old);
+    let law = &M::DESCRIPTION;
+    let (taken, not_inverted) = input.taken(step, response, wave_modulus, law);
     let mut outcome = Outcome::of(response, wave_modulus);
     if !taken {
-        input.restore(&mut outcome, taken, not_inverted, at_rest, old);
+        input.restore(&mut outcome, taken, not_inverted, at_rest, response.status, law);
     }
     outcome
 }
 
 /// A response that is not finite: the point cannot be evaluated.
 fn overflowed<M: UserMaterial>() -> Response<f64, M::State<f64>> {
-    Response { stress: [f64::INFINITY; 6], state: M::State::<f64>::filled(0.0), failed: false }
+    Response::new([f64::INFINITY; 6], M::State::<f64>::filled(0.0))
 }
 
 /// A bound of ρ c² for waves in the current placement, from ∂τ/∂L over J for the six strains and the Cauchy stress.

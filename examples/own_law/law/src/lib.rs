@@ -6,7 +6,7 @@
 use toron::user::parameters::{NUMBER, Property, STRESS, component, positive, positive_or_zero};
 use toron::user::state::{ALIVE, ENERGY_DENSITY, FAILED, StateVariable, variable};
 use toron::user::vector::{dot, image, scale, transposed};
-use toron::user::{Description, Real, Response, Step, UserMaterial};
+use toron::user::{Description, Direction, Real, Response, Step, UserMaterial};
 
 #[derive(Clone, Copy, Debug, Default)]
 pub struct ReinforcedSolid;
@@ -43,12 +43,12 @@ impl UserMaterial for ReinforcedSolid {
         title: "standard reinforcing model",
         properties: &PROPERTIES,
         state: &STATE,
-        fibre: Some(4),
-        second_axis: None,
+        directions: &[Direction::fibre(4)],
         energies: 0..1,
         failed: 2,
         alive: 3,
         reads_old_gradient: false,
+        refusal: None,
     };
     type Properties<R: Real> = [R; 7];
     type State<R: Real> = [R; 2];
@@ -81,7 +81,7 @@ impl UserMaterial for ReinforcedSolid {
         let first = half * ((b_11 - one) + (b_22 - one) + (b_33 - one)) - logarithm;
         let second = (c.lambda * logarithm).mul_add(logarithm, c.k * elongation * elongation);
         let energy = c.mu.mul_add(first, half * second);
-        Response { stress, state: [energy, square.sqrt()], failed: c.limit.le(square) }
+        Response { failed: c.limit.le(square), ..Response::new(stress, [energy, square.sqrt()]) }
     }
 
     /// For a direction n and a polarisation u, unit vectors, ρ0 c² is at most (Λ (1 − ln J) + μ)(n·u)² + μ n·bn + 4k (a·n)²(a·u)² +

@@ -1,9 +1,10 @@
 //! Under which names and numbers the hosts find a law, and what they store for it. Counts of properties and state variables are
 //! those of the law's tables.
 
-use toron::host::openradioss::card::{self, Layout};
+use toron::host::laws::LibraryLaw;
+use toron::host::openradioss::MyReal;
 
-use crate::material::laws::LawName;
+use crate::material::laws::{LawName, Names};
 
 /// A law as the hosts find it.
 #[derive(Debug)]
@@ -24,19 +25,17 @@ pub struct Interface {
 
 impl Interface {
     pub fn of(law: LawName) -> Interface {
-        let ours = |ls_dyna: u32, calculix: &str, behaviour: &'static str, layout: &Layout| Interface {
-            abaqus: None,
-            ls_dyna,
-            calculix: format!("@TORON_{calculix}"),
-            library: "libtoron_mgis.so",
-            behaviour,
-            openradioss: layout.number,
-            options: layout.options,
-        };
-        match law {
-            LawName::Hyperelastic => ours(41, "HYPERELASTIC", "ToronHyperelastic", &card::HYPERELASTIC),
-            LawName::LinearElastic => ours(43, "LINEARELASTIC", "ToronLinearElastic", &card::LINEAR_ELASTIC),
-            LawName::Own(law) => Interface {
+        match law.names() {
+            Names::Library(&LibraryLaw { symbol, behaviour, user, umat, .. }) => Interface {
+                abaqus: None,
+                ls_dyna: umat,
+                calculix: format!("@TORON_{symbol}"),
+                library: "libtoron_mgis.so",
+                behaviour,
+                openradioss: user,
+                options: f64::TORON.material(user).map_or(0, |material| material.layout.options),
+            },
+            Names::Own(law) => Interface {
                 abaqus: Some(law.symbol),
                 ls_dyna: 41,
                 calculix: format!("@OWN_{}", law.symbol),
@@ -44,7 +43,7 @@ impl Interface {
                 behaviour: law.symbol,
                 openradioss: law.number,
                 // Where the fibre direction comes from.
-                options: usize::from(law.description.fibre.is_some()),
+                options: usize::from(law.description.has_fibre()),
             },
         }
     }

@@ -3,6 +3,8 @@
 //! Free format and long fields would not say more: a field between commas may not be longer than its columns, and long lines are
 //! not readable. A number keeps nine characters and a blank before it; what that rounds is named in a comment.
 
+use nalgebra::{Matrix3, Vector3};
+
 use super::material::Material;
 use toron_shared::error::Error;
 use toron_shared::short_number::{EXACT, deviation, short};
@@ -67,21 +69,42 @@ pub fn card(material: &Material, id: u32, number: Option<u32>, fibre: Fibre) -> 
     Ok(card)
 }
 
-/// In the material axes the fibre is the first one; a second axis, if the law has one, is the second.
+/// The directions of a law, in the material axes: those of the fibre and of a second direction, if the law has one that
+/// is not along it.
 fn along_the_axes(material: &Material, values: &mut [f64]) {
-    values[material.fibre()].copy_from_slice(&[1.0, 0.0, 0.0]);
-    if let Some(second) = material.second_axis() {
-        values[second].copy_from_slice(&[0.0, 1.0, 0.0]);
+    let (a, d) = plane_of_the_axes(material);
+    let e1 = a.normalize();
+    let e3 = e1.cross(&d).normalize();
+    let axes = Matrix3::from_columns(&[e1, e3.cross(&e1), e3]);
+    for (i, direction) in material.law.description().directions.iter().enumerate() {
+        let vector = Vector3::from(direction.of(&material.values));
+        let local = match i {
+            0 => Vector3::x(),
+            _ if vector == Vector3::zeros() => vector,
+            // The linear elastic law's second axis is made orthogonal to the fibre.
+            1 if direction.may_be_zero => Vector3::y(),
+            _ => axes.tr_mul(&vector),
+        };
+        values[direction.first..][..3].copy_from_slice(local.as_slice());
     }
+}
+
+/// The fibre, and a vector that with it spans the plane of the first two axes: the law's second direction, or another
+/// one.
+fn plane_of_the_axes(material: &Material) -> (Vector3<f64>, Vector3<f64>) {
+    let directions = material.law.description().directions.iter().map(|direction| direction.of(&material.values));
+    let mut vectors = directions.map(Vector3::from);
+    let a = vectors.next().unwrap_or_else(Vector3::x);
+    let apart = |d: &Vector3<f64>| a.cross(d).norm() > 1e-6 * a.norm() * d.norm();
+    // Any vector across will do: z, or x for a fibre along z.
+    let across = if a.x == 0.0 && a.y == 0.0 { Vector3::x() } else { Vector3::z() };
+    (a, vectors.find(apart).unwrap_or(across))
 }
 
 /// AOPT = 2: a is the fibre, and d with it spans the plane of the first two axes.
 fn axes(material: &Material) -> String {
-    let a = &material.values[material.fibre()];
-    // Any vector across will do: z, or x for a fibre along z.
-    let across = if a[0] == 0.0 && a[1] == 0.0 { [1.0, 0.0, 0.0] } else { [0.0, 0.0, 1.0] };
-    let d = material.second_axis().map_or(&across[..], |second| &material.values[second]);
-    let vector = |v: &[f64]| v.iter().map(|&x| number_of(x)).collect::<Vec<_>>();
+    let (a, d) = plane_of_the_axes(material);
+    let vector = |v: Vector3<f64>| v.iter().map(|&x| number_of(x)).collect::<Vec<_>>();
     let zero = || vec!["0.0".to_string(); 3];
     let first = [vec!["2.0".to_string(), "1".to_string()], zero(), vector(a)].concat();
     let second = [zero(), vector(d), vec!["0.0".to_string(), "0".to_string()]].concat();

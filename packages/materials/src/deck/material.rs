@@ -141,13 +141,6 @@ impl Material {
         self.law.description().fibre_components()
     }
 
-    /// Where those of a second axis are, of a law that has one and values that give it.
-    pub fn second_axis(&self) -> Option<Range<usize>> {
-        let first = self.law.description().second_axis?;
-        let second = first..first + 3;
-        self.values[second.clone()].iter().any(|&x| x != 0.0).then_some(second)
-    }
-
     /// What the card is, where its values come from, which of them are guesses, and their units.
     pub fn comments(&self) -> Vec<String> {
         let stresses = self.table().iter().filter(|property| property.dimension == STRESS);

@@ -4,7 +4,7 @@
 pub mod abaqus;
 mod calculix;
 pub mod command;
-mod interface;
+pub mod interface;
 pub mod ls_dyna;
 pub mod material;
 mod mtest;

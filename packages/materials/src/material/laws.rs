@@ -1,22 +1,40 @@
-//! The laws that the files of a program may name: the library's two, or one of somebody's own.
+//! The laws that the files of a program may name: the library's, or one of somebody's own.
+
+use std::sync::LazyLock;
 
 use serde::{Deserialize, Deserializer};
 use toml::Spanned;
-use toron::law::description::{self, Description};
+use toron::host::laws::{LAWS, LibraryLaw};
+use toron::law::description::Description;
 use toron::law::parameters::{self, PRESETS, Property};
 
 use super::own_law::OwnLaw;
+use toron_c::{TORON_HYPERELASTIC, TORON_LINEAR_ELASTIC};
 use toron_shared::error::Error;
 use toron_shared::toml_error::shortened;
 use toron_shared::toml_file::Source;
 
-/// A law by its name.
+/// A law by its name: the two that the program has more to say of than their descriptions, or any other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LawName {
     Hyperelastic,
     LinearElastic,
     Own(&'static OwnLaw),
 }
+
+macro_rules! by_description {
+    ($($law:ident {
+        $name:literal, $title:literal, $symbol:literal, $behaviour:literal, user $user:literal, umat $umat:literal
+    })+) => {
+        /// The library's laws by their descriptions, in the order of [`LAWS`].
+        static BY_DESCRIPTION: LazyLock<Vec<OwnLaw>> = LazyLock::new(|| {
+            let makers: &[fn(&'static LibraryLaw) -> OwnLaw] = &[$(OwnLaw::of_library::<toron::$law>),+];
+            makers.iter().zip(&LAWS).map(|(maker, law)| maker(law)).collect()
+        });
+    };
+}
+
+toron::library_laws! { by_description {} }
 
 impl From<parameters::LawName> for LawName {
     fn from(law: parameters::LawName) -> LawName {
@@ -27,12 +45,32 @@ impl From<parameters::LawName> for LawName {
     }
 }
 
+/// How the solvers find a law: as one of the library, or as one of somebody's own.
+#[derive(Clone, Copy, Debug)]
+pub enum Names {
+    Library(&'static LibraryLaw),
+    Own(&'static OwnLaw),
+}
+
 impl LawName {
-    pub fn description(self) -> &'static Description {
+    /// A law of the library.
+    fn of(law: &'static OwnLaw) -> LawName {
+        let known = [LawName::Hyperelastic, LawName::LinearElastic];
+        known.into_iter().find(|known| known.text() == law.name).unwrap_or(LawName::Own(law))
+    }
+
+    pub fn names(self) -> Names {
         match self {
-            LawName::Hyperelastic => &description::HYPERELASTIC,
-            LawName::LinearElastic => &description::LINEAR_ELASTIC,
-            LawName::Own(law) => &law.description,
+            LawName::Hyperelastic => Names::Library(&LAWS[TORON_HYPERELASTIC as usize]),
+            LawName::LinearElastic => Names::Library(&LAWS[TORON_LINEAR_ELASTIC as usize]),
+            LawName::Own(law) => law.library.map_or(Names::Own(law), Names::Library),
+        }
+    }
+
+    pub fn description(self) -> &'static Description {
+        match self.names() {
+            Names::Library(law) => law.description,
+            Names::Own(law) => &law.description,
         }
     }
 
@@ -42,10 +80,9 @@ impl LawName {
 
     /// As files have it.
     pub fn text(self) -> &'static str {
-        match self {
-            LawName::Hyperelastic => "hyperelastic",
-            LawName::LinearElastic => "linear-elastic",
-            LawName::Own(law) => &law.name,
+        match self.names() {
+            Names::Library(law) => law.name,
+            Names::Own(law) => &law.name,
         }
     }
 }
@@ -61,7 +98,7 @@ pub enum Laws {
 impl Laws {
     pub fn names(self) -> Vec<LawName> {
         match self {
-            Laws::Toron => vec![LawName::Hyperelastic, LawName::LinearElastic],
+            Laws::Toron => BY_DESCRIPTION.iter().map(LawName::of).collect(),
             Laws::Own(law) => vec![LawName::Own(law)],
         }
     }

@@ -171,7 +171,7 @@ impl Material {
 
     /// Whether the law has a fibre.
     pub fn has_fibre(&self) -> bool {
-        self.law.name().description().fibre.is_some()
+        self.law.name().description().has_fibre()
     }
 
     /// The properties in the order of [`table`](Self::table).

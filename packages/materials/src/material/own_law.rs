@@ -6,6 +6,7 @@ use std::sync::Arc;
 
 use nalgebra::Matrix3;
 use toron::Level;
+use toron::host::laws::LibraryLaw;
 use toron::host::prepared::AsNumbers;
 use toron::host::{Material, is_name, is_number};
 use toron::law::description::Description;
@@ -13,7 +14,7 @@ use toron::law::interface::{Law, Points};
 use toron::{Error, Measure};
 use toron_solvers::c_header;
 
-/// A law that is none of the library's.
+/// A law that a program knows by its description alone: one of somebody's own, or a further one of the library's.
 pub struct OwnLaw {
     /// What its symbols in the solvers' libraries begin with, in capitals.
     pub symbol: &'static str,
@@ -22,6 +23,8 @@ pub struct OwnLaw {
     /// OpenRadioss's nn of `/MAT/USERnn`.
     pub number: i32,
     pub description: Description,
+    /// Its names where it is one of the library's, which the program knows by its description alone.
+    pub library: Option<&'static LibraryLaw>,
     /// What its C header is made by.
     pub header: fn(&str) -> String,
     prepare: Prepare,
@@ -51,9 +54,28 @@ impl OwnLaw {
             name: symbol.to_ascii_lowercase(),
             number,
             description: <<M as Material<f64>>::Law as Law<f64>>::DESCRIPTION,
+            library: None,
             header: c_header::<M>,
             prepare: |values| Ok(Arc::new(<M as Material<f64>>::Law::new(values)?)),
         })
+    }
+
+    /// A law of the library.
+    pub fn of_library<M>(law: &'static LibraryLaw) -> OwnLaw
+    where
+        M: Material<f64> + Material<f32>,
+        <M as Material<f64>>::Law: AsNumbers<f64> + Send + Sync + 'static,
+        <M as Material<f32>>::Law: AsNumbers<f32>,
+    {
+        OwnLaw {
+            symbol: law.symbol,
+            name: law.name.to_string(),
+            number: law.user,
+            description: <<M as Material<f64>>::Law as Law<f64>>::DESCRIPTION,
+            library: Some(law),
+            header: c_header::<M>,
+            prepare: |values| Ok(Arc::new(<M as Material<f64>>::Law::new(values)?)),
+        }
     }
 
     /// # Errors
