@@ -340,7 +340,8 @@ fn what_nothing_holds_against_sliding_is_said() {
         assert!(answer.status.success(), "{}", String::from_utf8_lossy(&answer.stderr));
         String::from_utf8_lossy(&answer.stdout).to_string()
     };
-    let said = "warning: case scene: k_ld is 0 MPa in kevlar-km2-600, less than 1 MPa: the middle of a section slides along";
+    let said =
+        "warning: case scene: k_ld is 0 MPa in kevlar-km2-600, less than 1 MPa: the middle of a section slides along";
     let sliding = report("sliding", "");
     assert!(sliding.contains(said) && sliding.contains("  sliding"), "{sliding}");
     let stiff = |end: f64| {

@@ -145,7 +145,10 @@ impl Columns<'_> {
         self.positive(quantity, dimension).map(|values| (values, dimension))
     }
 
-    /// A column that nothing reads, and that is called nearly as one that the file might have: what it says would be passed over.
+    /// No column is passed over that is called nearly as one that the file might have.
+    ///
+    /// # Errors
+    /// One would be.
     fn check_names(&self) -> Result<(), Error> {
         let missing = || QUANTITIES.into_iter().filter(|quantity| !self.has(quantity));
         let is_read = |name: &str| QUANTITIES.iter().any(|quantity| self.name(quantity) == name);

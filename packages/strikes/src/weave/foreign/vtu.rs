@@ -119,8 +119,8 @@ impl<'a> Reader<'a> {
         second.map_or(Ok(found), Err)
     }
 
-    /// The directions of the cells' fibres, where the file has them: others may call them otherwise, and yarns whose directions
-    /// were passed over would have those of their elements.
+    /// The directions of the cells' fibres, where the file has them. Others may call them otherwise: passed over, they
+    /// would be those of the elements.
     ///
     /// # Errors
     /// It may have them under another name, or of the points.
