@@ -63,6 +63,11 @@ pub fn interrupted() -> Finding {
     Finding::new(INTERRUPTED, "it was interrupted, and is judged when it has ended: go on with --restart".to_string())
 }
 
+/// That a run could not go on, where it could not: nothing is known of what would have followed.
+pub fn error(failure: Option<&str>) -> Option<Finding> {
+    failure.map(|failure| Finding::new("error", format!("it ended with an error before its time:\n{failure}")))
+}
+
 /// The words of all findings, each once: those of the run up to the first failure, and those of what followed. One that
 /// was interrupted has no verdict but that.
 pub fn verdict(findings: &[Finding]) -> String {
@@ -107,6 +112,14 @@ pub fn hourglass(share: f64, remedy: &str) -> Option<Finding> {
             "hourglass energy is {share:.1} % of the largest internal energy, more than {most:.0} %:\ntake {remedy}"
         );
         Finding::new("hourglass", text)
+    })
+}
+
+/// Elements that are deleted while all yarns are whole; `remedy` says what to take instead.
+pub fn collapsed(elements: usize, remedy: &str) -> Option<Finding> {
+    (elements > 0).then(|| {
+        let text = format!("{elements} elements have collapsed before any failed:\ntake {remedy}");
+        Finding::new("collapsed", text)
     })
 }
 
@@ -202,6 +215,7 @@ mod tests {
         };
         assert_eq!(found(|share| hourglass(share, "less"), 0.1), [false, true, true]);
         assert_eq!(found(|share| contact(share, 1.0), 0.05), [false, true, true]);
+        assert_eq!([0, 1].map(|elements| collapsed(elements, "less").is_some()), [false, true]);
         assert_eq!(found(balance, 0.01), [false, true, true]);
         assert_eq!(found(|share| viscosity(share, LARGEST_VISCOSITY, "less"), 0.1), [false, true, true]);
     }

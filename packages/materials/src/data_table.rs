@@ -20,7 +20,7 @@ pub struct DataTable {
     pub name: String,
     pub columns: Vec<Column>,
     /// The line of the header.
-    header: usize,
+    pub header: usize,
 }
 
 /// A column, with a value for each line of data.
@@ -73,10 +73,12 @@ impl DataTable {
         let Some(&(line, first)) = lines.get(header.as_ref().map_or(0, |(place, _)| *place)) else {
             return Err(Error::Input(format!("{name}:1:1: no header; allowed: columns as in \"{EXAMPLE}\"")));
         };
-        let delimiter = separator.unwrap_or_else(|| delimiter(first));
-        let (mut headings, data) = match header {
-            Some((place, Header { headings, lines: used })) => (headings, &lines[place + used..]),
-            None => (cells(first, delimiter), &lines[1..]),
+        let (mut headings, delimiter, data) = match header {
+            Some((place, Header { headings, delimiter, lines: used })) => (headings, delimiter, &lines[place + used..]),
+            None => {
+                let delimiter = delimiters(first, separator).next().unwrap_or(b',');
+                (cells(first, delimiter), delimiter, &lines[1..])
+            }
         };
         let mut rows: Vec<(usize, Vec<String>)> =
             data.iter().map(|(line, text)| (*line, cells(text, delimiter))).collect();
@@ -185,39 +187,45 @@ fn decoded(bytes: &[u8]) -> Option<String> {
     }
 }
 
-/// How the cells of a line are separated.
-fn delimiter(line: &str) -> u8 {
-    match (line.contains(','), line.contains(';'), line.contains('\t')) {
-        (false, true, _) => b';',
-        (false, false, true) => b'\t',
-        _ => b',',
+/// How the cells of a line may be separated, that which is most likely first.
+fn delimiters(line: &str, told: Option<u8>) -> impl Iterator<Item = u8> {
+    let found = [b',', b';', b'\t'].into_iter().filter(|&delimiter| line.contains(char::from(delimiter)));
+    let mut all: Vec<u8> = told.map_or_else(|| found.collect(), |told| vec![told]);
+    if all.is_empty() {
+        all.push(b',');
     }
+    all.into_iter()
 }
 
-/// Headings with their units, and how many lines they take.
+/// Headings with their units, how they are separated, and how many lines they take.
 struct Header {
     headings: Vec<String>,
+    delimiter: u8,
     lines: usize,
 }
 
 /// The header that these lines begin with: names with units, or names above a line of units.
 fn header(lines: &[(usize, &str)], separator: Option<u8>) -> Option<Header> {
     let first = lines.first()?.1;
-    let delimiter = separator.unwrap_or_else(|| delimiter(first));
+    let below = lines.get(1).map(|(_, text)| *text);
+    delimiters(first, separator).find_map(|delimiter| header_by(delimiter, first, below))
+}
+
+fn header_by(delimiter: u8, first: &str, below: Option<&str>) -> Option<Header> {
     let headings = cells(first, delimiter);
     let names = filled(&headings);
     let has_unit = |cell: &String| name_and_unit(cell).is_some_and(|(_, unit)| Unit::parse(unit).is_ok());
     if !names.is_empty() && names.iter().all(has_unit) {
-        return Some(Header { headings, lines: 1 });
+        return Some(Header { headings, delimiter, lines: 1 });
     }
-    let below = cells(lines.get(1)?.1, delimiter);
+    let below = cells(below?, delimiter);
     let units = filled(&below);
     let is_word = |cell: &String| !cell.is_empty() && cell.parse::<f64>().is_err();
     let is_unit = |cell: &String| is_word(cell) && Unit::parse(bare(cell)).is_ok();
     let is_header = names.len() == units.len() && names.iter().all(is_word) && units.iter().all(is_unit);
     let with_unit = |(name, unit): (&String, &String)| format!("{name} ({})", bare(unit));
     let headings = names.iter().zip(units).map(with_unit).chain(headings[names.len()..].iter().cloned());
-    (is_header && !names.is_empty()).then(|| Header { headings: headings.collect(), lines: 2 })
+    (is_header && !names.is_empty()).then(|| Header { headings: headings.collect(), delimiter, lines: 2 })
 }
 
 /// The cells without the empty ones at the end.
@@ -285,6 +293,9 @@ fn number(cell: &str, point: char) -> Result<f64, String> {
     if let Some(value) = value(cell).filter(|value| value.is_finite()) {
         return Ok(value);
     }
+    if point != ',' && cell.contains(',') && cell.replacen(',', ".", 1).parse::<f64>().is_ok() {
+        return Err("allowed: a decimal point; a decimal comma with ; or tabs between the cells".to_string());
+    }
     let end = cell.find(|c: char| !(c.is_ascii_digit() || "+-.,".contains(c))).unwrap_or(cell.len());
     let (first, rest) = cell.split_at(end);
     if !rest.is_empty() && value(first).is_some() && Unit::parse(rest).is_ok() {
@@ -331,8 +342,17 @@ mod tests {
         let comma = parse("strain (%);force (kN)\n1,5;-2\n0,25;3e2\n");
         assert_eq!((values(&comma, "strain"), values(&comma, "force")), (vec![1.5, 0.25], vec![-2.0, 300.0]));
         assert_eq!(values(&parse("strain (%);force (kN)\n1.5;2.0"), "strain"), [1.5]);
-        // A comma in the header makes it the separator.
+        // A comma that stands between names with units separates them; one in a name does not.
         assert!(rejected("strain (%),a;b (N)\n1,5;2\n").contains("the cell is \"5;2\""));
+        let named = parse("strain, top (%);force (kN)\n1,5;-2\n");
+        assert_eq!((values(&named, "strain, top"), values(&named, "force")), (vec![1.5], vec![-2.0]));
+        let below = parse("strain, top;force\n%;kN\n1,5;-2\n");
+        assert_eq!(values(&below, "strain, top"), [1.5]);
+        // Between quotes it may stand between thousands.
+        let quoted = rejected("strain (%),force (N)\n\"0,250\",\"1,5\"\n");
+        let wanted =
+            "column \"strain\": the cell is \"0,250\"; allowed: a decimal point; a decimal comma with ; or tabs";
+        assert!(quoted.contains(wanted), "{quoted}");
     }
 
     /// What machines write besides names, units and numbers.

@@ -13,7 +13,25 @@ const LONGEST: usize = 40;
 
 /// The message for an error: `layers is "many"; allowed: a whole number`, or the parser's own where no value is wrong.
 pub fn message(text: &str, error: &toml::de::Error) -> String {
-    explained(text, error).unwrap_or_else(|| with_hint(error.message().trim_end()))
+    explained(text, error).or_else(|| comma(text, error)).unwrap_or_else(|| with_hint(error.message().trim_end()))
+}
+
+/// Of a line that is no TOML: the number in it whose decimals stand behind a comma.
+fn comma(text: &str, error: &toml::de::Error) -> Option<String> {
+    if DeTable::parse(text).is_ok() {
+        return None;
+    }
+    let (before, behind) = text.split_at_checked(error.span()?.start)?;
+    let start = before.rfind('\n').map_or(0, |end| end + 1);
+    let end = before.len() + behind.find('\n').unwrap_or(behind.len());
+    // Within brackets commas are between numbers.
+    let outside = text[start..end].split(['#', '[', '"', '\'']).next()?;
+    let number = outside.split([' ', '\t', '=', '{', '}']).map(|word| word.trim_end_matches(',')).find(|word| {
+        let is_whole = |part: &str| part.parse::<f64>().is_ok() && !part.contains(['.', '+']);
+        word.split_once(',').is_some_and(|(whole, _)| is_whole(whole))
+            && word.replacen(',', ".", 1).parse::<f64>().is_ok()
+    })?;
+    Some(format!("the number is {number}; allowed: a decimal point, {}", number.replacen(',', ".", 1)))
 }
 
 /// How messages about a key begin that is not known.
@@ -133,6 +151,28 @@ mod tests {
         assert_eq!(parse("\n[scne]\nspeed = 1"), format!("x.toml:2: unknown field `scne`, {expected}"));
         assert_eq!(parse("scne = 1"), format!("x.toml:1: unknown field `scne`, {expected}"));
         assert_eq!(parse("[scene]\nspeed = \"fast\""), "x.toml:2: speed is \"fast\"; allowed: a number");
+    }
+
+    #[test]
+    fn a_decimal_comma_is_told_so() {
+        let parse = |text: &str| {
+            let source = Source { name: "x.toml", text };
+            source.parse::<Tables>().expect_err("a mistake").to_string()
+        };
+        for (line, number) in [
+            ("scene = { speed = 10,5 }", "10,5"),
+            ("scene = { speed = -1,05e3, mass = 2.0 }", "-1,05e3"),
+            ("scene.speed = 0,25 # m/s", "0,25"),
+            ("scene = {speed=1,5}", "1,5"),
+        ] {
+            let point = number.replace(',', ".");
+            let wanted = format!("x.toml:2: the number is {number}; allowed: a decimal point, {point}");
+            assert_eq!(parse(&format!("title = \"1,5\"\n{line}\ntitle = 3")), wanted);
+        }
+        // What is no number, or between brackets or quotes, is none.
+        for line in ["scene = [1,5, x]", "title = \"1,5\" 2", "scene = { speed = 1.5,mass = 2 x }", "title = x,5"] {
+            assert!(!parse(line).contains("decimal"), "{line}: {}", parse(line));
+        }
     }
 
     #[test]

@@ -13,6 +13,8 @@ use toron_shared::numbers::number;
 const SPEEDS: RangeInclusive<f64> = 0.5..=3e3;
 const STIFFNESSES: RangeInclusive<f64> = 1e3..=1e7;
 const MPA_BY_MM: f64 = 1e9;
+/// A coefficient of friction that dry surfaces reach, rubber on rubber included; of yarns it is 0.1 to 0.6.
+const ROUGHEST: f64 = 2.0;
 /// A figure on its bound may be beyond it by what the conversion of units rounds.
 const ROUNDING: f64 = 1e-12;
 /// What solids have in kg/m³: balsa from 100, osmium 22 600.
@@ -50,6 +52,17 @@ pub fn soft_or_hard(units: &UnitSystem, stiffness: f64) -> Option<Finding> {
             units.names().join("-")
         );
         Finding::new("units", text)
+    })
+}
+
+/// Friction that no two surfaces have; `key` has its coefficient.
+pub fn rough(key: &str, friction: f64) -> Option<Finding> {
+    (friction > ROUGHEST).then(|| {
+        let text = format!(
+            "{key} is {}, and dry surfaces have 0 to {ROUGHEST}, yarns 0.1 to 0.6:\na point is most likely missing in it",
+            number(friction)
+        );
+        Finding::new("friction", text)
     })
 }
 

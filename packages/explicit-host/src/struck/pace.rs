@@ -5,6 +5,8 @@ use std::time::{Duration, Instant};
 
 /// So long a run is measured before it is said how long it takes; a shorter one is over by then.
 const MEASURED: Duration = Duration::from_secs(1);
+/// And for so many steps: some measure, search for contact or write, and one alone tells nothing.
+const LEAST_STEPS: u64 = 32;
 const MINUTE: f64 = 60.0;
 const HOUR: f64 = 60.0 * MINUTE;
 
@@ -32,11 +34,11 @@ impl Pace {
 
     /// The estimate at a time and after so many steps, as soon as there is one.
     pub fn estimate(&self, [time, end]: [f64; 2], steps: u64, elements: usize) -> Option<Estimate> {
-        let elapsed = self.begun.elapsed();
-        if elapsed < MEASURED || time <= self.time {
+        let (elapsed, measured) = (self.begun.elapsed(), steps - self.steps);
+        if elapsed < MEASURED || measured < LEAST_STEPS || time <= self.time {
             return None;
         }
-        let (measured, part) = (steps - self.steps, (end - self.time) / (time - self.time));
+        let part = (end - self.time) / (time - self.time);
         Some(Estimate { elements, steps: part * measured as f64, measured, seconds: part * elapsed.as_secs_f64() })
     }
 }
@@ -78,6 +80,7 @@ mod tests {
         assert!(text.starts_with("about 3 min up to end: 1000 elements × 20000 steps × 10"), "{text}");
         assert!(text.ends_with(" ns, as in the first 200 steps"), "{text}");
         assert_eq!(Pace::new(0.0, 0).estimate([0.2, 10.1], 250, 1000), None);
+        assert_eq!(pace.estimate([0.2, 10.1], 55, 1000), None, "after five steps, however long they took");
         assert_eq!([30.0, 119.0, 600.0, 36_000.0].map(duration), ["30 s", "119 s", "10 min", "10.0 h"]);
     }
 }

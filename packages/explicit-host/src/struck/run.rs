@@ -330,7 +330,7 @@ impl<'a, S: Struck, T: Number> Run<'a, S, T> {
         let Plan { end: last, frames, checkpoints, .. } = self.plan;
         let (between_frames, between_checkpoints) = (self.plan.between_frames(), self.plan.between_checkpoints());
         let elements = self.solver.bodies.iter().map(|body| body.mesh.elements.len()).sum();
-        let mut pace = Some(Pace::new(self.solver.state.time, self.solver.state.cost.steps));
+        let (mut pace, mut is_estimated) = (None, false);
         loop {
             let time = self.solver.state.time;
             let reached = |instant: f64| time >= instant - ROUNDING * last;
@@ -380,11 +380,14 @@ impl<'a, S: Struck, T: Number> Run<'a, S, T> {
                 return Ok(end);
             }
             self.solver.displace();
-            let now = self.solver.state.time;
-            let estimate = |pace: &Pace| pace.estimate([now, last], self.solver.state.cost.steps, elements);
-            if let Some(estimate) = pace.as_ref().and_then(estimate) {
-                observer.estimate(&estimate);
-                pace = None;
+            if !is_estimated {
+                let (now, steps) = (self.solver.state.time, self.solver.state.cost.steps);
+                // From the second step on: the first one searches for all contact.
+                let pace = pace.get_or_insert_with(|| Pace::new(now, steps));
+                if let Some(estimate) = pace.estimate([now, last], steps, elements) {
+                    observer.estimate(&estimate);
+                    is_estimated = true;
+                }
             }
         }
     }

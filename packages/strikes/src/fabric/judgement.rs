@@ -13,8 +13,10 @@ use super::weights;
 use crate::weave::cloth::Cloth;
 use crate::weave::model::Model;
 use toron::host::units::UnitSystem;
+use toron::law::parameters::STRESS;
 use toron_explicit_host::judgement::{self, Finding};
 use toron_explicit_host::lanes::{largest, smallest};
+use toron_materials::material::model::Material;
 use toron_materials::units::{LENGTH, TIME, unit};
 use toron_shared::numbers::number;
 
@@ -24,6 +26,8 @@ const EDGES: f64 = 4.0;
 const LEAST_JACOBIAN: f64 = -0.5;
 /// Longitudinal shear may hold this part of what the laws store.
 const LARGEST_SHEAR: f64 = 0.5;
+/// With less stiffness against longitudinal shear, in Pa, the middle of a section slides along its yarn.
+const LEAST_K_LD: f64 = 1e6;
 /// Over a yarn's height: how far the sphere may get ahead of the panel.
 const DEEPEST: f64 = 0.5;
 
@@ -84,6 +88,7 @@ pub fn before(units: &UnitSystem, case: &Case, panel: &Model) -> Vec<Finding> {
     let mut findings: Vec<Finding> =
         case.materials().flat_map(|material| judgement::units(std::slice::from_ref(material), units)).collect();
     findings.extend(weights::findings(units, case, panel));
+    findings.extend(sliding(units, case));
     findings.extend(coarse(units, case, panel));
     findings.extend(of_mesh(units, case));
     findings
@@ -128,13 +133,19 @@ pub fn judge(
         measures,
         "a finer mesh, a larger k_ld or contact-stiffness, or a failure if the yarns would break",
     ));
-    findings.extend(collapsed(case, measures));
+    let remedy = format!("a finer mesh, a larger k_ld, or another hourglass than {}", case.control.hourglass);
+    findings.extend(judgement::collapsed(measures.collapsed, &remedy));
     findings.extend(judgement::contact(measures.contact, case.sphere.stiffness));
     findings.extend(sunk(units, case, measures));
     findings.extend(judgement::balance(outcome.balance.imbalance()));
-    if let Some(time) = outcome.failed {
-        let failed = format!("the first failure, at {} {}", number(time), unit(units, TIME));
-        judgement::add_after_failure(&mut findings, &failed, after_failure(case, whole));
+    let error = judgement::error(outcome.failure.as_deref());
+    match outcome.failed {
+        Some(time) => {
+            let failed = format!("the first failure, at {} {}", number(time), unit(units, TIME));
+            let found = error.into_iter().chain(after_failure(case, whole));
+            judgement::add_after_failure(&mut findings, &failed, found);
+        }
+        None => findings.extend(error),
     }
     findings
 }
@@ -156,6 +167,27 @@ fn hourglass(case: &Case, measures: &Measures) -> Option<Finding> {
 fn viscosity(measures: &Measures) -> Option<Finding> {
     let remedy = "a finer mesh, and see how far what is left to the sphere moves with it";
     judgement::viscosity(measures.viscosity, judgement::LARGEST_VISCOSITY, remedy)
+}
+
+/// Yarns in whose sections hardly anything carries shear along the fibres.
+fn sliding(units: &UnitSystem, case: &Case) -> Option<Finding> {
+    let least = units.from_si(LEAST_K_LD, STRESS);
+    let slides = |material: &&Material| material.longitudinal_shear().is_some_and(|k_ld| k_ld < least);
+    let names = case.materials().filter(slides).map(|material| {
+        let [k_ld, name] = [material.longitudinal_shear().map_or(String::new(), number), material.name().to_string()];
+        format!("{k_ld} {} in {name}", unit(units, STRESS))
+    });
+    let mut names: Vec<String> = names.collect();
+    names.dedup();
+    (!names.is_empty()).then(|| {
+        let text = format!(
+            "k_ld is {}, less than {} MPa: the middle of a section slides along its yarn:\n\
+             take 5 to 20 MPa for woven yarns",
+            names.join(", "),
+            1e-6 * LEAST_K_LD
+        );
+        Finding::new("sliding", text)
+    })
 }
 
 /// A sphere that the mesh cannot tell from a needle: it meets nodes, few of them.
@@ -227,18 +259,6 @@ fn distorted(measures: &Measures, remedy: &str) -> Option<Finding> {
     })
 }
 
-/// Elements that are deleted while all yarns are whole.
-fn collapsed(case: &Case, measures: &Measures) -> Option<Finding> {
-    (measures.collapsed > 0).then(|| {
-        let text = format!(
-            "{} elements have collapsed before any failed:\n\
-             take a finer mesh, a larger k_ld, or another hourglass than {}",
-            measures.collapsed, case.control.hourglass
-        );
-        Finding::new("collapsed", text)
-    })
-}
-
 /// A sphere that goes into the yarns instead of taking them along.
 fn sunk(units: &UnitSystem, case: &Case, measures: &Measures) -> Option<Finding> {
     let [_, height] = case.cloth.yarn_heights();
@@ -285,33 +305,47 @@ mod tests {
         front_at_rim: Option<f64>,
         failed: Option<f64>,
     ) -> String {
-        let density = 1.3514e-3 * density;
-        let text = format!(
-            "units = \"mm-g-ms\"\n[weave]\npreset = \"kevlar-s706\"\nalong = 4\ncolumns = 4\n\
-             [weave.panel]\nshape = \"circle\"\nradius = 3.0\npart = \"quarter\"\n\
-             [scene]\nspeed = 1.0\nstriker-density = 7.8e-3\nradius = {radius}\ncontact-stiffness = 1e5\nend = 1.0\n\
-             hyperelastic.density = {density}\n"
-        );
-        let scene = Scene::parse("patch.toml", &text).expect("a scene");
-        let (case, panel) = (&scene.cases[0], scene.cases[0].cloth.model());
+        let ended = Outcome { failed, ..outcome(off) };
+        judged_as([measures, whole], [radius, density], front_at_rim, ended)
+    }
+
+    /// A run whose energy is off by so much.
+    fn outcome(off: f64) -> Outcome {
         let mut balance = Balance::default();
         for projectile in [1.0, 1.0 - off] {
             balance.add(&Energies { projectile, ..Energies::default() });
         }
-        let outcome = Outcome {
+        Outcome {
             measured: Vec::new(),
             balance,
             history: Vec::new(),
             snapshots: Vec::new(),
             end: End::Time,
             course: Default::default(),
-            failed,
+            failed: None,
             failure: None,
             elements: 1,
             cost: Default::default(),
             searches: 0,
             wall: Default::default(),
-        };
+        }
+    }
+
+    fn judged_as(
+        [measures, whole]: [Measures; 2],
+        [radius, density]: [f64; 2],
+        front_at_rim: Option<f64>,
+        outcome: Outcome,
+    ) -> String {
+        let density = 1.3514e-3 * density;
+        let text = format!(
+            "units = \"mm-g-ms\"\n[weave]\npreset = \"kevlar-s706\"\nalong = 4\ncolumns = 4\n\
+             [weave.panel]\nshape = \"circle\"\nradius = 3.0\npart = \"quarter\"\n\
+             [scene]\nspeed = 1.0\nstriker-density = 7.8e-3\nradius = {radius}\ncontact-stiffness = 1e5\nend = 1.0\n\
+             hyperelastic.density = {density}\nhyperelastic.properties = {{ k_ld = 126.0 }}\n"
+        );
+        let scene = Scene::parse("patch.toml", &text).expect("a scene");
+        let (case, panel) = (&scene.cases[0], scene.cases[0].cloth.model());
         verdict(&judge(&scene.units, case, &panel, &outcome, [&measures, &whole], front_at_rim))
     }
 
@@ -334,6 +368,36 @@ mod tests {
             layup.crimp = vec!["as it is known".to_string()];
             let said: Vec<String> = of_mesh(&units, &case).into_iter().map(|finding| finding.text).collect();
             assert_eq!(said, ["as it is known"]);
+        }
+    }
+
+    /// Units are those of the scene; a linear law carries shear along the fibres anyway.
+    #[test]
+    fn yarns_that_slide_are_in_the_verdict() {
+        let found = |weave: &str, materials: &str| {
+            let text = format!(
+                "units = \"mm-g-ms\"\n[weave]\npreset = \"kevlar-s706\"\nalong = 4\ncolumns = 4\n{weave}\n\
+                 [weave.panel]\nshape = \"circle\"\nradius = 3.0\npart = \"quarter\"\n\
+                 [scene]\nspeed = 1.0\nstriker-density = 7.8e-3\nradius = 2.778\ncontact-stiffness = 1e5\nend = 1.0\n{materials}\n"
+            );
+            let scene = Scene::parse("patch.toml", &text).expect("a scene");
+            sliding(&scene.units, &scene.cases[0]).map(|finding| finding.text).unwrap_or_default()
+        };
+        let zero = "k_ld is 0 MPa in kevlar-km2-600, less than 1 MPa: the middle of a section slides along its yarn:\n  \
+                    take 5 to 20 MPa for woven yarns";
+        let held = "hyperelastic.properties = { k_ld = 5.0 }";
+        let weft = |k_ld: f64| format!("weft.material = {{ properties = {{ k_ld = {k_ld:?} }} }}");
+        let [soft, stiff] = [0.5, 5.0].map(weft);
+        for (weave, materials, wanted) in [
+            ("", "", zero),
+            ("", "law = \"hybrid\"\nhyperelastic-radius = 1.0", zero),
+            ("", held, ""),
+            ("", "law = \"linear-elastic\"", ""),
+            (&*soft, held, "k_ld is 0.5000 MPa in kevlar-km2-600"),
+            (&*stiff, held, ""),
+        ] {
+            let said = found(weave, materials);
+            assert!(said.starts_with(wanted) && said.is_empty() == wanted.is_empty(), "{weave} {materials}: {said}");
         }
     }
 
@@ -376,6 +440,16 @@ mod tests {
         assert_eq!(of(before, shreds, Some(0.03)), "jacobian to failure; then viscosity");
         let wild = Measures { hourglass: 0.2, contact: f64::NAN, ..SOUND };
         assert_eq!(of(SOUND, wild, Some(0.03)), "sound to failure; then hourglass; contact");
+    }
+
+    /// Nothing else need be wrong with what was measured until then.
+    #[test]
+    fn a_run_that_could_not_go_on_is_not_sound() {
+        let of = |failed: Option<f64>| {
+            let ended = Outcome { end: End::Failed, failure: Some("no step".to_string()), failed, ..outcome(1e-5) };
+            judged_as([SOUND; 2], [2.778, 1.0], None, ended)
+        };
+        assert_eq!([of(None), of(Some(0.03))], ["error", "sound to failure; then error"]);
     }
 
     #[test]

@@ -9,7 +9,7 @@ use crate::strength::scatter;
 use toron_explicit_host::judgement::{verdict, warnings};
 use toron_materials::units::{LENGTH, SPEED, TIME, unit};
 use toron_shared::numbers::{number, one_digit};
-use toron_shared::text_table::{Column, NONE, files, folded, of_cases, or_dash, shortened, table};
+use toron_shared::text_table::{Column, NONE, files, of_cases, or_dash, shortened, table};
 
 /// Columns of a terminal.
 const WIDTH: usize = 129;
@@ -26,8 +26,8 @@ pub fn report(scene: &Scene, results: &Results, output: &Path) -> String {
     let weights: Vec<_> =
         results.iter().map(|(case, _, figures)| (case.name.as_str(), figures.weights.clone())).collect();
     let yarns = of_cases("Yarns", &yarns, WIDTH) + &of_cases("Weights", &weights, WIDTH);
-    let sliding = strength(scene, results) + &sliding(results);
-    format!("{}\n\n{table}\n{yarns}{sliding}{warnings}\n{}", scene.title, list_files(results, output))
+    let strength = strength(scene, results);
+    format!("{}\n\n{table}\n{yarns}{strength}{warnings}\n{}", scene.title, list_files(results, output))
 }
 
 /// The cases whose strength scatters.
@@ -37,20 +37,6 @@ fn strength(scene: &Scene, results: &Results) -> String {
         .iter()
         .map(|(case, _, figures)| (case.name.as_str(), case.strength.as_ref(), figures.weakest.as_deref()));
     scatter::report(cases, left_out, &scene.units, WIDTH)
-}
-
-/// The cases in whose sections nothing carries shear along the fibres.
-fn sliding(results: &Results) -> String {
-    let slides = |case: &&Case| case.materials().any(|material| material.longitudinal_shear() == Some(0.0));
-    let cases: Vec<&str> = results.iter().map(|(case, ..)| *case).filter(slides).map(|case| &*case.name).collect();
-    if cases.is_empty() {
-        return String::new();
-    }
-    let text = format!(
-        "k_ld = 0 in {}: the middle of a section slides along its yarn; 5 to 20 MPa hold it.",
-        cases.join(", ")
-    );
-    folded(&text, WIDTH) + "\n"
 }
 
 /// The most important columns first.

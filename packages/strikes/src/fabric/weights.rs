@@ -48,6 +48,8 @@ pub fn findings(units: &UnitSystem, case: &Case, panel: &Model) -> Vec<Finding> 
     let Case { sphere, speed, .. } = case;
     findings.extend(blow::slow_or_fast(units, *speed));
     findings.extend(blow::soft_or_hard(units, sphere.stiffness));
+    findings.extend(blow::rough("friction", sphere.friction));
+    findings.extend(blow::rough("yarn-friction", case.mutual.friction));
     findings.extend(blow::large(units, sphere, "panel", reach(panel)));
     findings.extend(striker(case));
     findings
@@ -123,6 +125,12 @@ mod tests {
                 "is 0.06000 m/s, and yarns and panels are struck at",
             ),
             (scene(3.0, PRESET, &BLOW.replace("1e5", "1e2")), "units", "100.0 MPa/mm, and yarns take"),
+            (
+                scene(3.0, PRESET, &format!("{BLOW}\nfriction = 23")),
+                "friction",
+                "friction is 23.00, and dry surfaces have 0 to 2",
+            ),
+            (scene(3.0, PRESET, &format!("{BLOW}\nyarn-friction = 18")), "friction", "yarn-friction is 18.00, and dry"),
             (scene(1.2, PRESET, BLOW), "sizes", "sphere's radius of 2.778 mm is more than what the panel reaches"),
             (scene(0.15, inches, BLOW), "units", "dtex, and yarns 10.00 to 60000"),
         ] {

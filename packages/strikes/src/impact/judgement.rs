@@ -26,10 +26,16 @@ pub fn judge(units: &UnitSystem, case: &Case, result: &Outcome) -> Vec<Finding> 
     findings.extend(hourglass(case, result));
     findings.extend(contact(case, result));
     findings.extend(viscosity(case, result));
+    findings.extend(collapsed(case, result));
     findings.extend(judgement::balance(result.balance.imbalance()));
-    if let Some((time, _)) = result.course.broken {
-        let broken = format!("the break, at {} {}", number(time), unit(units, TIME));
-        judgement::add_after_failure(&mut findings, &broken, after_break(case, result));
+    let error = judgement::error(result.failure.as_deref());
+    match result.course.broken {
+        Some((time, _)) => {
+            let broken = format!("the break, at {} {}", number(time), unit(units, TIME));
+            let found = error.into_iter().chain(after_break(case, result));
+            judgement::add_after_failure(&mut findings, &broken, found);
+        }
+        None => findings.extend(error),
     }
     findings
 }
@@ -51,6 +57,14 @@ pub fn before(units: &UnitSystem, case: &Case) -> Vec<Finding> {
     let mut findings = judgement::units(case.zones.materials(), units);
     findings.extend(weights::findings(units, case));
     findings
+}
+
+/// Elements that are deleted while nothing has failed, and so before any strength was asked for.
+fn collapsed(case: &Case, result: &Outcome) -> Option<Finding> {
+    let failed = result.failed.unwrap_or(f64::INFINITY);
+    let samples = result.measured.iter().take_while(|sample| sample.time <= failed);
+    let elements = samples.map(|sample| sample.collapsed).max().unwrap_or(0);
+    judgement::collapsed(elements, &hourglass_remedy(case))
 }
 
 /// Where the contact stores too much energy.
@@ -101,6 +115,28 @@ mod tests {
         let scene = Scene::parse("yarn.toml", &text).expect("a scene");
         let result = run::run(&scene.cases[0], &mut ()).expect("it runs");
         (verdict(&judge(&scene.units, &scene.cases[0], &result)), result.viscosity_share())
+    }
+
+    /// Nothing that was measured up to the end of such a run need be wrong.
+    #[test]
+    fn what_could_not_go_on_or_has_collapsed_is_not_sound() {
+        let text = "units = \"mm-g-ms\"\n[scene]\nfailure = \"none\"\nhalf-length = 3.0\nheight = 0.115\nwidth = 0.5337\n\
+                    layers = 12\nrows = 2\ncolumns = 3\nmass = 9.91e-3\nradius = 1.1\ncontact-stiffness = 1e6\n\
+                    speed = 100.0\nend = 1e-4\n";
+        let scene = Scene::parse("yarn.toml", text).expect("a scene");
+        let mut result = run::run(&scene.cases[0], &mut ()).expect("it runs");
+        let of = |result: &Outcome| verdict(&judge(&scene.units, &scene.cases[0], result));
+        assert_eq!(of(&result), "sound");
+        result.run.failure = Some("no step".to_string());
+        assert_eq!(of(&result), "error");
+        // What has collapsed behind a failure are shreds.
+        (result.run.failed, result.run.course.broken) = (Some(0.0), Some((0.0, 100.0)));
+        let last = result.run.measured.len() - 1;
+        result.run.measured[last].collapsed = 2;
+        let broken = of(&result);
+        assert!(broken.starts_with("sound to failure; then error") && !broken.contains("collapsed"), "{broken}");
+        (result.run.failed, result.run.failure, result.run.course.broken) = (None, None, None);
+        assert_eq!(of(&result), "collapsed");
     }
 
     #[test]

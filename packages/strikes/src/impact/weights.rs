@@ -43,6 +43,7 @@ pub fn findings(units: &UnitSystem, case: &Case) -> Vec<Finding> {
     findings.extend(blow::slow_or_fast(units, case.speed));
     if let Striker::Cylinder { cylinder, .. } = &case.striker {
         findings.extend(blow::soft_or_hard(units, cylinder.stiffness));
+        findings.extend(blow::rough("friction", cylinder.friction));
         findings.extend(blow::large(units, cylinder, "yarn", case.yarn.length));
         findings.extend(heavy_or_light(units, case));
     }
@@ -117,6 +118,7 @@ mod tests {
             ("mass = 9.91e-3", "mass = 9.91e-6", "striker", " has 4.885 kg/m³"),
             ("contact-stiffness = 1e6", "contact-stiffness = 1e9", "units", "MPa/mm, and yarns take 1e3 to 1e7"),
             ("contact-stiffness = 1e6", "contact-stiffness = 1e2", "units", "MPa/mm, and yarns take 1e3 to 1e7"),
+            ("friction = 0.18", "friction = 18", "friction", "friction is 18.00, and dry surfaces have 0 to 2"),
             ("radius = 1.1", "radius = 110.0", "sizes", "more than what the yarn reaches from the middle, 12.70 mm"),
             ("radius = 1.1", "radius = 11.0", "striker", " has 48.85 kg/m³"),
             ("radius = 1.1", "radius = 0.11", "striker", " has 4"),

@@ -14,6 +14,7 @@ use toron_materials::data_table::{Cell, DataTable};
 use toron_materials::units::{self, LENGTH};
 use toron_shared::checked::{Positive, value};
 use toron_shared::error::Error;
+use toron_shared::nearest::nearest;
 use toron_shared::toml_file::{self, Source};
 use toron_strikes::strength::fit::{self, Fit, Test};
 use toron_strikes::strength::scales::{self, ScaleFit};
@@ -144,6 +145,26 @@ impl Columns<'_> {
         self.positive(quantity, dimension).map(|values| (values, dimension))
     }
 
+    /// No column is passed over that is called nearly as one that the file might have.
+    ///
+    /// # Errors
+    /// One would be.
+    fn check_names(&self) -> Result<(), Error> {
+        let missing = || QUANTITIES.into_iter().filter(|quantity| !self.has(quantity));
+        let is_read = |name: &str| QUANTITIES.iter().any(|quantity| self.name(quantity) == name);
+        for column in self.table.columns.iter().filter(|column| !is_read(&column.name)) {
+            if let Some(meant) = nearest(&column.name.to_lowercase(), missing()) {
+                let message = format!(
+                    "it is not read, did you mean {meant}? allowed: the name {meant}, columns = {{ {meant} = \"{}\" }}, or a name that \
+                     is less alike",
+                    column.name
+                );
+                return Err(self.table.error(self.table.header, column.number, &message));
+            }
+        }
+        Ok(())
+    }
+
     /// Whether each test has broken.
     fn broken(&self, count: usize) -> Result<Vec<bool>, Error> {
         if !self.has(CENSORED) {
@@ -171,6 +192,7 @@ fn strengths(source: &Source<'_>, number: usize, table: &Spanned<SetFile>, units
         return Err(source.error(key.span(), &message));
     }
     let columns = Columns { table: DataTable::read(&source.file("file", &file.file)?)?, file, units };
+    columns.check_names()?;
     let (length, reference) = (value(&file.length), value(&file.reference_length));
     if let (Some(given), true) = (&file.length, columns.has(LENGTHS)) {
         return Err(source.error(given.span(), "length beside a column length; allowed: one of them"));
@@ -286,6 +308,14 @@ mod tests {
             ("50,2,0", "50,-2,0", "data.csv:2:2: column \"strength\": the value is -2; allowed: a number > 0"),
             ("50,2,0", "0,2,0", "data.csv:2:1: column \"length\": the value is 0; allowed: a number > 0"),
             ("(GPa)", "(mm)", "the unit is \"mm\"; allowed: a unit of stress, as MPa"),
+            (
+                "censored (-)",
+                "Censored (-)",
+                "data.csv:1:3: column \"Censored\": it is not read, did you mean censored? allowed: the name censored, columns = \
+                 { censored = \"Censored\" }",
+            ),
+            ("censored (-)", "censord (-)", "column \"censord\": it is not read, did you mean censored?"),
+            ("length (mm)", "Length (mm)", "column \"Length\": it is not read, did you mean length?"),
             ("strength (GPa)", "load (GPa)", "one column of the two: strength of each test, or scale at each length"),
             ("length (mm)", "place (mm)", "has no length; allowed: length, or a column of it"),
         ] {

@@ -7,6 +7,7 @@ use base64::engine::general_purpose::STANDARD;
 
 use super::reader::Foreign;
 use super::tests::{Cross, LAYERS, SECTION, check, read, refused};
+use crate::weave::vtu;
 
 /// The panel of these files is that of the plain one, to rounding where a motion has one.
 #[track_caller]
@@ -448,6 +449,17 @@ fn long(text: &str) -> String {
     changed(&text, "*element_solid", |line| wide(line, &[8; 10]))
 }
 
+/// The deck with a direction of the fibres in each element.
+fn ortho(text: &str) -> String {
+    let axes = |line: &str| {
+        let number: usize = line[..8].trim().parse().expect("a number");
+        let fibre = if number <= 36 { [1, 0, 0] } else { [0, -2, 0] };
+        let card = |axis: [i32; 3]| axis.map(|x| format!("{x:>16}")).concat();
+        format!("{line}\n{}\n{}", card(fibre), card([0, 0, 1]))
+    };
+    changed(text, "*element", axes).replace("*ELEMENT_SOLID", "*ELEMENT_SOLID_ORTHO")
+}
+
 #[test]
 fn legal_forms_of_ls_dyna_give_the_plain_panel() {
     let text = Cross::new(0.01).ls_dyna();
@@ -486,14 +498,7 @@ fn legal_forms_of_ls_dyna_give_the_plain_panel() {
     legal("two-cards", &changed(&text, "*element", cards));
     let ten = |line: &str| format!("{}\n{}{:>8}{:>8}", &line[..16], &line[16..], 0, 0);
     legal("ten-nodes", &changed(&text, "*element", ten).replace("*ELEMENT_SOLID", "*ELEMENT_SOLID (ten nodes format)"));
-    let axes = |line: &str| {
-        let number: usize = line[..8].trim().parse().expect("a number");
-        let fibre = if number <= 36 { [1, 0, 0] } else { [0, -2, 0] };
-        let card = |axis: [i32; 3]| axis.map(|x| format!("{x:>16}")).concat();
-        format!("{line}\n{}\n{}", card(fibre), card([0, 0, 1]))
-    };
-    let ortho = changed(&text, "*element", axes).replace("*ELEMENT_SOLID", "*ELEMENT_SOLID_ORTHO");
-    legal("axes", &ortho);
+    legal("axes", &ortho(&text));
     let beside = "*TITLE\na deck\n*PARAMETER\nR       x       1.0\n*CONTROL_TERMINATION\n       1.0\n*DATABASE_GLSTAT\n       0.1\n*MAT_ELASTIC_TITLE\nyarn\n         1       1.0       1.0       0.3\n\
                   *SECTION_SOLID_TITLE\nsolid\n         1         1\n*SET_NODE_LIST_TITLE\nall\n         1\n         1         2\n*DEFINE_CURVE_TITLE\ncurve\n         1\n                 0.0                 1.0\n\
                   *CONTACT_AUTOMATIC_SINGLE_SURFACE_ID\n         1\n*INITIAL_VELOCITY_RIGID_BODY\n         9\n*DEFINE_TRANSFORMATION\n         1\nSCALE            2.0       1.0       1.0\n\
@@ -634,6 +639,49 @@ fn what_of_ls_dyna_may_move_a_mesh_is_refused() {
     k(&ortho("             0.0             0.0             1.0"), "4 yarns along x and 0 along y");
 }
 
+/// What a law's own axes would turn is said where no element says it better.
+#[test]
+fn fibres_that_a_material_of_ls_dyna_may_turn_are_refused() {
+    let text = Cross::new(0.01).ls_dyna();
+    let with = |text: &str, material: &str| text.replace("*KEYWORD\n", &format!("*KEYWORD\n{material}"));
+    let card = |fields: &[&str]| fields.iter().map(|field| format!("{field:>10}")).collect::<String>() + "\n";
+    let orthotropic = |aopt: &str| {
+        let elastic = card(&["1", "1.4e-9", "8e4", "8e2", "8e2", "0", "0", "0"]);
+        elastic + &card(&["126.0", "126.0", "126.0", aopt]) + &card(&["0", "0", "0", "0", "1"]) + &card(&["0"])
+    };
+    let own = |iortho: &str, aopt: &str| {
+        let first = card(&["1", "1.4e-9", "41", "13", "11", iortho, "12", "13"]) + &card(&["0", "1", "0", "-1"]);
+        first + if iortho == "0" { "" } else { aopt } + &card(&["8e4"])
+    };
+    let axes = |aopt: &str| card(&[aopt, "1", "0", "0", "0", "0", "1"]) + &card(&["0"]);
+    let turned = [
+        (format!("*MAT_ORTHOTROPIC_ELASTIC\n{}", orthotropic("2.0")), "cross.k:4: AOPT is 2, which is not read"),
+        (format!("*MAT_002_TITLE\nyarn\n{}", orthotropic("-7")), "cross.k:5: AOPT is -7, which is not read"),
+        (
+            format!("*MAT_USER_DEFINED_MATERIAL_MODELS\n{}", own("1", &axes("2.0"))),
+            "cross.k:5: AOPT is 2, which is not read",
+        ),
+        (format!("*MAT_041\n{}", own("1", &axes("3"))), "cross.k:5: AOPT is 3, which is not read; allowed: AOPT = 0"),
+        ("*MAT_COMPOSITE_DAMAGE\n".to_string(), "cross.k:2: *MAT_COMPOSITE_DAMAGE, whose AOPT is not read"),
+        ("*MAT_ELASTIC_NEW\n".to_string(), "cross.k:2: *MAT_ELASTIC_NEW, whose AOPT is not read"),
+    ];
+    let plain = read("plain-k", &[("cross.k", &text)], "").expect("a panel");
+    let of_elements = ortho(&text);
+    for (material, message) in &turned {
+        refused(&[("cross.k", with(&text, material))], "", message);
+        same("own-directions", &[("cross.k", &with(&of_elements, material))], &plain);
+    }
+    for material in [
+        format!("*MAT_ORTHOTROPIC_ELASTIC_TITLE\nyarn\n{}", orthotropic("")),
+        format!("*MAT_2\n{}", orthotropic("0.0")),
+        format!("*MAT_USER_DEFINED_MATERIAL_MODELS\n{}", own("0", "")),
+        format!("*MAT_USER_DEFINED_MATERIAL_MODELS_TITLE\nyarn\n{}", own("1", &axes("0"))),
+        "*MAT_RIGID\n*MAT_020\n*MAT_ADD_EROSION\n*MAT_JOHNSON_COOK_TITLE\n".to_string(),
+    ] {
+        same("no-axes", &[("cross.k", &with(&text, &material))], &plain);
+    }
+}
+
 /// Files of the panel by meshio 5.3.5 and VTK 9.7: as they write them by default, and otherwise.
 const FILES: [(&str, &[u8]); 9] = [
     ("meshio.vtu", include_bytes!("test_files/meshio.vtu")),
@@ -684,6 +732,33 @@ fn a_vtu_file_that_is_cut_or_of_another_kind_is_refused() {
     vtu(&text(plain, "Float64", "Int16"), "array Points has the entry -");
     vtu(&text(plain, "LittleEndian", "MiddleEndian"), "byte_order is MiddleEndian; allowed: LittleEndian, BigEndian");
     vtu(&text(FILES[8].1, "offset=\"0\"", "offset=\"999999\""), "begins at 999999 of ");
+}
+
+/// A name that is not read would turn the fibres without a word.
+#[test]
+fn directions_of_a_vtu_file_under_another_name_are_refused() {
+    let plain = read("plain-vtu", &[("cross.vtu", FILES[2].1)], "").expect("a panel");
+    let text = vtu::unstructured_grid(&plain.model);
+    let named = |name: &str| text.replace("Name=\"fibre\"", &format!("Name=\"{name}\""));
+    let vtu = |text: &str, message: &str| refused(&[("cross.vtu", text)], "", message);
+    for name in ["Fibre", "fiber", "Orientation"] {
+        let message = format!("CellData has the array {name} of three components, but none called fibre; allowed: ");
+        vtu(&named(name), &message);
+    }
+    let (before, cells) = split(&text, "<CellData>");
+    let (cells, behind) = split(cells, "</CellData>");
+    let (yarns, fibres) = cells.split_at(cells.rfind("<DataArray").expect("an array"));
+    let of_points = |name: &str| {
+        let fibres = fibres.replace("fibre", name);
+        format!("{before}<PointData>{fibres}</PointData>{yarns}{behind}")
+    };
+    vtu(&of_points("Fibre"), "PointData has the array Fibre of three components, but none called fibre; allowed: ");
+    vtu(&format!("{before}{cells}{fibres}{behind}"), "a second array fibre; allowed: one");
+    // What a file of results has besides is no direction of fibres, and beside these anything may be.
+    let vectors = fibres.replace("fibre", "velocity");
+    for text in [of_points("displacement"), format!("{before}{cells}{vectors}{behind}")] {
+        same("results", &[("cross.vtu", &text)], &plain);
+    }
 }
 
 #[test]

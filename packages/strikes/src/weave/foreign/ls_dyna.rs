@@ -12,14 +12,13 @@ const PARTS: &str = "elements of a part";
 /// Keywords that change neither nodes nor solid elements nor the fibres in them, by how they begin: laws, sections,
 /// contacts, loads, controls, results, curves, coordinate systems and sets that something else has to name, and
 /// elements that are no solids, which are the striker's or a clamp's.
-const WITHOUT_EFFECT: [&str; 49] = [
+const WITHOUT_EFFECT: [&str; 48] = [
     "*TITLE",
     "*COMMENT",
     "*PARAMETER",
     "*DATABASE_",
     "*TERMINATION_",
     "*INTERFACE_",
-    "*MAT_",
     "*EOS_",
     "*HOURGLASS",
     "*DAMPING_",
@@ -70,6 +69,13 @@ const CONTROLS: &str = "
     PORE_FLUID PZELECTRIC REQUIRE_REVISION RIGID SEGMENTS_IN_ALE_COUPLING SHELL SOLID SOLUTION SPH SPH_INCOMPRESSIBLE SPOTWELD_BEAM
     STAGED_CONSTRUCTION START STEADY_STATE_ROLLING STRUCTURED STRUCTURED_TERM SUBCYCLE SUBCYCLE_ TERMINATION THERMAL_ TIMESTEP UNITS
     VIBRO_ACOUSTIC";
+/// Of `*MAT_…` those without axes, by name and number: by its AOPT any other one may turn the fibres.
+const WITHOUT_AXES: &str = "
+    ADD_EROSION 1 ELASTIC ELASTIC_FLUID 3 PLASTIC_KINEMATIC 4 ELASTIC_PLASTIC_THERMAL 5 SOIL_AND_FOAM 6 VISCOELASTIC 7 BLATZ-KO_RUBBER
+    9 NULL 10 ELASTIC_PLASTIC_HYDRO 12 ISOTROPIC_ELASTIC_PLASTIC 13 ISOTROPIC_ELASTIC_FAILURE 15 JOHNSON_COOK 18 POWER_LAW_PLASTICITY
+    19 STRAIN_RATE_DEPENDENT_PLASTICITY 20 RIGID 24 PIECEWISE_LINEAR_PLASTICITY 27 MOONEY-RIVLIN_RUBBER 57 LOW_DENSITY_FOAM
+    63 CRUSHABLE_FOAM OGDEN_RUBBER 81 PLASTICITY_WITH_DAMAGE 98 SIMPLIFIED_JOHNSON_COOK 110 JOHNSON_HOLMQUIST_CERAMICS
+    111 JOHNSON_HOLMQUIST_CONCRETE 123 MODIFIED_PIECEWISE_LINEAR_PLASTICITY";
 /// What is in the names of contacts that put nodes onto the surface to which they are tied, unless with an offset.
 const TIED: [&str; 2] = ["TIED", "SPOTWELD"];
 
@@ -96,6 +102,8 @@ struct Reader {
     last: Option<Place>,
     /// What is added to the numbers of nodes, elements and parts, file by file.
     offsets: Vec<[i64; 3]>,
+    /// The first material that may give elements other fibres than they have by themselves.
+    axes: Option<Error>,
 }
 
 /// What the next card is.
@@ -110,6 +118,38 @@ enum Next {
     Second,
     Title,
     Part(String),
+    Material(Orthotropic),
+    /// Cards that nothing is read from.
+    Passed,
+}
+
+/// The next card of a material whose AOPT is read.
+#[derive(Clone, Copy)]
+enum Orthotropic {
+    /// This one is a title.
+    Titled(&'static Orthotropic),
+    /// So many cards before the one with AOPT, and its field there.
+    Before(usize, usize),
+    /// The first card of a user's law, which says whether there is an AOPT.
+    User,
+}
+
+/// A material's cards by its name behind `*MAT_`; none that are read where it has no axes.
+///
+/// # Errors
+/// It may have axes, and they are not read.
+fn material(name: &str) -> Result<Option<Orthotropic>, ()> {
+    let (name, is_titled) = name.strip_suffix("_TITLE").map_or((name, false), |name| (name, true));
+    let name = name.trim_start_matches('0');
+    let orthotropic = match name {
+        "2" | "ORTHOTROPIC_ELASTIC" => &Orthotropic::Before(1, 3),
+        "41" | "42" | "43" | "44" | "45" | "46" | "47" | "48" | "49" | "50" | "USER_DEFINED_MATERIAL_MODELS" => {
+            &Orthotropic::User
+        }
+        _ if WITHOUT_AXES.split_whitespace().any(|known| known == name) => return Ok(None),
+        _ => return Err(()),
+    };
+    Ok(Some(if is_titled { Orthotropic::Titled(orthotropic) } else { *orthotropic }))
 }
 
 impl ls_dyna::Reader for Reader {
@@ -121,6 +161,13 @@ impl ls_dyna::Reader for Reader {
             "*ELEMENT_SOLID" => Next::Element(false),
             "*ELEMENT_SOLID_ORTHO" => Next::Element(true),
             "*PART" => Next::Title,
+            _ if name.starts_with("*MAT_") => match material(&name["*MAT_".len()..]) {
+                Ok(cards) => cards.map_or(Next::Passed, Next::Material),
+                Err(()) => {
+                    self.turns_fibres(&keyword.line, &format!("{name}, whose AOPT is not read"));
+                    Next::Passed
+                }
+            },
             _ => {
                 if !WITHOUT_EFFECT.iter().any(|begin| name.starts_with(begin)) && !is_control(name) {
                     let message = format!(
@@ -189,6 +236,23 @@ impl ls_dyna::Reader for Reader {
                 }
                 Next::Element(true)
             }
+            Next::Passed => Next::Passed,
+            Next::Material(Orthotropic::Titled(cards)) => Next::Material(*cards),
+            Next::Material(Orthotropic::User) => {
+                let fields: [&str; 8] = card.fields([10; 8])?;
+                // Without material axes there are no cards of them.
+                let has_axes = line.real("IORTHO", fields[5])? != 0.0;
+                if has_axes { Next::Material(Orthotropic::Before(1, 0)) } else { Next::Passed }
+            }
+            Next::Material(Orthotropic::Before(0, place)) => {
+                let fields: [&str; 8] = card.fields([10; 8])?;
+                let aopt = line.real("AOPT", fields[place])?;
+                if aopt != 0.0 {
+                    self.turns_fibres(line, &format!("AOPT is {aopt}, which is not read"));
+                }
+                Next::Passed
+            }
+            Next::Material(Orthotropic::Before(cards, place)) => Next::Material(Orthotropic::Before(cards - 1, place)),
             Next::Title => Next::Part(line.text.trim().to_string()),
             Next::Part(title) => {
                 let [number] = card.fields([10])?;
@@ -245,6 +309,13 @@ impl Reader {
         }
     }
 
+    /// Fibres may be turned there: refused where an element has no direction of its own.
+    fn turns_fibres(&mut self, line: &Line<'_>, what: &str) {
+        let allowed = "allowed: AOPT = 0 of *MAT_ORTHOTROPIC_ELASTIC and user-defined laws, materials without axes, directions by \
+                       *ELEMENT_SOLID_ORTHO, or a file without materials";
+        self.axes.get_or_insert_with(|| line.error(&format!("{what}; {allowed}")));
+    }
+
     /// A number of a node (0), an element (1) or a part (2) with the file's offset.
     fn numbered(&self, line: &Line<'_>, what: &str, field: &str, kind: usize) -> Result<u64, Error> {
         let number: u64 = line.number(what, field)?;
@@ -270,6 +341,9 @@ impl Reader {
 
     fn finish(self) -> Result<Raw, Error> {
         self.check_last()?;
+        if let Some(error) = self.axes.filter(|_| self.directions.iter().any(Option::is_none)) {
+            return Err(error);
+        }
         let mut numbers = self.part.clone();
         numbers.sort_unstable();
         numbers.dedup();

@@ -36,8 +36,7 @@ pub fn read(file: &str, bytes: &[u8]) -> Result<Raw, Error> {
     let [connectivity, offsets, types] =
         [reader.integers(&connectivity)?, reader.integers(&offsets)?, reader.integers(&types)?];
     let yarn = reader.integers(&reader.array("CellData", Some("yarn"))?)?;
-    let fibre = reader.array("CellData", Some("fibre")).ok();
-    let fibre: Vec<f64> = fibre.map_or(Ok(Vec::new()), |fibre| reader.reals(&fibre))?;
+    let fibre: Vec<f64> = reader.fibre()?.map_or(Ok(Vec::new()), |fibre| reader.reals(&fibre))?;
     let count = offsets.len();
     for (name, found, wanted) in [
         ("Points", places.len(), places.len() / 3 * 3),
@@ -100,16 +99,46 @@ struct Reader<'a> {
 }
 
 impl<'a> Reader<'a> {
+    /// The arrays of a part of the file.
+    fn arrays(&self, part: &str) -> impl Iterator<Item = Node<'a, 'a>> {
+        let parts = self.document.descendants().filter(move |node| node.has_tag_name(part));
+        parts.flat_map(|node| node.children().filter(|child| child.has_tag_name("DataArray")))
+    }
+
     /// The array of this name in a part of the file, or the only one.
     fn array(&self, part: &str, name: Option<&str>) -> Result<Node<'a, 'a>, Error> {
-        let parts = self.document.descendants().filter(|node| node.has_tag_name(part));
-        let arrays = parts.flat_map(|node| node.children().filter(|child| child.has_tag_name("DataArray")));
-        let mut arrays = arrays.filter(|array| name.is_none() || array.attribute("Name") == name);
-        arrays.next().ok_or_else(|| {
-            let name = name.unwrap_or("positions");
+        let mut arrays = self.arrays(part).filter(|array| name.is_none() || array.attribute("Name") == name);
+        let name = name.unwrap_or("positions");
+        let found = arrays.next().ok_or_else(|| {
             let message =
                 format!("{part} has no array {name}; allowed: Points, Cells, and CellData with yarn and fibre");
             Error::Input(format!("{}: {message}", self.file))
+        })?;
+        let second =
+            arrays.next().map(|second| self.place(&second).error(&format!("a second array {name}; allowed: one")));
+        second.map_or(Ok(found), Err)
+    }
+
+    /// The directions of the cells' fibres, where the file has them. Others may call them otherwise: passed over, they
+    /// would be those of the elements.
+    ///
+    /// # Errors
+    /// It may have them under another name, or of the points.
+    fn fibre(&self) -> Result<Option<Node<'a, 'a>>, Error> {
+        let name = |array: &Node<'a, 'a>| array.attribute("Name").unwrap_or_default().to_string();
+        if self.arrays("CellData").any(|array| name(&array) == "fibre") {
+            return self.array("CellData", Some("fibre")).map(Some);
+        }
+        let is_direction = |array: &Node<'a, 'a>| array.attribute("NumberOfComponents") == Some("3");
+        let of_cells = self.arrays("CellData").find(is_direction).map(|array| ("CellData", array));
+        let is_fibre = |array: &Node<'a, 'a>| name(array).eq_ignore_ascii_case("fibre");
+        let of_points = || self.arrays("PointData").find(is_fibre).map(|array| ("PointData", array));
+        of_cells.or_else(of_points).map_or(Ok(None), |(part, array)| {
+            Err(self.place(&array).error(&format!(
+                "{part} has the array {} of three components, but none called fibre; allowed: the fibres' directions by cells, called \
+                 fibre, or none",
+                name(&array)
+            )))
         })
     }
 
