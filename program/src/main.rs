@@ -180,7 +180,7 @@ fn run(command: Command) -> Result<(), Error> {
         #[cfg(target_os = "linux")]
         Command::Check(arguments) => umat_check::command::run("toron check", &arguments),
         #[cfg(target_os = "linux")]
-        Command::CheckChild { request } => umat_check::child::answer(&request),
+        Command::CheckChild { request } => umat_check::child::run(&request),
         Command::Compare(arguments) => compare::command::run(&arguments),
         Command::Eval { via, tangent } => eval::command::lines(via, tangent),
         Command::Bench { output } => bench::command::run(output.as_deref()),

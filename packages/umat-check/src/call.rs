@@ -333,16 +333,16 @@ impl<'a> Session<'a> {
     }
 
     /// Calls the UMAT.
-    pub fn ask(&mut self, call: &Call) -> Answer {
+    pub fn call_law(&mut self, call: &Call) -> Answer {
         if !self.exchanged {
-            return self.ask_in_order(call);
+            return self.call_law_in_order(call);
         }
         let (first, second) = PLACES;
         let mut call = call.clone();
         for values in [&mut call.stress, &mut call.strain, &mut call.strain_increment] {
             values.swap(first, second);
         }
-        let mut answer = self.ask_in_order(&call);
+        let mut answer = self.call_law_in_order(&call);
         answer.stress.swap(first, second);
         answer.modulus.swap(first, second);
         for row in &mut answer.modulus {
@@ -351,7 +351,7 @@ impl<'a> Session<'a> {
         answer
     }
 
-    fn ask_in_order(&mut self, call: &Call) -> Answer {
+    fn call_law_in_order(&mut self, call: &Call) -> Answer {
         if let Some(shared) = self.shared {
             if self.records { shared.record(&call.numbers()) } else { shared.count() }
         }

@@ -143,7 +143,7 @@ pub fn of_deformation(
         let strained = exp(&(strain * size)) * f1;
         let mut call = point.call(&strained, material);
         call.time_step = base.time_step;
-        let answer = session.ask(&call);
+        let answer = session.call_law(&call);
         let kirchhoff = global(&answer.stress, &strained, material) * (strained.determinant() / volume);
         answered(&answer).then(|| of_stress(&(axes.transpose() * kirchhoff * axes), components))
     })
@@ -156,7 +156,7 @@ pub fn of_strain_increment(session: &mut Session, base: &Call) -> Option<Derivat
         let mut call = base.clone();
         call.strain_increment[column] += size;
         call.f1 = exp(&(unit_strain(components, column) * size)) * base.f1;
-        let answer = session.ask(&call);
+        let answer = session.call_law(&call);
         answered(&answer).then_some(answer.stress)
     })
 }

@@ -129,7 +129,7 @@ impl Point {
     ) -> Result<Answer, Failure> {
         let mut call = self.call(f1, session.material);
         call.time_step = time_step;
-        let answer = session.ask(&call);
+        let answer = session.call_law(&call);
         if answer.refused() {
             let Some(halvings) = halvings.checked_sub(1) else { return Err(Failure::Refused) };
             let middle = Increment::between(&self.f, f1).at(0.5, &self.f);

@@ -35,7 +35,7 @@ struct Ended {
     change: f64,
 }
 
-pub fn ask(session: &mut Session) -> Finding {
+pub fn steps(session: &mut Session) -> Finding {
     let mut rng = Rng::with_seed(session.material.seed ^ 0x57);
     let mut largest_change = 0.0_f64;
     let (mut coarse, mut fine, mut last) = (0.0, 0.0, 0.0);

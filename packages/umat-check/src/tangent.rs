@@ -9,7 +9,7 @@ use super::call::{Call, Session};
 use super::differences::{Derivative, TOLERANCE, of_deformation, of_strain_increment};
 use super::finding::{Finding, NOT_FINITE, Question, Verdict};
 use super::histories::history;
-use super::hypotheses::{self, Factor, Sight, stress_by_volume};
+use super::hypotheses::{self, ExactTangent, Factor, stress_by_volume};
 use super::judgement::{Difference, compare, contraction};
 use super::kinematics::{Components, Increment, Modulus, name, of_stress, rotation_of};
 use super::material::Reads;
@@ -98,14 +98,14 @@ impl State {
     }
 }
 
-/// The states of the answer. A law whose mistake has no name is asked again with 13 and 23 for each other.
-pub fn ask(session: &mut Session, reads: Reads, allowed: Option<f64>) -> Finding {
+/// DDSDDE against derivatives of the stress. Where it is wrong in no known way, the question is repeated with 13 and 23 exchanged.
+pub fn tangent(session: &mut Session, reads: Reads, allowed: Option<f64>) -> Finding {
     let started = Instant::now();
-    let mut line = ask_in_order(session, reads, allowed);
+    let mut line = tangent_in_order(session, reads, allowed);
     // As long again must not be too long.
     if session.material.components == 6 && line.kinds == ["unknown"] && started.elapsed() < TIME {
         session.exchange(true);
-        let exchanged = ask_in_order(session, reads, allowed);
+        let exchanged = tangent_in_order(session, reads, allowed);
         session.exchange(false);
         let named = exchanged.verdict == Verdict::Wrong && exchanged.kinds != line.kinds;
         if exchanged.verdict == Verdict::Right || named {
@@ -118,7 +118,7 @@ pub fn ask(session: &mut Session, reads: Reads, allowed: Option<f64>) -> Finding
     line
 }
 
-fn ask_in_order(session: &mut Session, reads: Reads, allowed: Option<f64>) -> Finding {
+fn tangent_in_order(session: &mut Session, reads: Reads, allowed: Option<f64>) -> Finding {
     let components = session.material.components;
     let (states, broken) = match gather(session, reads) {
         Ok(gathered) => gathered,
@@ -301,7 +301,7 @@ fn refused(failure: Failure) -> Result<bool, Box<Finding>> {
 
 fn state(session: &mut Session, before: &Point, f1: &Matrix3<f64>, reads: Reads, name: &str) -> Result<State, Failure> {
     let call = before.call(f1, session.material);
-    let answer = session.ask(&call);
+    let answer = session.call_law(&call);
     if answer.refused() {
         return Err(Failure::Refused);
     }
@@ -361,8 +361,8 @@ fn in_what_way(
             if Instant::now() > deadline {
                 return (vec!["unknown".to_string()], "too slow a law to be asked in what way".to_string());
             }
-            if let Some(sight) = sight(session, &states[k], convention) {
-                tried.push((k, hypotheses::all(&sight, components)));
+            if let Some(exact) = exact(session, &states[k], convention) {
+                tried.push((k, hypotheses::usual_mistakes(&exact, components)));
             }
         }
         let Some(count) = tried.first().map(|(_, all)| all.len()) else { continue };
@@ -470,13 +470,13 @@ fn common_factor(states: &[State], tried: &[(usize, Vec<hypotheses::Hypothesis>)
     factors[factors.len() / 2]
 }
 
-fn sight(session: &mut Session, state: &State, convention: Convention) -> Option<Sight> {
+fn exact(session: &mut Session, state: &State, convention: Convention) -> Option<ExactTangent> {
     let components = session.material.components;
     let (_, truth) = state.truth(convention, components)?;
     let axes = if session.material.orientation { rotation_of(&state.f1) } else { Matrix3::identity() };
     let f = axes.transpose() * state.f1;
     let intact = intact(session, state, convention).into_iter().map(|modulus| modulus.unwrap_or([[f64::NAN; 6]; 6]));
-    Some(Sight {
+    Some(ExactTangent {
         truth,
         jaumann: convention == Convention::Jaumann,
         stress: of_stress(&super::kinematics::tensor(&state.stress, components), components),
@@ -494,7 +494,7 @@ const NO_TIME: f64 = 1e-9;
 
 /// The moduli of unloading, and without time for the state to change.
 fn intact(session: &mut Session, state: &State, convention: Convention) -> [Option<Modulus>; 2] {
-    let answer = session.ask(&state.call);
+    let answer = session.call_law(&state.call);
     let after = state.before.after(&state.f1, &state.call, &answer);
     let components = session.material.components;
     let whole = Increment::between(&state.before.f, &state.f1);

@@ -51,7 +51,7 @@ fn arguments(session: &mut Session) -> io::Result<Arguments> {
                 },
             ];
             let all: Vec<Given> = [given].into_iter().chain(changes).collect();
-            let found = session.ask(time(k, session.material), &all)?;
+            let found = session.call_law(time(k, session.material), &all)?;
             if !found[0].finite() {
                 break;
             }
@@ -104,7 +104,7 @@ pub fn objectivity(session: &mut Session) -> io::Result<Finding> {
             let r = rotation_of(f1);
             let without = plain.given(f1, &r.transpose(), session.material);
             let with = turned.given(f1, &turn, session.material);
-            let found = session.ask(time(k, session.material), &[without, with])?;
+            let found = session.call_law(time(k, session.material), &[without, with])?;
             if !found.iter().all(|found| found.finite()) {
                 let text = "not finite with superposed rotations";
                 return Ok(Finding::new(Question::Objectivity, Verdict::Wrong, None, text).with("NaN"));
