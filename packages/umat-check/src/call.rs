@@ -97,7 +97,7 @@ impl Law {
     }
 }
 
-/// What is said of a library without UMAT: what it has instead, by the names of its symbols.
+/// The error of a library without UMAT: which other routine it has, by the names of its symbols.
 fn without_umat(path: &Path) -> String {
     let bytes = std::fs::read(path).unwrap_or_default();
     let is_name = |text: &&str| text.bytes().all(|byte| byte.is_ascii_alphanumeric() || byte == b'_');

@@ -30,11 +30,11 @@ enum Language {
     Library,
 }
 
-/// How gfortran is told to read a source.
+/// The flags with which gfortran reads a source.
 #[derive(Clone, Copy, Debug)]
 struct Form {
     flags: &'static [&'static str],
-    /// What is said of it in the report.
+    /// Its name in the report.
     said: &'static str,
 }
 

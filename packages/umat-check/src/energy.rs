@@ -295,7 +295,7 @@ pub fn dissipation(session: &mut Session) -> Finding {
     }
 }
 
-/// What is said of SPD + SCD that are set.
+/// A text for the report where SPD + SCD are set.
 fn accumulated(session: &mut Session, found: &Reported) -> Finding {
     let finer = reported(session, FINER * STRAIGHT).ok().flatten().map_or(f64::NAN, |finer| finer.dissipated);
     let part = finer / found.dissipated;

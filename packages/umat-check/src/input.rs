@@ -71,7 +71,7 @@ pub struct Input {
 
 /// Longest CMNAME.
 const LONGEST_NAME: usize = 80;
-/// Most entries of STATEV that are believed.
+/// The largest count of STATEV's entries that is allowed.
 const MOST_STATES: usize = 100_000;
 
 /// Reads the file, if there is one: the one named, or the one beside the law.

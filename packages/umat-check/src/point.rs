@@ -7,7 +7,7 @@ use super::call::{Answer, Call, Session};
 use super::kinematics::{Components, Increment, of_strain, of_stress, rotation_of, strain_tensor, tensor};
 use super::material::Material;
 
-/// Where a point has got to.
+/// A point's state after its last increment.
 #[derive(Clone, Debug)]
 pub struct Point {
     /// On global axes, also where the law's are corotational.

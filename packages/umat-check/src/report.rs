@@ -16,7 +16,7 @@ pub struct Report {
 #[derive(Serialize)]
 pub struct MaterialReport {
     pub name: String,
-    /// What it reads: total, rate, mixed; none where it does not live to say so.
+    /// What it reads: total, rate, mixed; none where it ended the process before that was known.
     pub law: Option<String>,
     pub lines: Vec<Finding>,
 }

@@ -26,7 +26,7 @@ pub fn components(tensor: &Matrix3<f64>) -> Components {
     PLACES.map(|(i, j)| 0.5 * (tensor[(i, j)] + tensor[(j, i)]))
 }
 
-/// Where a point has got to.
+/// A point's state after its last increment.
 #[derive(Clone, Debug)]
 pub struct Point {
     /// Without superposed rotations.
