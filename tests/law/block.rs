@@ -143,7 +143,7 @@ fn baseline_is_the_scalar_law<T: Number>() {
         compare(&inputs, &found, &wanted);
         assert_eq!(worst, found.iter().map(|output| output.status).min().expect("points"));
         for asked in Asked::USUAL.into_iter().filter(|asked| asked.failure) {
-            let wanted: Vec<_> = wanted.iter().map(|output| output.of(asked)).collect();
+            let wanted: Vec<_> = wanted.iter().map(|output| output.masked(asked)).collect();
             compare(&ordinary(100), &run(&law, &ordinary(100), &Call { asked, ..call }).0, &wanted);
         }
         // A direction for each point.
@@ -638,7 +638,7 @@ fn any_combination_of_outputs<T: Number>(k_ld: f64, [m_1, m_2, m_3]: [f64; 3]) {
                     if full.status == status::OVERFLOW {
                         continue;
                     }
-                    let mut wanted = full.of(asked);
+                    let mut wanted = full.masked(asked);
                     let partly = full.status == status::STATE_NOT_FINITE && old != Old::Null;
                     if partly && asked.status && unnoticed(input, asked) {
                         wanted.status = status::OK;

@@ -1,14 +1,11 @@
 //! The laws against exact arithmetic, derivatives, invariances and each other, as Rust calls them.
 
 mod block;
-mod energy;
 mod layouts;
 mod limits;
 mod linear_block;
 mod linear_elastic;
 mod parameters;
 mod properties;
-mod tangent;
-mod truth;
 mod user;
 mod wave_speed;
