@@ -5,14 +5,13 @@
 mod baselines;
 mod report;
 
-use std::path::{Path, PathBuf};
-use std::time::{Duration, Instant};
+use std::convert::Infallible;
+use std::path::Path;
+use std::time::Duration;
 
 use baselines::{eigen, fortran, literal};
-use criterion::Criterion;
 use nalgebra::{Matrix3, Scalar};
 use report::{Accuracy, Family, Machine, Quartiles, Report, Row};
-use serde::Deserialize;
 use toron::Hyperelastic;
 use toron::Level;
 use toron::law::block::Precision;
@@ -21,10 +20,14 @@ use toron::law::thesis::Yarn;
 use toron_materials::bench::command::{SIZES, processor, properties};
 use toron_materials::bench::entries::{Answer, Entry, each_point};
 use toron_materials::bench::scene::Scene;
+use toron_materials::bench::timing::{calls_that_last, in_turn, timed};
 use toron_test_support::truth::{Case, cases};
 
 /// Every row is measured this often, in turn with the others, so that what disturbs one moment disturbs all.
 const ROUNDS: usize = 6;
+/// Samples of a row in a round, and about how long the calls of each last.
+const SAMPLES: usize = 10;
+const SAMPLE: Duration = Duration::from_millis(3);
 /// Points in all the pairs of calls that a ratio is the median of, and the least number of pairs.
 const PAIRED: usize = 2_000_000;
 const LEAST_PAIRS: usize = 51;
@@ -68,7 +71,7 @@ fn main() {
     };
     let rows = implementations.iter().zip(timings).map(row).collect();
     let mut report = Report::new(Machine::new(processor(), compiler), SIZES.to_vec(), rows);
-    report.compare(|above, below, n| in_turn(&kernels[above], &kernels[below], n));
+    report.compare(|above, below, n| ratios(&kernels[above], &kernels[below], n));
     print!("\n{}", report.summary());
     report.write(&Path::new(env!("CARGO_MANIFEST_DIR")).join("results")).expect("the results are written");
 }
@@ -134,49 +137,28 @@ fn library<T: Precision + Scalar + Send + Sync>(
     }
 }
 
-/// Where criterion keeps the measurements of a round.
-fn output(round: usize) -> PathBuf {
-    Path::new(env!("CARGO_TARGET_TMPDIR")).join("criterion").join(round.to_string())
-}
-
-/// Short samples in place of criterion's eight seconds a row: the rounds make up for it.
-fn criterion(round: usize) -> Criterion {
-    Criterion::default()
-        .output_directory(&output(round))
-        .warm_up_time(Duration::from_millis(5))
-        .measurement_time(Duration::from_millis(30))
-        .sample_size(10)
-        .nresamples(1000)
-        .configure_from_args()
-}
-
-/// One measurement as criterion stores it: how many calls each sample made and how many nanoseconds they took.
-#[derive(Deserialize)]
-struct Sample {
-    iters: Vec<f64>,
-    times: Vec<f64>,
-}
-
 /// Times of a point, by row and size.
 fn timings(implementations: &[Implementation], kernels: &[Kernel]) -> Vec<Vec<Quartiles>> {
-    // What an earlier run left must not be read as this one's.
-    (0..ROUNDS).for_each(|round| drop(std::fs::remove_dir_all(output(round))));
     let mut timings: Vec<Vec<Quartiles>> = kernels.iter().map(|_| Vec::new()).collect();
     for n in SIZES {
+        eprintln!("{n} points a call: {} rows", implementations.len());
         let (mut double, mut single) = (Scene::impact(n), Scene::impact(n));
         let mut samples: Vec<Vec<f64>> = kernels.iter().map(|_| Vec::new()).collect();
-        for round in 0..ROUNDS {
-            let mut criterion = criterion(round);
-            for ((kernel, Implementation { name, .. }), samples) in
-                kernels.iter().zip(implementations).zip(&mut samples)
-            {
-                let mut group = criterion.benchmark_group(n.to_string());
-                match kernel {
-                    Kernel::Double(run) => group.bench_function(name, |bench| bench.iter(|| run(&mut double))),
-                    Kernel::Single(run) => group.bench_function(name, |bench| bench.iter(|| run(&mut single))),
+        for _ in 0..ROUNDS {
+            for (kernel, samples) in kernels.iter().zip(&mut samples) {
+                let mut run = || -> Result<(), Infallible> {
+                    match kernel {
+                        Kernel::Double(run) => run(&mut double),
+                        Kernel::Single(run) => run(&mut single),
+                    }
+                    Ok(())
                 };
-                group.finish();
-                samples.extend(samples_of(round, n, name));
+                // What finds how many calls a sample has also warms the caches.
+                let Ok(calls) = calls_that_last(SAMPLE, &mut run);
+                samples.extend((0..SAMPLES).map(|_| {
+                    let Ok(seconds) = timed(calls, &mut run);
+                    1e9 * seconds
+                }));
             }
         }
         for (timings, samples) in timings.iter_mut().zip(samples) {
@@ -186,30 +168,15 @@ fn timings(implementations: &[Implementation], kernels: &[Kernel]) -> Vec<Vec<Qu
     timings
 }
 
-/// The ratios of the times of two kernels called in turn: a clock that wanders slows both calls of a pair alike. An untimed call
-/// before each leaves the caches as the kernel itself leaves them.
-fn in_turn(above: &Kernel, below: &Kernel, n: usize) -> Quartiles {
+/// The ratios of the times of two kernels called in turn.
+fn ratios(above: &Kernel, below: &Kernel, n: usize) -> Quartiles {
     let (mut double, mut single) = (Scene::impact(n), Scene::impact(n));
-    let mut call = |kernel: &Kernel| match kernel {
+    let call = |side: usize| match [above, below][side] {
         Kernel::Double(run) => run(&mut double),
         Kernel::Single(run) => run(&mut single),
     };
-    let mut seconds = |kernel: &Kernel| {
-        call(kernel);
-        let start = Instant::now();
-        call(kernel);
-        start.elapsed().as_secs_f64()
-    };
-    let pairs = (PAIRED / n).max(LEAST_PAIRS);
-    Quartiles::new((0..pairs).map(|_| seconds(above) / seconds(below)).collect())
-}
-
-/// Nanoseconds a call of every sample of a row in a round.
-fn samples_of(round: usize, n: usize, name: &str) -> Vec<f64> {
-    let file = output(round).join(n.to_string()).join(name).join("new/sample.json");
-    let text = std::fs::read_to_string(&file).expect("criterion has stored its samples");
-    let sample: Sample = serde_json::from_str(&text).expect("samples");
-    sample.times.iter().zip(&sample.iters).map(|(time, calls)| time / calls).collect()
+    let pairs = in_turn(call, [1; 2], (PAIRED / n).max(LEAST_PAIRS));
+    Quartiles::new(pairs.into_iter().map(|[above, below]| above / below).collect())
 }
 
 fn accuracy(implementation: &Implementation, cases: &[Case]) -> Accuracy {

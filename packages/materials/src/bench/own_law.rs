@@ -6,7 +6,8 @@ use std::path::Path;
 
 use clap::Args;
 
-use super::command::{Best, processor};
+use super::command::processor;
+use super::timing::Best;
 use crate::material::laws::Laws;
 use crate::material::own_law::{Own, OwnLaw};
 use crate::material::preset::Preset;

@@ -5,7 +5,7 @@ use std::ptr::null_mut;
 
 use super::blocks::{message_in, prepared};
 use super::hosts::{
-    CalculixPoint, Given, MgisPoint, MgisTangent, OnePoint, OpenradiossGroup, Umat, Wanted, call_point,
+    CalculixPoint, Given, MgisPoint, MgisTangent, OnePoint, OpenradiossGroup, PointOutputs, Umat, call_point,
 };
 use super::precision::{BlockPrecision, VumatEntry};
 use toron::Hyperelastic;
@@ -60,7 +60,7 @@ pub fn prepared_point<T: BlockPrecision>(
 
 fn evaluate_point<T: BlockPrecision>(law: Given<'_, T>, f: &[T; 9], tangent: bool) -> Answer {
     let mut single = OnePoint::new(*f);
-    OnePoint::call_each(std::slice::from_mut(&mut single), law, Wanted::State, &mut Default::default());
+    OnePoint::call_each(std::slice::from_mut(&mut single), law, PointOutputs::State, &mut Default::default());
     let mut modes = [[T::default(); 6]; 4];
     let point = Point { deformation_gradient: f.as_ptr(), ..Point::empty() };
     // SAFETY: the arrays have the sizes that the entry asks for.

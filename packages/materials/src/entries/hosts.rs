@@ -35,7 +35,7 @@ pub struct OnePoint<T> {
 
 /// What is asked of the C entry for one point: the stress alone, with the state, with the state and dS/dE.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Wanted {
+pub enum PointOutputs {
     Stress,
     State,
     Tangent,
@@ -53,15 +53,15 @@ impl<T: BlockPrecision> OnePoint<T> {
     /// Calls the entry for each of the points; a tangent goes to `tangent`, and the next one there too. The structure is filled as in
     /// a solver's loop: what does not change, once.
     #[inline]
-    pub fn call_each(points: &mut [Self], law: Given<'_, T>, wanted: Wanted, tangent: &mut [[T; 6]; 6]) {
+    pub fn call_each(points: &mut [Self], law: Given<'_, T>, outputs: PointOutputs, tangent: &mut [[T; 6]; 6]) {
         let mut call = Point { measure: toron_c::TORON_TANGENT_MATERIAL, ..Point::empty() };
-        if wanted == Wanted::Tangent {
+        if outputs == PointOutputs::Tangent {
             call.tangent = tangent.as_mut_ptr().cast();
         }
         for point in points {
             call.deformation_gradient = point.deformation_gradient.as_ptr();
             call.stress = point.stress.as_mut_ptr();
-            if wanted != Wanted::Stress {
+            if outputs != PointOutputs::Stress {
                 call.state_new = point.state.as_mut_ptr();
                 call.state_old = call.state_new;
             }
