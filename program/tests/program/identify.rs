@@ -14,7 +14,7 @@ use toron_parameters::identify::file::Job;
 use toron_parameters::identify::fit::{Fit, Problem};
 use toron_parameters::identify::parameter::{PARAMETERS, Parameter, Values};
 use toron_parameters::identify::response::{Measured, Quantity};
-use toron_parameters::identify::{notes, output, report, worth};
+use toron_parameters::identify::{notes, output, report, sensitivity};
 use toron_strikes::impact::{self, scene::Scene};
 use toron_test_support::library::ROOT;
 
@@ -660,7 +660,8 @@ fn a_scene_shows_what_the_parameters_are_worth() {
     std::fs::write(folder.join("scene.toml"), scene("")).expect("a file");
     let job = Job::read(&example("yarn.toml")).expect("the example is valid");
     let fit = job.problem.fit().expect("a fit");
-    let trials = worth::trials(&job, &fit, &Scene::read(&folder.join("scene.toml")).expect("a scene")).expect("a run");
+    let trials =
+        sensitivity::trials(&job, &fit, &Scene::read(&folder.join("scene.toml")).expect("a scene")).expect("a run");
     // k_el, k_tc, p, k_td at two ends each, k_tc and p also with the other one; no failure, so eps_lim and alpha are left out.
     assert_eq!(trials.len(), 1 + 4 * 2 + 2 * 2, "{trials:?}");
     assert!(trials[1..].iter().all(|trial| trial.speed != trials[0].speed));

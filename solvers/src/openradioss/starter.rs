@@ -13,7 +13,7 @@ use super::solver::{current_option, stop};
 const COLUMNS: usize = 20;
 const FIELDS: usize = 5;
 
-/// What the starter is told of a material.
+/// What the starter needs to know of a material.
 pub struct Material<T> {
     pub uparam: Vec<T>,
     /// NUVAR.

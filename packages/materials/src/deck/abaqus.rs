@@ -9,7 +9,7 @@ use crate::material::preset::LONGEST_NAME;
 use toron_shared::error::Error;
 use toron_shared::short_number::short;
 
-/// What nobody but its author knows of a law.
+/// A comment of the card: only the law's author knows whether its tangent is symmetric.
 const UNSYMMETRIC: &str =
     "** Abaqus/Standard: *USER MATERIAL, CONSTANTS=..., UNSYMM where the tangent of the law is not symmetric.\n";
 

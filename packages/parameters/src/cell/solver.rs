@@ -18,7 +18,7 @@ const PROGRAM: &str = "ccx";
 const JOB: &str = "job";
 /// How often a run is looked at.
 const LOOK: Duration = Duration::from_millis(50);
-/// What is told of a run's own words when it fails.
+/// How much of a run's own output its error has.
 const LAST_LINES: usize = 6;
 
 /// The program: the one given, that of the variable, or the one in PATH.

@@ -165,7 +165,7 @@ fn evaluate(sets: &[&DataSet], values: &Values) -> Result<(DVector<f64>, DMatrix
     Ok((DVector::from_vec(residuals), gradients))
 }
 
-/// The least squares as the crate wants them: parameters over their scales, residuals times the roots of the weights.
+/// The least squares as the crate takes them: parameters over their scales, residuals times the roots of the weights.
 struct Problem<'a> {
     data: Weighted<'a>,
     free: &'a [Parameter],

@@ -94,7 +94,7 @@ fn of_mesh(units: &UnitSystem, case: &Case) -> Vec<Finding> {
     let mut findings: Vec<Finding> =
         case.cloth.crimp().iter().map(|text| Finding::new("crimp", text.clone())).collect();
     if let Cloth::Foreign(foreign) = &*case.cloth {
-        let beside = foreign.off_middle(case.sphere.aim, &unit(units, LENGTH));
+        let beside = foreign.off_middle(case.striker.aim, &unit(units, LENGTH));
         findings.extend(beside.map(|text| Finding::new("aim", text)));
     }
     findings
@@ -116,7 +116,7 @@ pub fn judge(
         return findings;
     }
     let ended = outcome.failed.unwrap_or(f64::INFINITY);
-    let spread = measures.travel >= case.sphere.radius || front_at_rim.is_some_and(|time| time <= ended);
+    let spread = measures.travel >= case.striker.radius || front_at_rim.is_some_and(|time| time <= ended);
     if spread {
         findings.extend(hourglass(case, measures));
         findings.extend(shear(case, measures));
@@ -129,7 +129,7 @@ pub fn judge(
         "a finer mesh, a larger k_ld or contact-stiffness, or a failure if the yarns would break",
     ));
     findings.extend(collapsed(case, measures));
-    findings.extend(judgement::contact(measures.contact, case.sphere.stiffness));
+    findings.extend(judgement::contact(measures.contact, case.striker.stiffness));
     findings.extend(sunk(units, case, measures));
     findings.extend(judgement::balance(outcome.balance.imbalance()));
     if let Some(time) = outcome.failed {
@@ -144,7 +144,7 @@ pub fn judge(
 fn after_failure(case: &Case, whole: &Measures) -> Vec<Finding> {
     let folded = distorted(whole, "a finer mesh: shreds of torn yarns fold, and carry what they should not");
     let findings = [viscosity(whole), hourglass(case, whole), folded];
-    let contact = judgement::contact(whole.contact, case.sphere.stiffness);
+    let contact = judgement::contact(whole.contact, case.striker.stiffness);
     findings.into_iter().chain([contact]).flatten().collect()
 }
 
@@ -166,7 +166,7 @@ fn coarse(units: &UnitSystem, case: &Case, panel: &Model) -> Option<Finding> {
         .iter()
         .flat_map(|face| (0..4).map(|i| (node(face.nodes[i]) - node(face.nodes[(i + 1) % 4])).norm()));
     let longest = edges.fold(0.0, largest);
-    let radius = case.sphere.radius;
+    let radius = case.striker.radius;
     (EDGES * longest > radius).then(|| {
         let unit = unit(units, LENGTH);
         let text = format!(
@@ -248,7 +248,7 @@ fn sunk(units: &UnitSystem, case: &Case, measures: &Measures) -> Option<Finding>
         let text = format!(
             "the sphere is up to {ahead} {unit} ahead of the panel, more than {DEEPEST} of a yarn's height, before a yarn fails:\n\
              take a larger contact-stiffness than {:e}, or a finer mesh",
-            case.sphere.stiffness
+            case.striker.stiffness
         );
         Finding::new("penetration", text)
     })
@@ -295,8 +295,8 @@ mod tests {
         let scene = Scene::parse("patch.toml", &text).expect("a scene");
         let (case, panel) = (&scene.cases[0], scene.cases[0].cloth.model());
         let mut balance = Balance::default();
-        for projectile in [1.0, 1.0 - off] {
-            balance.add(&Energies { projectile, ..Energies::default() });
+        for striker in [1.0, 1.0 - off] {
+            balance.add(&Energies { striker, ..Energies::default() });
         }
         let outcome = Outcome {
             measured: Vec::new(),

@@ -109,7 +109,7 @@ pub struct Conversion {
 }
 
 impl Conversion {
-    pub fn of(&self, value: f64, dimension: Dimension) -> f64 {
+    pub fn convert(&self, value: f64, dimension: Dimension) -> f64 {
         self.from.scale(dimension).convert(value, &self.to.scale(dimension))
     }
 }
@@ -125,7 +125,7 @@ pub fn hourglass<'a>(
 ) -> Result<Vec<f64>, Error> {
     let modulus = |material: &toron_materials::material::model::Material| {
         let medium = Medium::<f64>::new(material, material.density.unwrap_or_default(), control)?;
-        Ok(conversion.of(medium.hourglass, STRESS))
+        Ok(conversion.convert(medium.hourglass, STRESS))
     };
     materials.into_iter().map(modulus).collect()
 }

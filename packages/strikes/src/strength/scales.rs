@@ -10,7 +10,7 @@ use crate::confidence::LEVEL;
 
 /// n times the variance of ln m of samples of n tests, in large samples: 6/π².
 const VARIANCE: f64 = 0.607_927_101_854_026_6;
-/// More tests at one length nobody makes.
+/// The most tests at one length that are proposed.
 const MOST_TESTS: f64 = 1e6;
 
 /// What scales tell.

@@ -30,7 +30,7 @@ pub struct LambertJonas {
     pub deviation: f64,
 }
 
-/// Why the best curve says nothing of its shots.
+/// Why the best curve is no estimate of the shots' law.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Degenerate {
     /// Its exponent is beyond [`MOST_EXPONENT`].
