@@ -15,7 +15,8 @@ use toron_shared::error::Error;
 use toron_shared::{build, command_line};
 use toron_strikes::{compare, fabric, impact, scene_deck, v50};
 
-/// A user-material library for yarns and dry fabrics: load paths on one element, struck yarns and panels, property tables, decks.
+/// A user-material library for yarns and dry fabrics: load paths on one element, struck yarns and panels, property
+/// tables, decks.
 #[derive(Parser)]
 #[command(name = "toron", version = params::version())]
 struct Arguments {

@@ -1,5 +1,5 @@
-//! What takes the time of a run, with an impl for each number and not a generic one: the loops over elements are compiled in this
-//! package, and not again in each package that runs a solver.
+//! What takes the time of a run, with an impl for each number and not a generic one: the loops over elements are
+//! compiled in this package, and not again in each package that runs a solver.
 
 use super::body::Body;
 use super::medium::Medium;

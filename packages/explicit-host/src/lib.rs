@@ -3,8 +3,8 @@
 //!
 //! It calls the laws as a solver does, through their C entries: blocks of component-major arrays, history in place,
 //! deletion by the latch. The energies of its balance are those that the laws report, so that the balance tells whether
-//! stress and energy belong together and whether the step is short enough. [`struck`] runs a scene on it, from the first
-//! step to the last.
+//! stress and energy belong together and whether the step is short enough. [`struck`] runs a scene on it, from the
+//! first step to the last.
 
 pub mod archive;
 pub mod block;

@@ -380,8 +380,8 @@ impl<'a> Session<'a> {
         let [mut layer, mut section, mut increment] = [1, 1, call.increment];
         // JSTEP: the step, a static one, NLGEOM=YES, no perturbation.
         let mut step = [1, 1, 1, 0];
-        // SAFETY: the arguments of a UMAT, each as long as Abaqus declares it; matrices are in Fortran's order. What the subroutine does
-        // beyond is its author's affair, and this process is there to bear it.
+        // SAFETY: the arguments of a UMAT, each as long as Abaqus declares it; matrices are in Fortran's order. What
+        // the subroutine does beyond is its author's affair, and this process is there to bear it.
         unsafe {
             (self.law.umat)(
                 self.stress.as_mut_ptr(),

@@ -1,8 +1,8 @@
 //! Every call of a law is made in a child process, which the law may end: how it ends is an answer too.
 //!
-//! The parent writes a [`Request`] to a file and starts this program again as `check-child` ([`run_task`]); the child loads the
-//! library, runs the [`Task`], and writes a [`ChildReply`] to a file ([`run`]). Memory that both map ([`Shared`]) has the last call's
-//! arguments and where a fault was, if there is no reply.
+//! The parent writes a [`Request`] to a file and starts this program again as `check-child` ([`run_task`]); the child
+//! loads the library, runs the [`Task`], and writes a [`ChildReply`] to a file ([`run`]). Memory that both map
+//! ([`Shared`]) has the last call's arguments and where a fault was, if there is no reply.
 
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
@@ -193,7 +193,8 @@ fn answer_table(answer: &Answer, material: &Material) -> Vec<(String, String)> {
     words
 }
 
-/// The parent: runs a task in a child process, in this folder, and returns the child's reply, or how it ended without one.
+/// The parent: runs a task in a child process, in this folder, and returns the child's reply, or how it ended without
+/// one.
 ///
 /// # Errors
 /// The child cannot be started, its files cannot be written, or the library cannot be loaded or has no UMAT.

@@ -42,8 +42,8 @@ const fn form(flags: &'static [&'static str], said: &'static str) -> Form {
     Form { flags, said }
 }
 
-/// In this order, until one compiles: what Abaqus's compiler takes comes first. `-fdec` is the dialect that it has from DEC. A leading
-/// tab counts for less there than here, so that lines may be too long.
+/// In this order, until one compiles: what Abaqus's compiler takes comes first. `-fdec` is the dialect that it has from
+/// DEC. A leading tab counts for less there than here, so that lines may be too long.
 const FIXED_FORMS: [Form; 5] = [
     form(&["-ffixed-form", "-ffixed-line-length-132"], ""),
     form(&["-ffixed-form", "-ffixed-line-length-132", "-fdec"], ""),
@@ -123,7 +123,8 @@ impl Built {
         unset_in(&messages.unwrap_or_default())
     }
 
-    /// The same for single precision, where the source leaves it to `vaba_param.inc`; inside, why it does not compile so.
+    /// The same for single precision, where the source leaves it to `vaba_param.inc`; inside, why it does not compile
+    /// so.
     ///
     /// # Errors
     /// Files cannot be read or written.

@@ -1,4 +1,5 @@
-//! Derivatives of a law's own stress by central differences, extrapolated (Ridders 1982), with an estimate of their error.
+//! Derivatives of a law's own stress by central differences, extrapolated (Ridders 1982), with an estimate of their
+//! error.
 
 use super::call::{Answer, Call, Session};
 use super::kinematics::{Components, Modulus, exp, of_stress, rotation_of, unit_strain};
@@ -127,7 +128,8 @@ fn answered(answer: &Answer) -> bool {
     !answer.refused() && answer.stress.iter().all(|value| value.is_finite())
 }
 
-/// The Jaumann rate of the Kirchhoff stress over J: the deformation at the increment's end is strained further, without rotation.
+/// The Jaumann rate of the Kirchhoff stress over J: the deformation at the increment's end is strained further, without
+/// rotation.
 pub fn of_deformation(
     session: &mut Session,
     point: &Point,

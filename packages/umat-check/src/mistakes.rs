@@ -130,7 +130,8 @@ impl<'a> Sample<'a> {
         let components = self.components;
         let Hypothesis { kinds, text, factor, .. } = &tried[0].1[mistake];
         let common = self.common_factor(tried, mistake);
-        // A modulus of unloading that is that of loading is no other one, and any factor of each state explains too much.
+        // A modulus of unloading that is that of loading is no other one, and any factor of each state explains too
+        // much.
         let is_kept = tried.iter().all(|(k, all)| {
             let truth = self.states[*k].truth(convention, components);
             truth

@@ -1,5 +1,5 @@
-//! A material point that is driven as Abaqus drives it: stress and strain turned before the call, state carried from one increment to
-//! the next.
+//! A material point that is driven as Abaqus drives it: stress and strain turned before the call, state carried from
+//! one increment to the next.
 
 use nalgebra::Matrix3;
 
@@ -35,7 +35,8 @@ pub enum Failure {
 const HALVINGS: u32 = 6;
 
 impl Point {
-    /// A point that has not been deformed, of this element and number. The element is 1 everywhere: laws may have tables by it.
+    /// A point that has not been deformed, of this element and number. The element is 1 everywhere: laws may have
+    /// tables by it.
     pub fn virgin(session: &mut Session, place: [i32; 2]) -> Point {
         let state = session.initial_state(place);
         let nothing = [0.0; 6];

@@ -1,5 +1,5 @@
-//! What a law does to the process that it runs in: memory, order and threads of calls, outputs that it leaves unset, floating-point
-//! exceptions, invalid input, many random histories.
+//! What a law does to the process that it runs in: memory, order and threads of calls, outputs that it leaves unset,
+//! floating-point exceptions, invalid input, many random histories.
 
 use std::time::{Duration, Instant};
 

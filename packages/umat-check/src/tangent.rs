@@ -97,7 +97,8 @@ pub fn add_volume_term(modulus: &mut Modulus, stress: &Components, components: u
     }
 }
 
-/// DDSDDE against derivatives of the stress. Where it is wrong in no known way, the question is repeated with 13 and 23 exchanged.
+/// DDSDDE against derivatives of the stress. Where it is wrong in no known way, the question is repeated with 13 and 23
+/// exchanged.
 pub fn tangent(session: &mut Session, reads: Reads, allowed: Option<f64>) -> Finding {
     let started = Instant::now();
     let mut line = tangent_in_order(session, reads, allowed);

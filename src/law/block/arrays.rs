@@ -12,8 +12,8 @@ use crate::law::number::level::Level;
 use crate::law::status;
 use crate::law::tangent::Measure;
 
-/// A block as slices. The state is updated in place: old on entry, new on return. The components of each array are listed in
-/// [`block`](super); what is `None` is neither read, computed nor written.
+/// A block as slices. The state is updated in place: old on entry, new on return. The components of each array are
+/// listed in [`block`](super); what is `None` is neither read, computed nor written.
 #[derive(Debug, Default)]
 pub struct Arrays<'a, T> {
     /// The number of points; and the leading dimension of all arrays, at least `n`.
@@ -21,7 +21,8 @@ pub struct Arrays<'a, T> {
     pub leading_dimension: usize,
     pub deformation_gradient: &'a [T],
     pub fibre: Option<&'a [T]>,
-    /// The true fibre strain at failure, ln(1 + ε_lim), of each point; 0 for that of the properties. Read where `failure` is computed.
+    /// The true fibre strain at failure, ln(1 + ε_lim), of each point; 0 for that of the properties. Read where
+    /// `failure` is computed.
     pub limit: Option<&'a [T]>,
     /// The reference density; used only with `wave_speed`.
     pub density: T,
@@ -42,16 +43,16 @@ pub struct Arrays<'a, T> {
     pub level: Option<Level>,
 }
 
-/// A block whose arrays have been checked. It can be split into parts, which have no points in common and may be evaluated by
-/// different threads.
+/// A block whose arrays have been checked. It can be split into parts, which have no points in common and may be
+/// evaluated by different threads.
 #[derive(Debug)]
 pub struct Block<'a, T> {
     points: Points<T>,
     arrays: PhantomData<&'a mut T>,
 }
 
-// SAFETY: a block has exclusive access to the arrays that it writes. Its parts have different points, and with a leading
-// dimension no less than n different points are at different addresses.
+// SAFETY: a block has exclusive access to the arrays that it writes. Its parts have different points, and with a
+// leading dimension no less than n different points are at different addresses.
 unsafe impl<T: Send + Sync> Send for Block<'_, T> {}
 
 impl<'a, T: Precision> Block<'a, T> {
@@ -128,7 +129,8 @@ impl<T: Precision> Hyperelastic<T> {
     /// Evaluates the law at every point of a block. Returns the worst (most negative) of the status codes.
     ///
     /// # Errors
-    /// An array that is too short, a leading dimension below n, a density that is not positive if the wave speed is requested.
+    /// An array that is too short, a leading dimension below n, a density that is not positive if the wave speed is
+    /// requested.
     pub fn block(&self, arrays: Arrays<'_, T>) -> Result<i32, Error> {
         self.checked_block(Block::new(arrays)?)
     }
@@ -138,8 +140,8 @@ impl<T: Precision> Hyperelastic<T> {
     /// # Errors
     /// A density that is not positive if the wave speed is requested.
     pub fn checked_block(&self, block: Block<'_, T>) -> Result<i32, Error> {
-        // SAFETY: the points are valid: `Block::new` has checked the lengths of the arrays, which are slices and do not overlap; only
-        // the state is both read and written, through one pointer.
+        // SAFETY: the points are valid: `Block::new` has checked the lengths of the arrays, which are slices and do not
+        // overlap; only the state is both read and written, through one pointer.
         unsafe { self.step(&block.points) }
     }
 }

@@ -1,5 +1,5 @@
-//! What an entry, an output, a layout or a block's size costs beside another: ratios of calls in turn, since single times of different
-//! moments are not to be divided by one another where a processor's clock changes.
+//! What an entry, an output, a layout or a block's size costs beside another: ratios of calls in turn, since single
+//! times of different moments are not to be divided by one another where a processor's clock changes.
 
 use std::convert::Infallible;
 use std::time::Duration;

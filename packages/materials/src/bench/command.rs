@@ -1,5 +1,5 @@
-//! `toron bench`: what a point costs here, by every way in and every set of instructions, beside what copying its numbers
-//! costs.
+//! `toron bench`: what a point costs here, by every way in and every set of instructions, beside what copying its
+//! numbers costs.
 
 use std::hint::black_box;
 use std::path::Path;
@@ -28,8 +28,8 @@ const LARGEST_HOST: usize = 4096;
 /// The law that is measured.
 pub const PRESET: &str = "kevlar-km2-600";
 
-/// Every row is timed this often, in turn, and the fastest counts: what disturbs a measurement only makes it longer. Short and many,
-/// since a processor's clock changes within a second: each row is to meet it at its fastest.
+/// Every row is timed this often, in turn, and the fastest counts: what disturbs a measurement only makes it longer.
+/// Short and many, since a processor's clock changes within a second: each row is to meet it at its fastest.
 const ROUNDS: usize = 40;
 /// The same for more points than [`LARGEST_HOST`].
 const ROUNDS_OF_MANY: usize = 7;

@@ -1,5 +1,5 @@
-//! What is measured of the hosts: their C entries, called on arrays as they keep them, in loops that do nothing else. What such a call
-//! takes in a C program is measured by `ffi-tests/speed`; `.ci/long bench` compares the two.
+//! What is measured of the hosts: their C entries, called on arrays as they keep them, in loops that do nothing else.
+//! What such a call takes in a C program is measured by `ffi-tests/speed`; `.ci/long bench` compares the two.
 
 use super::scene::Scene;
 use crate::entries::aligned::Aligned;
@@ -14,8 +14,8 @@ use toron::law::parameters::HYPERELASTIC_PROPERTIES;
 use toron::law::state::HYPERELASTIC_STATE;
 use toron_c::HyperelasticLaw;
 
-/// A C entry as its host calls it. Those for one point are called for one point after the other; but for `Point` they prepare the law
-/// at every call.
+/// A C entry as its host calls it. Those for one point are called for one point after the other; but for `Point` they
+/// prepare the law at every call.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Host {
     /// `toron_hyperelastic_point`, with a law that has been prepared.

@@ -56,8 +56,8 @@ pub fn calls_that_last<E>(duration: Duration, run: &mut impl FnMut() -> Result<(
 
 /// Seconds of a call of either side, 0 and 1, in so many pairs, each side timed over its number of calls.
 ///
-/// The sides are timed in turn: a clock that wanders slows both of a pair alike. A call that is not timed, before each timing,
-/// leaves the caches as the call itself leaves them.
+/// The sides are timed in turn: a clock that wanders slows both of a pair alike. A call that is not timed, before each
+/// timing, leaves the caches as the call itself leaves them.
 pub fn in_turn(mut call: impl FnMut(usize), calls: [usize; 2], pairs: usize) -> Vec<[f64; 2]> {
     let mut seconds = |side: usize| {
         call(side);

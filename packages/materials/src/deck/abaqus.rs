@@ -1,5 +1,6 @@
-//! Abaqus: `*MATERIAL` with `*USER MATERIAL` and `*DEPVAR`, the state variables named. Which of the library's laws runs follows from the
-//! numbers of properties and of state variables; the name of a material of another law begins with the law's.
+//! Abaqus: `*MATERIAL` with `*USER MATERIAL` and `*DEPVAR`, the state variables named. Which of the library's laws runs
+//! follows from the numbers of properties and of state variables; the name of a material of another law begins with the
+//! law's.
 
 use std::fmt::Write;
 

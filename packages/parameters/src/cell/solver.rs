@@ -92,8 +92,9 @@ pub struct Job<'a> {
 }
 
 impl Job<'_> {
-    /// Runs a deck, which it leaves as `NAME.inp`, to whatever end it comes, in the folder `NAME.ccx`, which is then removed. What
-    /// CalculiX says goes to `NAME.log`, which stays where the run fails. `progress` is told the part of the load that has been taken.
+    /// Runs a deck, which it leaves as `NAME.inp`, to whatever end it comes, in the folder `NAME.ccx`, which is then
+    /// removed. What CalculiX says goes to `NAME.log`, which stays where the run fails. `progress` is told the part of
+    /// the load that has been taken.
     ///
     /// # Errors
     /// The program cannot be started, or its files cannot be written or read.

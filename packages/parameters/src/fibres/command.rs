@@ -52,8 +52,8 @@ pub struct Arguments {
 
 /// Runs the cases of a scene and writes what came of them.
 ///
-/// A case that has no result keeps no other from having one. Returns the path of the file that the identification reads, if
-/// sections were pressed that tell its parameters.
+/// A case that has no result keeps no other from having one. Returns the path of the file that the identification
+/// reads, if sections were pressed that tell its parameters.
 ///
 /// # Errors
 /// The input, no LAMMPS, a file that cannot be written, or the cases that have no result.

@@ -1,4 +1,5 @@
-//! A case in the units of LAMMPS's `micro` (µm, pg, µs: forces in nN, energies in fJ, speeds in m/s), as its input has it.
+//! A case in the units of LAMMPS's `micro` (µm, pg, µs: forces in nN, energies in fJ, speeds in m/s), as its input has
+//! it.
 
 use super::pressed::middle::Middle;
 use super::scene::{Case, MASS, Striker, Walls, contact_dimension};
@@ -14,11 +15,11 @@ const PICOGRAM: f64 = 1e-15;
 const MICRO: f64 = 1e-6;
 /// A mean over a line of the history takes one step of so many; of a driven section, which has few beads, each.
 const STRIDE: u64 = 2;
-/// Friction brings this part of the sliding speed of two beads to rest in a step, unless Coulomb's limit is reached before: a bead
-/// has up to six neighbours.
+/// Friction brings this part of the sliding speed of two beads to rest in a step, unless Coulomb's limit is reached
+/// before: a bead has up to six neighbours.
 const STICKING: f64 = 0.2;
-/// The most neighbours' contacts that move a bead in one direction: those of a hexagonal packing make six, and twice that at the
-/// plane of symmetry, where beads have half their mass.
+/// The most neighbours' contacts that move a bead in one direction: those of a hexagonal packing make six, and twice
+/// that at the plane of symmetry, where beads have half their mass.
 const CONTACTS: f64 = 12.0;
 /// Beads that are further from mid-span than this, in radii of the projectile, never touch it.
 const NEAR: f64 = 1.5;
@@ -229,8 +230,8 @@ fn stiffest([a, b, c]: [f64; 3], diameter: f64) -> f64 {
     slope(0.0).max(slope(middle)).max(slope(0.5 * diameter))
 }
 
-/// Force over depth of a linear contact that is as far below the force of these coefficients as above it, at most, over depths up
-/// to where it is as stiff again as at the first touch.
+/// Force over depth of a linear contact that is as far below the force of these coefficients as above it, at most, over
+/// depths up to where it is as stiff again as at the first touch.
 pub fn middle_stiffness([a, b, c]: [f64; 3]) -> f64 {
     // a + bδ + cδ² is least at −b/2c.
     let least = if c > 0.0 && b < 0.0 { a - b * b / (4.0 * c) } else { a };

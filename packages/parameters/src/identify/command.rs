@@ -12,8 +12,8 @@ use toron_shared::kept_file;
 use toron_shared::run_directory::{Locked, RunDirectory, Writes};
 use toron_strikes::impact::scene::Scene;
 
-/// Fits the parameters to the data of a file and writes what came of it to the directory `output`; with a scene, also what it
-/// makes of them.
+/// Fits the parameters to the data of a file and writes what came of it to the directory `output`; with a scene, also
+/// what it makes of them.
 ///
 /// # Errors
 /// The input, data that do not suffice, a file that cannot be written, or a scene that cannot be run.

@@ -1,8 +1,8 @@
-//! Weighted least squares over several data sets: by Levenberg and Marquardt's method, with analytic derivatives, scaled
-//! parameters and the bounds of the property table.
+//! Weighted least squares over several data sets: by Levenberg and Marquardt's method, with analytic derivatives,
+//! scaled parameters and the bounds of the property table.
 //!
-//! The method itself knows no bounds. A trial beyond one is evaluated on it; what ends there is fixed, the rest is sought again,
-//! and a parameter is let go of where the squares would fall on the allowed side.
+//! The method itself knows no bounds. A trial beyond one is evaluated on it; what ends there is fixed, the rest is
+//! sought again, and a parameter is let go of where the squares would fall on the allowed side.
 
 use levenberg_marquardt::TerminationReason::{LostPatience, Numerical};
 use levenberg_marquardt::{LeastSquaresProblem, LevenbergMarquardt};
@@ -27,7 +27,8 @@ pub struct Weighted<'a> {
     pub weights: &'a [f64],
 }
 
-/// The parameters of the least squares, and there the residuals and their derivatives: not weighted, all sets' data in a row.
+/// The parameters of the least squares, and there the residuals and their derivatives: not weighted, all sets' data in
+/// a row.
 #[derive(Clone, Debug)]
 pub struct Solution {
     pub values: Values,

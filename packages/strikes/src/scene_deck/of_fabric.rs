@@ -33,7 +33,8 @@ pub fn refuse_strength(case: &str, scatters: bool) -> Result<(), Error> {
 }
 
 /// # Errors
-/// A strength that scatters, a material that the host or the deck's units cannot have, a sphere under which there is nothing.
+/// A strength that scatters, a material that the host or the deck's units cannot have, a sphere under which there is
+/// nothing.
 pub fn of_case(case: &Case, panel: &woven::Model, conversion: Conversion) -> Result<Model, Error> {
     refuse(case, panel)?;
     let used = used(case);
@@ -193,7 +194,8 @@ fn used(case: &Case) -> Vec<usize> {
     (0..of_zones).chain(own).collect()
 }
 
-/// A part for each yarn, or for each of its materials; named by both where `zones` are several, the names of the first materials.
+/// A part for each yarn, or for each of its materials; named by both where `zones` are several, the names of the first
+/// materials.
 fn parts(panel: &woven::Model, zones: &[&str], material: impl Fn(&Yarn, usize) -> usize) -> Vec<Part> {
     let mut parts = Vec::new();
     let name = |yarn| name(yarn, panel.plies() > 1);

@@ -124,7 +124,8 @@ impl Curve {
         Some(curve)
     }
 
-    /// V50 and deviation of the likeliest normal distribution, without intervals and without a check of what they are worth.
+    /// V50 and deviation of the likeliest normal distribution, without intervals and without a check of what they are
+    /// worth.
     pub fn likeliest(fates: &[Fate]) -> [f64; 2] {
         let likelihood = Likelihood::new(fates, Link::Probit, false);
         let [offset, slope, _] = likelihood.best();

@@ -45,7 +45,8 @@ impl Likelihood {
         self.shots.iter().map(one).sum()
     }
 
-    /// What is maximised: the log-likelihood, plus half the logarithm of the information's determinant with Firth's correction.
+    /// What is maximised: the log-likelihood, plus half the logarithm of the information's determinant with Firth's
+    /// correction.
     fn objective(&self, a: f64, b: f64) -> f64 {
         self.log_likelihood(a, b) + if self.firth { 0.5 * self.log_information(a, b) } else { 0.0 }
     }

@@ -450,8 +450,8 @@ impl<'a> Session<'a> {
         };
         let [step_time, total_time, increment] = [scalar(0), scalar(1), scalar(2)];
         use Array::*;
-        // SAFETY: the arguments of a VUMAT, each as long as Abaqus declares it, of the precision that the library is built for. What
-        // the subroutine does beyond is its author's affair, and this process is there to bear it.
+        // SAFETY: the arguments of a VUMAT, each as long as Abaqus declares it, of the precision that the library is
+        // built for. What the subroutine does beyond is its author's affair, and this process is there to bear it.
         unsafe {
             (self.law.vumat)(
                 block.as_mut_ptr(),

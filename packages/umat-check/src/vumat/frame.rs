@@ -179,7 +179,8 @@ pub fn isotropy(session: &mut Session) -> io::Result<Finding> {
     Ok(line(text, "axes matter"))
 }
 
-/// The largest change of the stress with the material turned beforehand, and of how many increments; none without stress.
+/// The largest change of the stress with the material turned beforehand, and of how many increments; none without
+/// stress.
 fn anisotropy(session: &mut Session) -> io::Result<Option<(f64, usize)>> {
     let mut rng = Rng::with_seed(session.material.seed ^ 0x0c);
     let (mut figure, mut compared) = (0.0_f64, 0);

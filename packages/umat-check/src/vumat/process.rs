@@ -1,5 +1,5 @@
-//! What a VUMAT does to the process that it runs in, at rest and in the data check: memory, outputs that it leaves unset, floating-point
-//! exceptions, invalid input, many random histories.
+//! What a VUMAT does to the process that it runs in, at rest and in the data check: memory, outputs that it leaves
+//! unset, floating-point exceptions, invalid input, many random histories.
 
 use std::io;
 use std::time::{Duration, Instant};
@@ -58,7 +58,8 @@ pub fn rest(session: &mut Session) -> io::Result<Finding> {
 /// The strains of a data check.
 const SMALL: f64 = 1e-6;
 
-/// The call with stepTime = totalTime = 0, which may be answered as an elastic material does: with stress, finite, along the strain.
+/// The call with stepTime = totalTime = 0, which may be answered as an elastic material does: with stress, finite,
+/// along the strain.
 ///
 /// # Errors
 /// The system has no memory.
