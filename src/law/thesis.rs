@@ -25,9 +25,13 @@ impl<N> Number for N where
 /// The elementary functions of a number type, and its numbers.
 #[derive(Clone, Copy, Debug)]
 pub struct Functions<N> {
+    /// The number of a double.
     pub number: fn(f64) -> N,
+    /// The square root.
     pub sqrt: fn(N) -> N,
+    /// The natural logarithm.
     pub ln: fn(N) -> N,
+    /// The inverse of the hyperbolic cosine.
     pub acosh: fn(N) -> N,
     /// `power(x, p)` = x^p for x > 0.
     pub power: fn(N, N) -> N,
@@ -38,6 +42,7 @@ pub struct Functions<N> {
 pub struct Yarn<N> {
     /// The fibre of these properties has unit length here.
     pub properties: Properties<N>,
+    /// Those of `N`.
     pub functions: Functions<N>,
 }
 

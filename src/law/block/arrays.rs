@@ -16,22 +16,33 @@ use crate::law::tangent::Measure;
 /// listed in [`block`](super); what is `None` is neither read, computed nor written.
 #[derive(Debug, Default)]
 pub struct Arrays<'a, T> {
-    /// The number of points; and the leading dimension of all arrays, at least `n`.
+    /// The number of points.
     pub n: usize,
+    /// The leading dimension of all arrays: from one component to the next, at least `n`.
     pub leading_dimension: usize,
+    /// 9: F by columns.
     pub deformation_gradient: &'a [T],
+    /// 3: the fibre direction of each point, of any length; `None` for that of the properties.
     pub fibre: Option<&'a [T]>,
     /// The true fibre strain at failure, ln(1 + ε_lim), of each point; 0 for that of the properties. Read where
     /// `failure` is computed.
     pub limit: Option<&'a [T]>,
     /// The reference density; used only with `wave_speed`.
     pub density: T,
+    /// 6: Cauchy stress 11 22 33 12 23 31.
     pub stress: Option<&'a mut [T]>,
+    /// 4: energies of the modes per reference volume, of elongation, compaction, distortion and longitudinal shear.
     pub energies: Option<&'a mut [T]>,
+    /// 4: strain invariants of the modes, in the same order.
     pub invariants: Option<&'a mut [T]>,
+    /// 2: the failure index, and 1 from the call on that finds it at 1 or above, else 0. A point that has failed has no
+    /// stress. `None`: no point fails.
     pub failure: Option<&'a mut [T]>,
+    /// 24: second Piola–Kirchhoff stress of each mode, 11 22 33 12 23 31.
     pub modes: Option<&'a mut [T]>,
+    /// 1: an upper bound of the wave speed, for current element lengths.
     pub wave_speed: Option<&'a mut [T]>,
+    /// 36, entry (row, column) at 6 row + column; or 81 for [`Measure::Nominal`], at 9 row + column.
     pub tangent: Option<&'a mut [T]>,
     /// The measure of `tangent`.
     pub measure: Measure,
