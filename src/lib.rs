@@ -1,11 +1,12 @@
 //! toron: the transversely isotropic hyperelastic law of a yarn, for dry fabrics under ballistic impact (P. del Sorbo,
 //! ENSAM, 2019), and the linear elastic law that it is compared with.
 //!
-//! [`law`] is the laws themselves: from a deformation gradient to a stress; [`law::thesis`] states the yarn's in a page. [`host`] is what solvers call: the C interface, Abaqus,
-//! LS-DYNA, CalculiX, OpenRadioss, MGIS. Neither needs a standard library, allocates or panics. What is made of them are
-//! packages of their own: `toron-c-functions` is the C interface, which `toron-c` exports as libtoron, `toron-calculix`
-//! and `toron-openradioss` are libraries that these solvers load, `toron-mgis` that of MGIS and MTest, `toron-program` the program `toron`: load paths on one element, a yarn under
-//! impact, tables, plots and decks.
+//! [`law`] is the laws themselves: from a deformation gradient to a stress; [`law::thesis`] states the yarn's in a
+//! page. [`host`] is what solvers call: the C interface, Abaqus, LS-DYNA, CalculiX, OpenRadioss, MGIS. Neither needs a
+//! standard library, allocates or panics. What is made of them are packages of their own: `toron-c-functions` is the C
+//! interface, which `toron-c` exports as libtoron, `toron-calculix` and `toron-openradioss` are libraries that these
+//! solvers load, `toron-mgis` that of MGIS and MTest, `toron-program` the program `toron`: load paths on one element, a
+//! yarn under impact, tables, plots and decks.
 //!
 //! One point of a Kevlar KM2 yarn, in N, mm and MPa, pulled by 2 % and pressed to 80 % across:
 //!
@@ -36,11 +37,12 @@
 //! # Ok::<(), toron::Error>(())
 //! ```
 //!
-//! The laws take deformation gradients as columns, `[[T; 3]; 3]`, or as `nalgebra::Matrix3`, where a matrix says by its type which
-//! index is the row; nalgebra is used for nothing else in the hot paths.
+//! The laws take deformation gradients as columns, `[[T; 3]; 3]`, or as `nalgebra::Matrix3`, where a matrix says by its
+//! type which index is the row; nalgebra is used for nothing else in the hot paths.
 //!
-//! The documents beside the README say the rest: `docs/reference/theory.md` the law as it is computed, `docs/guides/hosts.md` how it goes
-//! into a solver, `docs/results/validation.md` how the numbers are checked, `docs/guides/load-paths.md` what the program reads.
+//! The documents beside the README say the rest: `docs/reference/theory.md` the law as it is computed,
+//! `docs/guides/hosts.md` how it goes into a solver, `docs/results/validation.md` how the numbers are checked,
+//! `docs/guides/load-paths.md` what the program reads.
 
 #![cfg_attr(not(test), no_std)]
 

@@ -1,5 +1,5 @@
-//! Failure limits of points in variables of the hosts': a host with such a variable gives what it gives with that limit among the
-//! properties. MGIS has the property itself by point.
+//! Failure limits of points in variables of the hosts': a host with such a variable gives what it gives with that limit
+//! among the properties. MGIS has the property itself by point.
 
 use std::array;
 use std::ffi::c_char;
@@ -64,8 +64,8 @@ fn near(found: &[f64], wanted: &[f64], what: &str) {
     assert!(found.len() == wanted.len() && apart.fold(0.0, f64::max) < 1e-12, "{what}: {found:?} {wanted:?}");
 }
 
-/// Runs a host's point along the path, with the limit among the properties and in a variable, whose value is `state[place]`. The host
-/// gets the card, the state and F at both ends.
+/// Runs a host's point along the path, with the limit among the properties and in a variable, whose value is
+/// `state[place]`. The host gets the card, the state and F at both ends.
 fn compare<L: Limited>(
     what: &str,
     place: usize,

@@ -1,6 +1,6 @@
-//! The linear elastic law in Abaqus, LS-DYNA and CalculiX, each called as the solver does along a path of large rotations, shears and
-//! stretches: stress, state, energy and tangent against the law's own steps; failure, points that cannot be evaluated, plane
-//! elements, and what is refused.
+//! The linear elastic law in Abaqus, LS-DYNA and CalculiX, each called as the solver does along a path of large
+//! rotations, shears and stretches: stress, state, energy and tangent against the law's own steps; failure, points that
+//! cannot be evaluated, plane elements, and what is refused.
 
 use std::ffi::c_char;
 use std::ptr::null_mut;
@@ -505,7 +505,8 @@ fn lsdyna_routines() {
     }
 }
 
-/// With material axes (IHYPER = −1, IORTHO = 1) LS-DYNA hands over F Z0ᵀ: the stress must be that of the fibre along the first axis.
+/// With material axes (IHYPER = −1, IORTHO = 1) LS-DYNA hands over F Z0ᵀ: the stress must be that of the fibre along
+/// the first axis.
 #[test]
 fn lsdyna_with_material_axes() {
     let axes = Rotation3::from_euler_angles(0.4, -0.7, 1.1).into_inner(); // columns

@@ -160,7 +160,8 @@ impl Fortran {
             Loaded::Point(routine) => {
                 for OnePoint { deformation_gradient, stress, state, status } in &mut scene.points {
                     let (properties, f) = (properties.as_ptr(), deformation_gradient.as_ptr());
-                    // SAFETY: eleven properties, nine numbers of F by columns, six of the stress, eleven state variables.
+                    // SAFETY: eleven properties, nine numbers of F by columns, six of the stress, eleven state
+                    // variables.
                     unsafe { routine(properties, f, stress.as_mut_ptr(), state.as_mut_ptr(), status) };
                 }
             }

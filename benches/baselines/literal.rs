@@ -1,5 +1,5 @@
-//! The law as the thesis prints it, in double precision: invariants of C (Eq. 4.9), second Piola–Kirchhoff stress (Eq. 4.14),
-//! push-forward.
+//! The law as the thesis prints it, in double precision: invariants of C (Eq. 4.9), second Piola–Kirchhoff stress (Eq.
+//! 4.14), push-forward.
 
 use nalgebra::Matrix3;
 use toron::law::state::{FAILED, HYPERELASTIC_STATE};

@@ -38,8 +38,8 @@ pub struct Ratio {
     times: Quartiles,
 }
 
-/// The errors of the stress over the truth cases: |σ − truth|/(|truth| + K), K being what rounding F by one part does to
-/// the stress. An answer as good as its input allows has the unit roundoff here, 1.1e−16 or 6e−8.
+/// The errors of the stress over the truth cases: |σ − truth|/(|truth| + K), K being what rounding F by one part does
+/// to the stress. An answer as good as its input allows has the unit roundoff here, 1.1e−16 or 6e−8.
 #[derive(Default, Serialize)]
 pub struct Accuracy {
     /// By category; the report keeps the worst and the median.
@@ -92,8 +92,8 @@ pub struct Row {
     pub family: Family,
     /// The compiler's flags, where they are not the benchmark's own.
     pub flags: String,
-    /// Nanoseconds a point over all samples of all rounds, by size. The tables use the least: what disturbs a measurement
-    /// only makes it longer.
+    /// Nanoseconds a point over all samples of all rounds, by size. The tables use the least: what disturbs a
+    /// measurement only makes it longer.
     pub timings: Vec<Quartiles>,
     /// `None` where no law is evaluated.
     pub accuracy: Option<Accuracy>,

@@ -696,8 +696,8 @@ linear_elastic!(
     toron_linear_elastic_block_with_properties_f32
 );
 
-/// The starter and cycles of both laws, with fibre directions from the card, the nodes and initial values; points that fail and that
-/// cannot be evaluated; no deformation gradient.
+/// The starter and cycles of both laws, with fibre directions from the card, the nodes and initial values; points that
+/// fail and that cannot be evaluated; no deformation gradient.
 macro_rules! openradioss {
     ($test:ident, $t:ty, $read_card:path, $write_line:path, $group:path) => {
         #[test]

@@ -15,7 +15,8 @@ use toron_shared::error::Error;
 use toron_shared::{build, command_line};
 use toron_strikes::{compare, fabric, impact, scene_deck, v50};
 
-/// A user-material library for yarns and dry fabrics: load paths on one element, struck yarns and panels, property tables, decks.
+/// A user-material library for yarns and dry fabrics: load paths on one element, struck yarns and panels, property
+/// tables, decks.
 #[derive(Parser)]
 #[command(name = "toron", version = params::version())]
 struct Arguments {
@@ -180,7 +181,7 @@ fn run(command: Command) -> Result<(), Error> {
         #[cfg(target_os = "linux")]
         Command::Check(arguments) => umat_check::command::run("toron check", &arguments),
         #[cfg(target_os = "linux")]
-        Command::CheckChild { request } => umat_check::child::answer(&request),
+        Command::CheckChild { request } => umat_check::child::run(&request),
         Command::Compare(arguments) => compare::command::run(&arguments),
         Command::Eval { via, tangent } => eval::command::lines(via, tangent),
         Command::Bench { output } => bench::command::run(output.as_deref()),

@@ -1,5 +1,5 @@
-//! Abaqus: the symbols `umat_` and `vumat_` that its programs look for, and the end of a job whose deck is wrong, by the routines of the
-//! running program.
+//! Abaqus: the symbols `umat_` and `vumat_` that its programs look for, and the end of a job whose deck is wrong, by
+//! the routines of the running program.
 
 use std::ffi::{CStr, c_char};
 use std::io::Write;
@@ -10,10 +10,12 @@ pub const CAPACITY: usize = toron::host::constants::TORON_MESSAGE_CAPACITY;
 /// The exit code where Abaqus's own routine is not found.
 const ERROR: i32 = 1;
 
-/// The codes below are those of a deck that is wrong; those above, of a point that cannot be evaluated, for which the job goes on.
+/// The codes below are those of a deck that is wrong; those above, of a point that cannot be evaluated, for which the
+/// job goes on.
 const WORST_OF_A_DECK: i32 = -300;
 
-/// Of plane elements whose material does not say that they are no plane-stress ones, which have the same numbers of components.
+/// Of plane elements whose material does not say that they are no plane-stress ones, which have the same numbers of
+/// components.
 const PLANE_STRESS: &str = "NSHR = 1, as of plane stress, which the laws do not have; for plane strain and axisymmetric solids let \
     the name of the material end in _PSTRAIN or _AXIS";
 
@@ -39,7 +41,8 @@ pub unsafe fn named(cmname: *const c_char, names: &'static [&'static str]) -> Op
     names.iter().copied().filter(begins).max_by_key(|name| name.len())
 }
 
-/// Ends the job where the status is that of a deck that is wrong, with the library's message, by this routine of Abaqus.
+/// Ends the job where the status is that of a deck that is wrong, with the library's message, by this routine of
+/// Abaqus.
 ///
 /// # Safety
 /// Abaqus's promise: `cmname` has 80 characters; and the library's: a message with such a status ends in a null.
@@ -102,9 +105,9 @@ unsafe fn end_job(cmname: *const c_char, text: &str, routine: &CStr) {
     std::process::exit(ERROR);
 }
 
-/// The symbols that Abaqus looks for, of laws told apart by the material's name, and for each law the functions `NAME_abaqus_umat_f64`
-/// and `NAME_abaqus_vumat_f64`, or `NAME_abaqus_vumat_f32`, with the arguments of `toron_abaqus_linear_umat_f64` and
-/// `toron_abaqus_vumat_f64`.
+/// The symbols that Abaqus looks for, of laws told apart by the material's name, and for each law the functions
+/// `NAME_abaqus_umat_f64` and `NAME_abaqus_vumat_f64`, or `NAME_abaqus_vumat_f32`, with the arguments of
+/// `toron_abaqus_linear_umat_f64` and `toron_abaqus_vumat_f64`.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! abaqus {
@@ -172,8 +175,8 @@ macro_rules! abaqus {
     };
 }
 
-/// The symbol `umat_` of Abaqus/Standard. The law is the first whose pattern is that of `choice`, computed from CMNAME and the numbers
-/// of properties and state variables; without one the job ends with these names of laws.
+/// The symbol `umat_` of Abaqus/Standard. The law is the first whose pattern is that of `choice`, computed from CMNAME
+/// and the numbers of properties and state variables; without one the job ends with these names of laws.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! abaqus_umat {
@@ -227,7 +230,8 @@ macro_rules! abaqus_umat {
             const CAPACITY: usize = $crate::abaqus::CAPACITY;
             let mut message = [0; CAPACITY];
             let text = message.as_mut_ptr();
-            // SAFETY: Abaqus's arrays, as long as `Umat` says, its numbers, and JSTEP(4), whose third is 1 with NLGEOM=YES.
+            // SAFETY: Abaqus's arrays, as long as `Umat` says, its numbers, and JSTEP(4), whose third is 1 with
+            // NLGEOM=YES.
             unsafe {
                 let call = $crate::toron::host::abaqus::Umat {
                     stress,
@@ -260,7 +264,8 @@ macro_rules! abaqus_umat {
     };
 }
 
-/// The symbol `vumat_` of Abaqus/Explicit, for jobs whose real numbers are of type `$t`. The law is chosen as in `abaqus_umat!`.
+/// The symbol `vumat_` of Abaqus/Explicit, for jobs whose real numbers are of type `$t`. The law is chosen as in
+/// `abaqus_umat!`.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! abaqus_vumat {

@@ -1,5 +1,5 @@
-//! CalculiX: for each law the function that it looks for, by the name behind `@LIBRARY_`. A call with wrong properties prints what is
-//! wrong and ends the job.
+//! CalculiX: for each law the function that it looks for, by the name behind `@LIBRARY_`. A call with wrong properties
+//! prints what is wrong and ends the job.
 
 #[doc(hidden)]
 #[macro_export]

@@ -1,15 +1,15 @@
-//! What makes a library of a material law for every solver: the symbols that each of them looks for, and the routines of the solver
-//! by which a job with a wrong deck ends.
+//! What makes a library of a material law for every solver: the symbols that each of them looks for, and the routines
+//! of the solver by which a job with a wrong deck ends.
 //!
-//! A library for all of them, of a law of your own and of whatever laws are to be beside it, is a package of crate type `cdylib`
-//! (`staticlib` too, for LS-DYNA's shims) with this as its only content:
+//! A library for all of them, of a law of your own and of whatever laws are to be beside it, is a package of crate type
+//! `cdylib` (`staticlib` too, for LS-DYNA's shims) with this as its only content:
 //!
 //! ```ignore
 //! toron_solvers::export! { f64; ReinforcedSolid as "REINFORCED", user 3; }
 //! ```
 //!
-//! The name is that of the law in every solver; see `docs/guides/own-law.md`. The libraries of toron's own laws are made by the same
-//! macros, one for each solver.
+//! The name is that of the law in every solver; see `docs/guides/own-law.md`. The libraries of toron's own laws are
+//! made by the same macros, one for each solver.
 
 #[doc(hidden)]
 pub mod abaqus;
@@ -30,12 +30,12 @@ pub use c::c_header;
 #[doc(hidden)]
 pub use {libc, toron};
 
-/// Exports laws to every solver, in the precision of the solver's real numbers, `f64` or `f32`. CalculiX and MFront's loaders have double
-/// precision alone.
+/// Exports laws to every solver, in the precision of the solver's real numbers, `f64` or `f32`. CalculiX and MFront's
+/// loaders have double precision alone.
 ///
-/// For each law its type ([`UserMaterial`](toron::user::UserMaterial), or toron's own [`Hyperelastic`](toron::Hyperelastic) and
-/// [`LinearElastic`](toron::LinearElastic)), its name, a C identifier in capitals, and its number in OpenRadioss, `/MAT/USERnn`. Two laws
-/// of one name or number do not compile:
+/// For each law its type ([`UserMaterial`](toron::user::UserMaterial), or toron's own
+/// [`Hyperelastic`](toron::Hyperelastic) and [`LinearElastic`](toron::LinearElastic)), its name, a C identifier in
+/// capitals, and its number in OpenRadioss, `/MAT/USERnn`. Two laws of one name or number do not compile:
 ///
 /// ```no_run
 /// toron_solvers::export! { f64; toron::Hyperelastic as "YARN", user 1; toron::LinearElastic as "LINEAR", user 2; }

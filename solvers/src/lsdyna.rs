@@ -1,5 +1,5 @@
-//! LS-DYNA: the functions that the shims in `fortran-shim/` call. For a law of name NAME and precision T, f64 or f32, they are
-//! `NAME_lsdyna_umat_T`, `NAME_lsdyna_umat_vector_T`, `NAME_lsdyna_utan_T`, `NAME_lsdyna_utan_vector_T` and
+//! LS-DYNA: the functions that the shims in `fortran-shim/` call. For a law of name NAME and precision T, f64 or f32,
+//! they are `NAME_lsdyna_umat_T`, `NAME_lsdyna_umat_vector_T`, `NAME_lsdyna_utan_T`, `NAME_lsdyna_utan_vector_T` and
 //! `NAME_lsdyna_bulk_and_shear_T`, with the arguments of the functions of package `toron-c` that have `toron` for NAME.
 
 #[doc(hidden)]

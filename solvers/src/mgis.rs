@@ -1,6 +1,6 @@
-//! MGIS, MTest and whatever else loads the libraries that MFront generates: `BEHAVIOUR_HYPOTHESIS` is the function, and `BEHAVIOUR_...`
-//! are the data that describe it, the same for all hypotheses. Values that are refused have no symbols here: their names, those of
-//! properties, cannot be computed.
+//! MGIS, MTest and whatever else loads the libraries that MFront generates: `BEHAVIOUR_HYPOTHESIS` is the function, and
+//! `BEHAVIOUR_...` are the data that describe it, the same for all hypotheses. Values that are refused have no symbols
+//! here: their names, those of properties, cannot be computed.
 
 #[doc(hidden)]
 #[macro_export]
@@ -73,15 +73,17 @@ macro_rules! mgis {
                 $crate::mgis! { @ $name, "nInitializeFunctions", INITIALIZER_COUNT: u16 = 0 }
                 $crate::mgis! { @ $name, "nPostProcessings", POST_PROCESSING_COUNT: u16 = 0 }
 
-                /// What a host does about values out of bounds: 0 nothing, 1 a warning, 2 an error. It has no effect: properties out
-                /// of bounds are always refused, since the law has no meaning there, and no variable has bounds.
+                /// What a host does about values out of bounds: 0 nothing, 1 a warning, 2 an error. It has no effect:
+                /// properties out of bounds are always refused, since the law has no meaning there, and no variable has
+                /// bounds.
                 #[unsafe(export_name = concat!($name, "_setOutOfBoundsPolicy"))]
                 pub extern "C" fn set_out_of_bounds_policy(_policy: i32) {}
 
                 /// The law in three dimensions.
                 ///
                 /// # Safety
-                /// MGIS's promise: `view` points to the data of a call, whose arrays have the sizes that the symbols tell.
+                /// MGIS's promise: `view` points to the data of a call, whose arrays have the sizes that the symbols
+                /// tell.
                 #[unsafe(export_name = concat!($name, "_Tridimensional"))]
                 pub unsafe extern "C" fn tridimensional(view: *mut $crate::toron::host::mgis::BehaviourDataView) -> i32 {
                     // SAFETY: the view is MGIS's.

@@ -104,7 +104,9 @@ impl UnitSystem {
 /// A unit of some dimension in SI units: `factor` · 10^`exponent`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Scale {
+    /// The power of ten.
     pub exponent: i32,
+    /// Its factor; 1 in most systems.
     pub factor: f64,
 }
 

@@ -1,9 +1,10 @@
 //! The acoustic tensor of a state: the speeds of its waves, and whether the material is elliptic.
 //!
-//! For a wave of direction n and polarisation u the acoustic tensor times the reference density is u·ρ0 Q(n)u = c:(n⊗u)(n⊗u) +
-//! n·τn, with c the Truesdell modulus and τ the Kirchhoff stress. For a given n the extreme u is an eigenvector of Q(n), for a
-//! given u the extreme n is one of c:(·⊗u)(·⊗u) + τ. Alternating between the two converges to an extremum without a gradient or
-//! a step length; starts from many directions about the current frame find all extrema.
+//! For a wave of direction n and polarisation u the acoustic tensor times the reference density is u·ρ0 Q(n)u =
+//! c:(n⊗u)(n⊗u) + n·τn, with c the Truesdell modulus and τ the Kirchhoff stress. For a given n the extreme u is an
+//! eigenvector of Q(n), for a given u the extreme n is one of c:(·⊗u)(·⊗u) + τ. Alternating between the two converges
+//! to an extremum without a gradient or a step length; starts from many directions about the current frame find all
+//! extrema.
 
 use super::hyperelastic::Hyperelastic;
 use super::kinematics::{Decomposition, FibreFrame, Kinematics, Logarithms, Section, Strain, Stretch};
@@ -16,8 +17,8 @@ use super::stress::principal_axes;
 use super::tangent::Measure;
 use super::voigt::{VOIGT, columns};
 
-/// The directions to start from have whole numbers up to this one as components: 109 directions, none farther than 14° from the
-/// next.
+/// The directions to start from have whole numbers up to this one as components: 109 directions, none farther than 14°
+/// from the next.
 const FINENESS: i32 = 3;
 /// The most iterations from each start, and finally from the best result.
 const ITERATIONS: i32 = 8;
@@ -34,7 +35,8 @@ pub struct Wave {
 /// The acoustic tensors of one state.
 #[derive(Clone, Copy, Debug)]
 pub struct Acoustic {
-    /// Truesdell modulus of the Cauchy stress, Cauchy stress, and J, by which both are multiplied for the Kirchhoff stress.
+    /// Truesdell modulus of the Cauchy stress, Cauchy stress, and J, by which both are multiplied for the Kirchhoff
+    /// stress.
     modulus: [[f64; 6]; 6],
     stress: [f64; 6],
     jacobian: f64,
@@ -43,8 +45,8 @@ pub struct Acoustic {
 }
 
 impl Hyperelastic<f64> {
-    /// The acoustic tensors of the intact material at `f` (columns of F); `fibre` is a fibre direction of any length, or `None`
-    /// for that of the properties.
+    /// The acoustic tensors of the intact material at `f` (columns of F); `fibre` is a fibre direction of any length,
+    /// or `None` for that of the properties.
     ///
     /// # Errors
     /// The status code of a point that cannot be evaluated.
@@ -78,8 +80,8 @@ impl Acoustic {
         q
     }
 
-    /// The tensor A(u) = c:(·⊗u)(·⊗u) + τ with ρ0 v² = n·A n for waves of polarisation u, 11 22 33 12 23 31. Its extreme
-    /// eigenvalues are those over all directions n.
+    /// The tensor A(u) = c:(·⊗u)(·⊗u) + τ with ρ0 v² = n·A n for waves of polarisation u, 11 22 33 12 23 31. Its
+    /// extreme eigenvalues are those over all directions n.
     pub fn tensor_of_directions(&self, u: [f64; 3]) -> [f64; 6] {
         let mut tensor = self.contracted(u);
         for (entry, &stress) in tensor.iter_mut().zip(&self.stress) {

@@ -8,10 +8,11 @@ use super::tangent::{Bases, Measure};
 
 /// A derivative of N numbers, computed at a point besides its stress and state.
 ///
-/// This is a trait and not a closure: a closure that the compiler does not inline is compiled without the instructions (AVX2,
-/// FMA) of the function that calls it.
+/// This is a trait and not a closure: a closure that the compiler does not inline is compiled without the instructions
+/// (AVX2, FMA) of the function that calls it.
 pub(crate) trait Derivative<const N: usize>: Copy {
-    /// Whether the tensors of the spatial moduli are computed before the invariants, for which the processor waits long.
+    /// Whether the tensors of the spatial moduli are computed before the invariants, for which the processor waits
+    /// long.
     const EARLY: bool = false;
     /// The same derivative with its request as a value at run time. The functions of `Hyperelastic` are
     /// compiled for these types only.
@@ -26,8 +27,8 @@ pub(crate) trait Derivative<const N: usize>: Copy {
     /// Which tangent, if any.
     fn measure(self) -> Option<Measure>;
 
-    /// The N numbers. `n` are the axes of the fibre; `along_coordinates` says whether these are the coordinate axes. `early` is there
-    /// if [`EARLY`](Self::EARLY) is set.
+    /// The N numbers. `n` are the axes of the fibre; `along_coordinates` says whether these are the coordinate axes.
+    /// `early` is there if [`EARLY`](Self::EARLY) is set.
     fn of<R: Real>(
         self,
         point: Deformed<'_, R>,

@@ -45,7 +45,8 @@ impl<R: Real> Failure<R> {
         Failure { limit, inverse_limit: one / limit, threshold, alpha, beta }
     }
 
-    /// The same criterion with `limit` = ln(1 + ε_lim) for a point that has a limit of its own; where that is 0, the criterion itself.
+    /// The same criterion with `limit` = ln(1 + ε_lim) for a point that has a limit of its own; where that is 0, the
+    /// criterion itself.
     #[inline(always)]
     pub fn at(self, limit: R) -> Self {
         let zero = R::splat(0.0);

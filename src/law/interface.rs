@@ -1,5 +1,5 @@
-//! What a host asks of a law: its description, its preparation from properties, and a step at many points. A host that is written for
-//! any [`Law`] names none.
+//! What a host asks of a law: its description, its preparation from properties, and a step at many points. A host that
+//! is written for any [`Law`] names none.
 
 pub use super::block::Points;
 use super::block::{PARTS, Precision, evaluate, parts};
@@ -13,18 +13,19 @@ use super::state::{HYPERELASTIC_PARTS, HYPERELASTIC_STATE, LINEAR_ELASTIC_STATE}
 /// A law, prepared from its properties.
 ///
 /// # Safety
-/// `State` is an array of as many numbers as the description has state variables, and [`step`](Self::step) accesses no memory of the
-/// points but what [`Points`] says.
+/// `State` is an array of as many numbers as the description has state variables, and [`step`](Self::step) accesses no
+/// memory of the points but what [`Points`] says.
 pub unsafe trait Law<T: Precision>: Copy {
     const DESCRIPTION: Description;
     /// Whether a point may have a failure limit of its own, [`Points::limit`].
     const HAS_LIMIT: bool = false;
-    /// Whether a point may have a second axis, or axes that are kept, of its own: [`Points::second_axis`], [`Points::axes`].
+    /// Whether a point may have a second axis, or axes that are kept, of its own: [`Points::second_axis`],
+    /// [`Points::axes`].
     const HAS_AXES: bool = false;
     /// Whether the law tells the stress by mode, [`Points::modes`].
     const HAS_MODES: bool = false;
-    /// The number of variables in each part of the state that may be an array of its own, 0 for a part that there is not; the last one
-    /// has the latch.
+    /// The number of variables in each part of the state that may be an array of its own, 0 for a part that there is
+    /// not; the last one has the latch.
     const PARTS: [usize; PARTS] = [Self::DESCRIPTION.state.len(), 0, 0];
     /// The state variables of a point.
     type State: Copy + AsRef<[T]> + AsMut<[T]>;
@@ -41,8 +42,8 @@ pub unsafe trait Law<T: Precision>: Copy {
     /// The material axes in the reference placement: fibre, second axis, third axis.
     fn axes(&self) -> [[f64; 3]; 3];
 
-    /// Bulk and shear modulus of an isotropic solid in which no wave is slower than the law's fastest one at rest, or that along the
-    /// fibre: for hosts that compute their time step and contact stiffness from two elastic constants.
+    /// Bulk and shear modulus of an isotropic solid in which no wave is slower than the law's fastest one at rest, or
+    /// that along the fibre: for hosts that compute their time step and contact stiffness from two elastic constants.
     fn bulk_and_shear(&self) -> [T; 2];
 
     /// The parts of a state whose variables are the rows of one array; null if that is.
@@ -60,8 +61,9 @@ pub unsafe trait Law<T: Precision>: Copy {
     /// Evaluates a step at every point. Returns the worst (most negative) of the status codes.
     ///
     /// # Errors
-    /// A null deformation gradient, an array that points of this law do not have, null axes for a frame that is kept there, a leading dimension with which entries of an array overlap,
-    /// a density that is not positive if the wave speed is requested.
+    /// A null deformation gradient, an array that points of this law do not have, null axes for a frame that is kept
+    /// there, a leading dimension with which entries of an array overlap, a density that is not positive if the wave
+    /// speed is requested.
     ///
     /// # Safety
     /// The points are valid, see [`Points`].

@@ -1,4 +1,5 @@
-//! The property tables of both laws and their presets, from which messages, the C interface, documents and decks are made.
+//! The property tables of both laws and their presets, from which messages, the C interface, documents and decks are
+//! made.
 
 /// The physical dimension of a quantity, as exponents of mass, length and time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -86,8 +87,8 @@ pub const fn component(name: &'static str, symbol: &'static str, default: f64, m
 
 /// Number of properties of the hyperelastic law.
 pub const HYPERELASTIC_PROPERTIES: usize = 11;
-/// Indices among the properties of the hyperelastic law: the strain at failure, the weights of multiaxial failure, and the first
-/// component of the fibre direction.
+/// Indices among the properties of the hyperelastic law: the strain at failure, the weights of multiaxial failure, and
+/// the first component of the fibre direction.
 pub const EPS_LIM: usize = place(&HYPERELASTIC, "eps_lim");
 pub const ALPHA: usize = place(&HYPERELASTIC, "alpha");
 pub const BETA: usize = place(&HYPERELASTIC, "beta");
@@ -147,8 +148,8 @@ const MOST_FRICTION: f64 = 1.0 - f32::EPSILON as f64 / 2.0;
 
 /// Number of properties of the linear elastic law.
 pub const LINEAR_ELASTIC_PROPERTIES: usize = 10;
-/// Indices among the properties of the linear elastic law: the stress at failure, and the first components of the fibre direction
-/// and of the second axis.
+/// Indices among the properties of the linear elastic law: the stress at failure, and the first components of the fibre
+/// direction and of the second axis.
 pub const SIGMA_LIM: usize = place(&LINEAR_ELASTIC, "sigma_lim");
 pub(crate) const LINEAR_FIBRE: usize = place(&LINEAR_ELASTIC, "m_1");
 pub(crate) const LINEAR_SECOND_AXIS: usize = place(&LINEAR_ELASTIC, "n_1");
@@ -186,7 +187,8 @@ pub const fn same(a: &str, b: &str) -> bool {
     i == a.len() && i == b.len()
 }
 
-/// The index of the property of this name; for constants: a name that the table does not have is an error at compile time.
+/// The index of the property of this name; for constants: a name that the table does not have is an error at compile
+/// time.
 pub const fn place(table: &[Property], name: &str) -> usize {
     let mut i = 0;
     while !same(table[i].name, name) {

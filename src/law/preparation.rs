@@ -53,8 +53,8 @@ impl<T: Real + Into<f64>> Hyperelastic<T> {
     ///
     /// # Errors
     /// The first property that is wrong, those of failure included.
-    // A call for one point prepares the law every time. Inlined, each number is used as soon as it has been computed; if the
-    // law were copied as a whole, all of them would have to be computed first.
+    // A call for one point prepares the law every time. Inlined, each number is used as soon as it has been computed;
+    // if the law were copied as a whole, all of them would have to be computed first.
     #[inline(always)]
     pub(super) fn prepare(properties: &[T], frame: &PropertyFrame<T>) -> Result<Self, Error> {
         const LIMITS: [[f64; HYPERELASTIC_PROPERTIES]; 2] = limits(&parameters::HYPERELASTIC);
@@ -167,8 +167,8 @@ impl<T: Real + Into<f64>> PropertyFrame<T> {
 /// Below this compaction W″ is limited if p ≤ 2: for p < 2 it is infinite at 0.
 const COMPACTION_FLOOR: f64 = 1e-8;
 
-/// The compaction up to which W″ = p(p − 1) k_tc i^(p−2) is replaced by a constant, and that constant. For p > 2 it is 0, and
-/// replaces W″ only where i^(p−1) underflows to 0 too, so that no quotient overflows.
+/// The compaction up to which W″ = p(p − 1) k_tc i^(p−2) is replaced by a constant, and that constant. For p > 2 it is
+/// 0, and replaces W″ only where i^(p−1) underflows to 0 too, so that no quotient overflows.
 #[inline(always)]
 fn curvature_limit<T: Real + Into<f64>>(k_tc: T, p: T, exponent: &Exponent<T>) -> [T; 2] {
     if p.into() > 2.0 {

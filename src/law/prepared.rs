@@ -1,5 +1,5 @@
-//! Prepared laws as plain numbers: a host may store them, copy them and send them to other processes, and a law comes back from
-//! them without a check and without arithmetic.
+//! Prepared laws as plain numbers: a host may store them, copy them and send them to other processes, and a law comes
+//! back from them without a check and without arithmetic.
 
 use super::error::Error;
 use super::failure::Failure;
@@ -12,14 +12,14 @@ use super::number::real::{Real, Single};
 use super::point::Source;
 use super::preparation::PropertyFrame;
 
-/// A prepared hyperelastic law: k_el, k_tc, p, k_td, k_ld, the numbers of the exponent, of W″ near zero compaction and of the
-/// failure criterion, the axes m, t1 and t2, and 1 where the fibre lies along the first coordinate axis.
+/// A prepared hyperelastic law: k_el, k_tc, p, k_td, k_ld, the numbers of the exponent, of W″ near zero compaction and
+/// of the failure criterion, the axes m, t1 and t2, and 1 where the fibre lies along the first coordinate axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(transparent)]
 pub struct PreparedHyperelastic<T>(pub [T; PreparedHyperelastic::<f64>::COUNT]);
 
-/// A prepared linear elastic law: the six stiffnesses, the stress at failure, the three axes, and the second axis of the
-/// properties as a unit vector, or 0.
+/// A prepared linear elastic law: the six stiffnesses, the stress at failure, the three axes, and the second axis of
+/// the properties as a unit vector, or 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(transparent)]
 pub struct PreparedLinearElastic<T>(pub [T; PreparedLinearElastic::<f64>::COUNT]);
@@ -121,8 +121,8 @@ impl<T: Real + Into<f64>> PreparedHyperelastic<T> {
 }
 
 impl<T: Real> PreparedHyperelastic<T> {
-    /// The same law, not known to have its fibre along the first axis: evaluated in the axes of any fibre, whose results differ from those
-    /// of the first axis in the last digits.
+    /// The same law, not known to have its fibre along the first axis: evaluated in the axes of any fibre, whose
+    /// results differ from those of the first axis in the last digits.
     #[inline(always)]
     pub(crate) fn with_axes_of_any_fibre(self) -> Self {
         let PreparedHyperelastic(mut numbers) = self;

@@ -1,4 +1,5 @@
-//! The results of the law at a point: what a caller requests, and what becomes of it if the point fails or cannot be evaluated.
+//! The results of the law at a point: what a caller requests, and what becomes of it if the point fails or cannot be
+//! evaluated.
 
 use super::failure::Failure;
 use super::hyperelastic::{Deformed, Hyperelastic, Kirchhoff};
@@ -37,18 +38,20 @@ pub(crate) struct Response<R: Real> {
     /// Cauchy stress 11 22 33 12 23 31: that of the intact material in the call that detects failure, 0 in later calls;
     /// undefined where `latch_or_nan` is NaN.
     pub stress: [R; 6],
-    /// S_el, S_tc, S_td, S_ld: second Piola–Kirchhoff stress by mode, each 11 22 33 12 23 31; 0 where `updated` does not hold.
+    /// S_el, S_tc, S_td, S_ld: second Piola–Kirchhoff stress by mode, each 11 22 33 12 23 31; 0 where `updated` does
+    /// not hold.
     pub modes: [[R; 6]; 4],
     /// ρ0 c² for an upper bound c of the wave speed, at least k_el.
     pub wave_modulus: R,
-    /// The old latch, or NaN where the point cannot be evaluated; [`status_code`](Hyperelastic::status_code) gives the reason.
+    /// The old latch, or NaN where the point cannot be evaluated; [`status_code`](Hyperelastic::status_code) gives the
+    /// reason.
     pub latch_or_nan: R,
     /// Where the point gets a new state: it has not failed before and can be evaluated.
     pub updated: R::Mask,
 }
 
-/// The new state of a point. Where [`Response::updated`] does not hold, energies, invariants and index are undefined, and the
-/// caller keeps the old ones.
+/// The new state of a point. Where [`Response::updated`] does not hold, energies, invariants and index are undefined,
+/// and the caller keeps the old ones.
 #[derive(Clone, Copy)]
 pub(crate) struct History<R> {
     /// W_el, W_tc, W_td, W_ld; I_el, I_tc, I_td, I_ld; failure index.
@@ -60,8 +63,8 @@ pub(crate) struct History<R> {
 }
 
 impl<R: Real> Deformed<'_, R> {
-    /// The results at a point except its new state. `nan_if_invalid` is 0 where the kinematics are valid, else NaN; `latch` is
-    /// that of the old state.
+    /// The results at a point except its new state. `nan_if_invalid` is 0 where the kinematics are valid, else NaN;
+    /// `latch` is that of the old state.
     ///
     /// The wave modulus is finite at every point, the other results wherever the point can be evaluated.
     #[inline(always)]
@@ -74,9 +77,10 @@ impl<R: Real> Deformed<'_, R> {
         let intact = Failure::intact(latch_or_nan);
         let stress = if request.stress { law.cauchy(kinematics, k, intact, shear) } else { [zero; 6] };
 
-        // A product with zero is NaN for a result that is not finite. With the bounds of the properties the invariants, the
-        // index and the energies are finite wherever the kinematics are valid, except the energy of the longitudinal shear. If
-        // the compaction energy overflows, so does the stress, so that it is checked only if the stress is not requested.
+        // A product with zero is NaN for a result that is not finite. With the bounds of the properties the invariants,
+        // the index and the energies are finite wherever the kinematics are valid, except the energy of the
+        // longitudinal shear. If the compaction energy overflows, so does the stress, so that it is checked only if the
+        // stress is not requested.
         if !R::WIDE_RANGE || shear {
             let sum = (stress[0] + stress[1]) + (stress[2] + stress[3]) + (stress[4] + stress[5]);
             latch_or_nan = sum.mul_add(zero, latch_or_nan);
@@ -136,9 +140,9 @@ impl<R: Real> Hyperelastic<R> {
         }
     }
 
-    /// The status code, as a number, of a point whose state is not updated: the reason why it cannot be evaluated, or 0 if it
-    /// has failed before. `usable` says whether its fibre direction is finite and not zero, `limit` whether a limit of its own is
-    /// allowed, if it has one.
+    /// The status code, as a number, of a point whose state is not updated: the reason why it cannot be evaluated, or 0
+    /// if it has failed before. `usable` says whether its fibre direction is finite and not zero, `limit` whether a
+    /// limit of its own is allowed, if it has one.
     #[inline(always)]
     pub(crate) fn status_code(
         &self,
@@ -159,8 +163,8 @@ impl<R: Real> Hyperelastic<R> {
             }
         }
         let inverted = (d.jacobian.le(zero) | d.square.le(zero)) & size.lt(R::splat(R::SQUARES.1));
-        // Later lines take precedence. In this order: latch set, F not finite, fibre direction or limit not usable, F inverted, else
-        // overflow.
+        // Later lines take precedence. In this order: latch set, F not finite, fibre direction or limit not usable, F
+        // inverted, else overflow.
         let error = R::select(inverted, code(status::INVERTED), code(status::OVERFLOW));
         let error = match limit {
             Some(allowed) => R::select(allowed, error, code(status::LIMIT)),

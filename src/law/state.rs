@@ -23,16 +23,16 @@ pub const fn row(
 
 /// Number of state variables of the hyperelastic law.
 pub const HYPERELASTIC_STATE: usize = 11;
-/// Indices into the state of the hyperelastic law: the first of four energies, the first of four invariants, the failure index,
-/// the latch, and the flag for element deletion.
+/// Indices into the state of the hyperelastic law: the first of four energies, the first of four invariants, the
+/// failure index, the latch, and the flag for element deletion.
 pub const ENERGIES: usize = 0;
 pub const INVARIANTS: usize = 4;
 pub const FAILURE_INDEX: usize = 8;
 pub const FAILED: usize = 9;
 pub const ALIVE: usize = 10;
 
-/// The number of variables in the parts of that state, which may be arrays of their own, and the places of these parts: energies,
-/// invariants, and failure with index, latch and flag.
+/// The number of variables in the parts of that state, which may be arrays of their own, and the places of these parts:
+/// energies, invariants, and failure with index, latch and flag.
 pub const HYPERELASTIC_PARTS: [usize; 3] = [4, 4, 3];
 pub mod part {
     pub const ENERGIES: usize = 0;
@@ -100,8 +100,8 @@ pub static FRICTIONAL: [StateVariable; FRICTIONAL_STATE] = {
 
 /// Number of state variables of the linear elastic law.
 pub const LINEAR_ELASTIC_STATE: usize = 10;
-/// Indices into the state of the linear elastic law: the first of six stress components, the largest principal stress, the
-/// work, the latch, and the flag for element deletion.
+/// Indices into the state of the linear elastic law: the first of six stress components, the largest principal stress,
+/// the work, the latch, and the flag for element deletion.
 pub const LINEAR_STRESS: usize = 0;
 pub const LINEAR_LARGEST: usize = 6;
 pub const LINEAR_WORK: usize = 7;

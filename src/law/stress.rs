@@ -31,8 +31,8 @@ pub fn first_piola_kirchhoff(cauchy: &[f64; 6], f: &Matrix3<f64>) -> Matrix3<f64
     matrix(cauchy) * Matrix3::from(cofactors(&f.data.0).1)
 }
 
-/// The second Piola–Kirchhoff stress S = JF⁻¹σF⁻ᵀ of a Cauchy stress, both 11 22 33 12 23 31; F by columns. A stress of 0 stays 0
-/// whatever F is.
+/// The second Piola–Kirchhoff stress S = JF⁻¹σF⁻ᵀ of a Cauchy stress, both 11 22 33 12 23 31; F by columns. A stress of
+/// 0 stays 0 whatever F is.
 #[inline(always)]
 pub(crate) fn second_piola_kirchhoff(cauchy: &[f64; 6], f: &Matrix<f64>) -> [f64; 6] {
     if cauchy.iter().all(|&x| x == 0.0) {
@@ -44,13 +44,13 @@ pub(crate) fn second_piola_kirchhoff(cauchy: &[f64; 6], f: &Matrix<f64>) -> [f64
     [s11, s22, s33, s21, s32, s31]
 }
 
-/// The eigenvalues of a symmetric tensor 11 22 33 12 23 31, in no particular order, and an orthonormal axis for each, by Jacobi
-/// rotations.
+/// The eigenvalues of a symmetric tensor 11 22 33 12 23 31, in no particular order, and an orthonormal axis for each,
+/// by Jacobi rotations.
 pub fn principal_axes(s: &[f64; 6]) -> ([f64; 3], [[f64; 3]; 3]) {
     let [mut a, mut b, mut c, mut ab, mut bc, mut ca] = *s;
     let [mut x, mut y, mut z] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-    // One Jacobi rotation: makes the entry `pq` zero, and changes the entries `pr` and `qr` with the third axis and the axes
-    // `u` and `v`.
+    // One Jacobi rotation: makes the entry `pq` zero, and changes the entries `pr` and `qr` with the third axis and the
+    // axes `u` and `v`.
     type Axis = [f64; 3];
     let rotate = |p: &mut f64, q: &mut f64, pq: &mut f64, pr: &mut f64, qr: &mut f64, u: &mut Axis, v: &mut Axis| {
         if *pq == 0.0 {
@@ -81,9 +81,10 @@ pub fn principal_axes(s: &[f64; 6]) -> ([f64; 3], [[f64; 3]; 3]) {
 
 /// The largest eigenvalue of a symmetric tensor 11 22 33 12 23 31, to within a few roundings of its norm.
 ///
-/// The eigenvalue farthest from the other two is a simple root of the characteristic equation even if those two coincide, and
-/// its axis is a column of the matrix of cofactors; the tensor in the plane across that axis gives the other two, however near
-/// to each other they are (after Scherzinger and Dohrmann, Comput. Methods Appl. Mech. Engrg. 197, 2008).
+/// The eigenvalue farthest from the other two is a simple root of the characteristic equation even if those two
+/// coincide, and its axis is a column of the matrix of cofactors; the tensor in the plane across that axis gives the
+/// other two, however near to each other they are (after Scherzinger and Dohrmann, Comput. Methods Appl. Mech. Engrg.
+/// 197, 2008).
 #[inline(always)]
 pub(crate) fn largest_principal<R: Real>(s: &[R; 6]) -> R {
     let (half, least) = (R::splat(0.5), R::splat(R::MIN_POSITIVE));
@@ -102,8 +103,8 @@ pub(crate) fn largest_principal<R: Real>(s: &[R; 6]) -> R {
     let (u, v, w) = ([a - apart, d, f], [d, b - apart, e], [f, e, c - apart]);
     let n = unit(longer(longer(cross(v, w), cross(w, u)), cross(u, v)));
     let alone = dot(n, image(&columns(s), n));
-    // Without its component along that axis and its mean in the plane across it, the deviator has the eigenvalues 0 and ± half
-    // the distance between the other two.
+    // Without its component along that axis and its mean in the plane across it, the deviator has the eigenvalues 0 and
+    // ± half the distance between the other two.
     let (drop, middle) = (R::splat(-1.5) * apart, half * apart);
     let along = [drop * n[0], drop * n[1], drop * n[2]];
     let diagonal =
@@ -140,7 +141,8 @@ fn half_with_one<R: Real, const ROW: usize, const COLUMN: usize>(stress: &[R; 6]
     paired_with_one::<R, ROW, COLUMN>(stress).map_or(R::splat(0.0), |entry| R::splat(0.5) * entry)
 }
 
-/// The Truesdell modulus c − ½ 1⊙σ, from the Jaumann modulus c and the Cauchy stress σ; 11 22 33 12 23 31, engineering shears.
+/// The Truesdell modulus c − ½ 1⊙σ, from the Jaumann modulus c and the Cauchy stress σ; 11 22 33 12 23 31, engineering
+/// shears.
 pub fn truesdell_of_jaumann(jaumann: &[[f64; 6]; 6], cauchy: &[f64; 6]) -> [[f64; 6]; 6] {
     let mut truesdell = *jaumann;
     let stress = Moduli(upper_triangle!(half_with_one(cauchy))).matrix();
@@ -150,12 +152,12 @@ pub fn truesdell_of_jaumann(jaumann: &[[f64; 6]; 6], cauchy: &[f64; 6]) -> [[f64
     truesdell
 }
 
-/// dS/dE, from the Truesdell modulus of the Cauchy stress: J times its pull-back by F⁻¹ on all four indices; `None` if F has no
-/// inverse.
+/// dS/dE, from the Truesdell modulus of the Cauchy stress: J times its pull-back by F⁻¹ on all four indices; `None` if
+/// F has no inverse.
 pub fn pulled_back(truesdell: &[[f64; 6]; 6], f: &Matrix3<f64>) -> Option<[[f64; 6]; 6]> {
     let inverse = f.try_inverse()?;
-    // The 6×6 matrix T of the pull-back of a symmetric tensor, in which an off-diagonal component stands for two entries. The
-    // result is J T c Tᵀ.
+    // The 6×6 matrix T of the pull-back of a symmetric tensor, in which an off-diagonal component stands for two
+    // entries. The result is J T c Tᵀ.
     let mut t = [[0.0; 6]; 6];
     for (row, (a, b)) in t.iter_mut().zip(PAIRS) {
         for (entry, (i, j)) in row.iter_mut().zip(PAIRS) {

@@ -9,12 +9,13 @@
 //! Y = ½ (π + K) P − ½ W1 D,      G = (π + κ J_t x) P − (W1 − κ J_t) D
 //! ```
 //!
-//! For the spatial moduli P is replaced by 1 − E, since products with 1 are sparse; E⊗E = ¼ E⊙E, and a product with E = e⊗e
-//! needs only e_k G_jl + e_l G_jk. The Jaumann modulus, c + ½ 1⊙τ, differs only in Y, which becomes ½ K P + ½ τ_el + ½ τ_ld.
+//! For the spatial moduli P is replaced by 1 − E, since products with 1 are sparse; E⊗E = ¼ E⊙E, and a product with E =
+//! e⊗e needs only e_k G_jl + e_l G_jk. The Jaumann modulus, c + ½ 1⊙τ, differs only in Y, which becomes ½ K P + ½ τ_el
+//! + ½ τ_ld.
 //!
-//! dS/dE has the same few components in the basis F⁻¹c = m, F⁻¹a, F⁻¹b', each divided by the length of c, a or b', where c, a
-//! and b' are orthogonal (`Orthogonal`). There is no quotient 0/0, and the moduli are symmetric by construction: only the
-//! upper triangle is computed.
+//! dS/dE has the same few components in the basis F⁻¹c = m, F⁻¹a, F⁻¹b', each divided by the length of c, a or b',
+//! where c, a and b' are orthogonal (`Orthogonal`). There is no quotient 0/0, and the moduli are symmetric by
+//! construction: only the upper triangle is computed.
 
 use super::hyperelastic::Deformed;
 use super::kinematics::{FibreFrame, Kinematics, Section, Slid, Stretch};
@@ -24,20 +25,20 @@ use super::voigt::{
     Moduli, PAIRS, VOIGT, added, combination, multiple, paired_with_one, square, symmetric_product, upper_triangle,
 };
 
-/// Which tangent: the stress that is differentiated, and the strain or rate. Rows and columns of the 6×6 are 11 22 33 12 23 31,
-/// its columns engineering shears.
+/// Which tangent: the stress that is differentiated, and the strain or rate. Rows and columns of the 6×6 are 11 22 33
+/// 12 23 31, its columns engineering shears.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Measure {
-    /// dS/dE, 6×6: derivative of the second Piola–Kirchhoff stress with respect to the Green–Lagrange strain, in reference
-    /// axes.
+    /// dS/dE, 6×6: derivative of the second Piola–Kirchhoff stress with respect to the Green–Lagrange strain, in
+    /// reference axes.
     Material,
     /// The Truesdell modulus of σ, 6×6: dS/dE pushed forward and divided by J. LS-DYNA's `utan`.
     Truesdell,
     /// The modulus of the Jaumann rate of τ, divided by J, 6×6: Abaqus's DDSDDE.
     #[default]
     Jaumann,
-    /// dP/dF, 9×9: derivative of the first Piola–Kirchhoff stress with respect to the deformation gradient, both by columns 11
-    /// 21 31 12 22 32 13 23 33.
+    /// dP/dF, 9×9: derivative of the first Piola–Kirchhoff stress with respect to the deformation gradient, both by
+    /// columns 11 21 31 12 22 32 13 23 33.
     Nominal,
 }
 
@@ -175,9 +176,9 @@ impl<R: Real> Deformed<'_, R> {
         let strain = kinematics.strain;
         let (zero, one, quarter) = (R::splat(0.0), R::splat(1.0), R::splat(0.25));
         let (_, curvature) = law.compaction_slopes(strain, k);
-        // W2 D⊗D = (D/s)⊗(D/s)(k_td/4)(1 − x θ/s). The bracket has an error of a few roundings of 1, and D/s has unit size: no
-        // series is needed near s = 0, only a divisor that is not 0. Where s² is below a rounding of 1, this term is below a
-        // rounding of that with W1.
+        // W2 D⊗D = (D/s)⊗(D/s)(k_td/4)(1 − x θ/s). The bracket has an error of a few roundings of 1, and D/s has unit
+        // size: no series is needed near s = 0, only a divisor that is not 0. Where s² is below a rounding of 1, this
+        // term is below a rounding of that with W1.
         let square = (shape.s * shape.s).max(R::splat(R::EPSILON));
         // θ/s and x θ/s.
         let ratio = R::splat(2.0) * strain.distortion_ratio * shape.area_ratio;
@@ -208,8 +209,8 @@ impl<R: Real> Deformed<'_, R> {
         let (half, quarter) = (R::splat(0.5), R::splat(0.25));
         let over = kinematics.stretch.inverse_jacobian;
         let f = self.factors(&bases.shape, over);
-        // Y = y_p P − y_d D, G − Y = g_p P + g_d D. No term is a difference of larger ones, so that the stiffness of a slack
-        // fibre is 0 but for roundings of the other terms.
+        // Y = y_p P − y_d D, G − Y = g_p P + g_d D. No term is a difference of larger ones, so that the stiffness of a
+        // slack fibre is 0 but for roundings of the other terms.
         let (y_p, y_d) = (half * (f.pressure + f.stiffness), half * f.distortion);
         let g_p = f.shear.mul_add(bases.shape.cosh, f.pressure - y_p);
         let g_d = f.shear + y_d - f.distortion;
@@ -257,8 +258,8 @@ impl<R: Real> Deformed<'_, R> {
     }
 
     /// The tangent of a 6×6 measure, dS/dE for [`Measure::Nominal`], whose 9×9 tangent is
-    /// [`nominal_tangent`](Self::nominal_tangent). `n` are the axes of the fibre; `along_coordinates` says whether these are the
-    /// coordinate axes. `bases` may have been computed before.
+    /// [`nominal_tangent`](Self::nominal_tangent). `n` are the axes of the fibre; `along_coordinates` says whether
+    /// these are the coordinate axes. `bases` may have been computed before.
     #[inline(always)]
     pub fn moduli(
         self,
@@ -287,7 +288,8 @@ impl<R: Real> Deformed<'_, R> {
         }
     }
 
-    /// The rows of F⁻¹. It takes c to m, a to α and b' to β, so that they follow from these and the dual vectors of c, a and b'.
+    /// The rows of F⁻¹. It takes c to m, a to α and b' to β, so that they follow from these and the dual vectors of c, a
+    /// and b'.
     #[inline(always)]
     pub(super) fn inverse(self, n: &FibreFrame<R>) -> [[R; 3]; 3] {
         let Kinematics { stretch, images, .. } = self.kinematics;
@@ -304,7 +306,8 @@ impl<R: Real> Deformed<'_, R> {
         ]
     }
 
-    /// dP/dF by columns of P and F: ∂P_iJ/∂F_kL = J F⁻¹_Jj (c_ijkl + δ_ik σ_jl) F⁻¹_Ll with the Truesdell modulus c of σ.
+    /// dP/dF by columns of P and F: ∂P_iJ/∂F_kL = J F⁻¹_Jj (c_ijkl + δ_ik σ_jl) F⁻¹_Ll with the Truesdell modulus c of
+    /// σ.
     #[inline(always)]
     pub fn nominal_tangent(self, n: &FibreFrame<R>) -> [R; 81] {
         let Deformed { law, kinematics, k, shear } = self;
@@ -339,7 +342,8 @@ impl<R: Real> Deformed<'_, R> {
     }
 }
 
-/// The orthogonal basis c, a and b' = b − (a·b)/(a·a) a made of the images of the axes, and its pull-back F⁻¹c, F⁻¹a, F⁻¹b'.
+/// The orthogonal basis c, a and b' = b − (a·b)/(a·a) a made of the images of the axes, and its pull-back F⁻¹c, F⁻¹a,
+/// F⁻¹b'.
 pub(super) struct Orthogonal<R> {
     /// (a·b)/(a·a); h2/λ² and h3/λ²; 1/(a·a); 1/(b'·b').
     pub(super) shift: R,
@@ -519,8 +523,8 @@ fn apply_shift<R: Real>([c22, c33, c23]: [R; 3], u: R) -> [R; 3] {
     [fnmadd(u, c23 + shifted, c22), c33, shifted]
 }
 
-/// The components 11, 12, 31 in the basis m, α, β of a tensor whose only components in the basis m, α − y m, β − z m are 22, 33
-/// and 23.
+/// The components 11, 12, 31 in the basis m, α, β of a tensor whose only components in the basis m, α − y m, β − z m
+/// are 22, 33 and 23.
 #[inline(always)]
 fn apply_slip<R: Real>([c22, c33, c23]: [R; 3], [y, z]: [R; 2]) -> (R, R, R) {
     let zero = R::splat(0.0);
@@ -570,11 +574,11 @@ fn add<R: Real>(a: [R; 3], b: [R; 3]) -> [R; 3] {
 
 /// Whether an entry of a tangent may overflow in `R` at a point whose strains are valid.
 ///
-/// In double precision those of the spatial moduli do not if k_ld is 0. With the bounds of the properties (10²⁵, p ≤ 40) and of
-/// the strains (λ², 1/J below 10¹⁰⁰, |I_tc| ≤ 173, x and s below 10⁵⁰) the largest factor is that of the pressure, 20 ·
-/// 10²⁵ · 173³⁹ · 10¹⁰⁰ < 10²¹⁴, and the entries of the tensors that it multiplies are at most 1; the factors of D contain 1/s for
-/// each D. No factor is a product of 0 and infinity: where the reciprocal of the compaction would be large, the curvature is
-/// limited.
+/// In double precision those of the spatial moduli do not if k_ld is 0. With the bounds of the properties (10²⁵, p ≤
+/// 40) and of the strains (λ², 1/J below 10¹⁰⁰, |I_tc| ≤ 173, x and s below 10⁵⁰) the largest factor is that of the
+/// pressure, 20 · 10²⁵ · 173³⁹ · 10¹⁰⁰ < 10²¹⁴, and the entries of the tensors that it multiplies are at most 1; the
+/// factors of D contain 1/s for each D. No factor is a product of 0 and infinity: where the reciprocal of the
+/// compaction would be large, the curvature is limited.
 #[inline(always)]
 pub(crate) fn may_overflow<R: Real>(measure: Measure, shear: bool) -> bool {
     shear || !R::WIDE_RANGE || !matches!(measure, Measure::Truesdell | Measure::Jaumann)

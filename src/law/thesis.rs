@@ -1,8 +1,10 @@
-//! The law as the thesis states it, in its order and its letters (P. del Sorbo, ENSAM 2019, section 4.3 and 4.4.2): to be read first.
+//! The law as the thesis states it, in its order and its letters (P. del Sorbo, ENSAM 2019, section 4.3 and 4.4.2): to
+//! be read first.
 //!
-//! Nothing of the library calls it. It is written for any number type, without regard to speed or to rounding: the tests hold the
-//! library's stress against it in 320 binary digits, the benchmark in double precision, where its cancellations show.
-//! [`hyperelastic`](super::hyperelastic) has the form that is computed, `kinematics` why it does not cancel.
+//! Nothing of the library calls it. It is written for any number type, without regard to speed or to rounding: the
+//! tests hold the library's stress against it in 320 binary digits, the benchmark in double precision, where its
+//! cancellations show. [`hyperelastic`](super::hyperelastic) has the form that is computed, `kinematics` why it does
+//! not cancel.
 
 use nalgebra::{ClosedAddAssign, ClosedDivAssign, ClosedMulAssign, ClosedSubAssign, Matrix3, Scalar, Vector3};
 use num_traits::{One, Zero};
@@ -23,9 +25,13 @@ impl<N> Number for N where
 /// The elementary functions of a number type, and its numbers.
 #[derive(Clone, Copy, Debug)]
 pub struct Functions<N> {
+    /// The number of a double.
     pub number: fn(f64) -> N,
+    /// The square root.
     pub sqrt: fn(N) -> N,
+    /// The natural logarithm.
     pub ln: fn(N) -> N,
+    /// The inverse of the hyperbolic cosine.
     pub acosh: fn(N) -> N,
     /// `power(x, p)` = x^p for x > 0.
     pub power: fn(N, N) -> N,
@@ -36,6 +42,7 @@ pub struct Functions<N> {
 pub struct Yarn<N> {
     /// The fibre of these properties has unit length here.
     pub properties: Properties<N>,
+    /// Those of `N`.
     pub functions: Functions<N>,
 }
 
@@ -65,7 +72,8 @@ impl<N: Number> Yarn<N> {
         [self.n(0.5) * ln(i4.clone()), self.n(0.25) * ln(i3 / i4), self.n(0.5) * acosh(x), sqrt(slip)]
     }
 
-    /// W_el (Eq. 4.11), W_tc (4.12), W_td (4.13) and W_ld, which the thesis has 0 (4.15); their sum is W (4.10), per reference volume.
+    /// W_el (Eq. 4.11), W_tc (4.12), W_td (4.13) and W_ld, which the thesis has 0 (4.15); their sum is W (4.10), per
+    /// reference volume.
     pub fn energies(&self, [i_el, i_tc, i_td, i_ld]: [N; 4]) -> [N; 4] {
         let Properties { k_el, k_tc, p, k_td, k_ld, .. } = self.properties.clone();
         let half_square = |k: N, i: N| self.n(0.5) * k * i.clone() * i;
@@ -120,8 +128,8 @@ impl<N: Number> Yarn<N> {
         f * (el + tc + td + ld) * f.transpose() / determinant(f)
     }
 
-    /// The failure index: the yarn fails where it reaches 1. I_lim = ln(1 + ε_lim) for one mode (UF), less what compaction and
-    /// distortion take of it for several (MF); ε_lim = 0 is a yarn that does not fail (section 4.4.2).
+    /// The failure index: the yarn fails where it reaches 1. I_lim = ln(1 + ε_lim) for one mode (UF), less what
+    /// compaction and distortion take of it for several (MF); ε_lim = 0 is a yarn that does not fail (section 4.4.2).
     pub fn failure_index(&self, [i_el, i_tc, i_td, _]: [N; 4]) -> N {
         let Properties { eps_lim, alpha, beta, .. } = self.properties.clone();
         if i_el <= N::zero() || eps_lim <= N::zero() {

@@ -100,8 +100,8 @@ impl<R> AsMut<[R]> for Moduli<R> {
     }
 }
 
-/// Calls `entry::<_, ROW, COLUMN>` for each entry of the upper triangle, row by row, so that the compiler knows its row and
-/// column.
+/// Calls `entry::<_, ROW, COLUMN>` for each entry of the upper triangle, row by row, so that the compiler knows its row
+/// and column.
 macro_rules! upper_triangle {
     ($entry:ident($($argument:expr),*)) => {
         [
@@ -118,7 +118,8 @@ macro_rules! upper_triangle {
 
 pub(super) use upper_triangle;
 
-/// An entry of 1⊙B with A⊙B = A_ik B_jl + A_il B_jk + A_jk B_il + A_jl B_ik; `None` for an entry that is 0 whatever B is.
+/// An entry of 1⊙B with A⊙B = A_ik B_jl + A_il B_jk + A_jk B_il + A_jl B_ik; `None` for an entry that is 0 whatever B
+/// is.
 #[inline(always)]
 pub(super) fn paired_with_one<R: Real, const ROW: usize, const COLUMN: usize>(b: &[R; 6]) -> Option<R> {
     let ((i, j), (k, l)) = (PAIRS[ROW], PAIRS[COLUMN]);

@@ -1,17 +1,17 @@
 //! Bounds of wave speeds by direction: the fast wave runs along the fibre, where elements are long.
 //!
-//! ρ0 c² ≤ A (m·n)² + B for every wave of direction n, with the fibre's direction m. By modes, as the law's own bound is derived
-//! (`docs/reference/theory.md`): the elongation is k_el (m·n)² at most, and the others, with the section's area ratio J_t and its distortion
-//! a = 2 I_td,
+//! ρ0 c² ≤ A (m·n)² + B for every wave of direction n, with the fibre's direction m. By modes, as the law's own bound
+//! is derived (`docs/reference/theory.md`): the elongation is k_el (m·n)² at most, and the others, with the section's
+//! area ratio J_t and its distortion a = 2 I_td,
 //!
-//! - compaction: W″/4 + |W′|. |W′| is the sum of the Kirchhoff stresses across, and W″ = (p − 1) |W′|/|I_tc| is no more than
-//!   (p − 1) |W′| from |I_tc| = 1 on, where |W′| is p k_tc, and less than (p − 1) p k_tc before;
+//! - compaction: W″/4 + |W′|. |W′| is the sum of the Kirchhoff stresses across, and W″ = (p − 1) |W′|/|I_tc| is no more
+//!   than (p − 1) |W′| from |I_tc| = 1 on, where |W′| is p k_tc, and less than (p − 1) p k_tc before;
 //! - distortion: ¼ k_td ((a/sinh a) eᵃ + a) ≤ ¾ k_td cosh a;
 //! - longitudinal shear: (k_ld/λ²)(2 J_t eᵃ + 4 |P b e|).
 //!
-//! Roots of x are replaced by (1 + x)/2, no less. Of the linear elastic law, which has no Poisson's ratios, A is E1, and B the other moduli
-//! and twice the largest stress, which the spin of its frame takes along. This needs the first axis to be the fibre's, which axes that
-//! turn otherwise leave.
+//! Roots of x are replaced by (1 + x)/2, no less. Of the linear elastic law, which has no Poisson's ratios, A is E1,
+//! and B the other moduli and twice the largest stress, which the spin of its frame takes along. This needs the first
+//! axis to be the fibre's, which axes that turn otherwise leave.
 
 use core::ops::{Add, Div, Mul, Sub};
 

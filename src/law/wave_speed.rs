@@ -13,7 +13,8 @@
 //!
 //! ρ0 c² ≤ max(k_el, k_el ⟨I_el⟩ + R) + L, where R gathers the factors of 1 − y² and L is the shear's last term.
 //!
-//! At rest and along a stretched fibre c is √(k_el/ρ0). k_el is kept for a slack fibre, since tension may return within a step.
+//! At rest and along a stretched fibre c is √(k_el/ρ0). k_el is kept for a slack fibre, since tension may return within
+//! a step.
 
 use super::error::{Error, Value};
 use super::hyperelastic::{Hyperelastic, Kirchhoff, shear_components};
@@ -40,8 +41,8 @@ pub fn wave_speed<R: Real>(modulus: R, density: R) -> R {
 }
 
 impl<R: Real> Hyperelastic<R> {
-    /// Bulk and shear modulus of an isotropic solid whose longitudinal wave speed is that of the fibre: K + 4G/3 = k_el. For
-    /// hosts that compute their time step and contact stiffness from two elastic constants.
+    /// Bulk and shear modulus of an isotropic solid whose longitudinal wave speed is that of the fibre: K + 4G/3 =
+    /// k_el. For hosts that compute their time step and contact stiffness from two elastic constants.
     pub fn bulk_and_shear(&self) -> [R; 2] {
         [R::splat(0.5) * self.k_el, R::splat(0.375) * self.k_el]
     }

@@ -143,7 +143,7 @@ fn baseline_is_the_scalar_law<T: Number>() {
         compare(&inputs, &found, &wanted);
         assert_eq!(worst, found.iter().map(|output| output.status).min().expect("points"));
         for asked in Asked::USUAL.into_iter().filter(|asked| asked.failure) {
-            let wanted: Vec<_> = wanted.iter().map(|output| output.of(asked)).collect();
+            let wanted: Vec<_> = wanted.iter().map(|output| output.masked(asked)).collect();
             compare(&ordinary(100), &run(&law, &ordinary(100), &Call { asked, ..call }).0, &wanted);
         }
         // A direction for each point.
@@ -163,8 +163,8 @@ fn baseline_is_the_scalar_law_f32() {
     baseline_is_the_scalar_law::<f32>();
 }
 
-/// What is measured together, and how many roundings lanes may differ from the scalar law: four; six for the modes, which 1/λ²
-/// pulls back whatever the sensitivity is.
+/// What is measured together, and how many roundings lanes may differ from the scalar law: four; six for the modes,
+/// which 1/λ² pulls back whatever the sensitivity is.
 fn groups() -> Vec<(&'static str, Range<usize>, f64)> {
     let single = |name, range: Range<usize>| range.map(move |c| (name, c..c + 1, APART));
     let mut groups = vec![("stress", STRESS, APART)];
@@ -367,8 +367,8 @@ fn one_point_stays_with_the_scalar_law() {
     assert!(worst.iter().all(|&ratio| ratio <= APART), "{worst:?}");
 }
 
-/// Whatever comes in, a single point gives finite numbers and a code that the scalar law has nearby; no stiffness with an error
-/// or after a failure.
+/// Whatever comes in, a single point gives finite numbers and a code that the scalar law has nearby; no stiffness with
+/// an error or after a failure.
 #[test]
 fn one_point_gives_a_status_and_no_nan() {
     let mut seen = std::collections::BTreeSet::new();
@@ -495,8 +495,8 @@ fn place_does_not_matter_f32() {
     place_does_not_matter::<f32>(AXIS);
 }
 
-/// F = diag(1, 1, J) for J with mantissas of all ones and of one, less and more by so many units in the last place: where
-/// reciprocals that are not divided may be rounded otherwise.
+/// F = diag(1, 1, J) for J with mantissas of all ones and of one, less and more by so many units in the last place:
+/// where reciprocals that are not divided may be rounded otherwise.
 fn hard_volumes<T: Number>() -> Vec<Input<T>> {
     let ulp = 2.0 * T::ROUNDING;
     let volumes =
@@ -504,8 +504,8 @@ fn hard_volumes<T: Number>() -> Vec<Input<T>> {
     volumes.map(|j| Input::fresh([1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, j], AXIS)).collect()
 }
 
-/// Every level with fused multiply-add gives the same bits: the answer does not depend on the processor. What this machine's
-/// does not have is left out; `reciprocals` in `src/law/tests/elementary.rs` are checked for all of them.
+/// Every level with fused multiply-add gives the same bits: the answer does not depend on the processor. What this
+/// machine's does not have is left out; `reciprocals` in `src/law/tests/elementary.rs` are checked for all of them.
 fn fused_levels_agree<T: Number>() {
     let law = law::<T>([82.341e9, 1.055e9, 2.2, 0.64974e9, 1e9, 0.0458, 1.8, 0.3, 0.48, -0.6, 0.64]);
     let truth: Vec<_> = cases().into_iter().chain(far_cases()).collect();
@@ -537,7 +537,8 @@ fn fused_levels_agree_f32() {
     fused_levels_agree::<f32>();
 }
 
-/// Points that fail, have failed or cannot be evaluated, among good ones: each has its own code, and none disturbs another.
+/// Points that fail, have failed or cannot be evaluated, among good ones: each has its own code, and none disturbs
+/// another.
 fn bad_points_keep_to_themselves<T: Number>() {
     let law = preset::<T>();
     let good = Input::<T>::fresh([1.01, 0.1, 0.0, 0.2, 0.8, 0.1, 0.0, -0.1, 0.9], AXIS);
@@ -609,8 +610,8 @@ fn bad_points_keep_to_themselves_f32() {
 
 /// Every combination of outputs, with the old state in place, apart or absent: the bits of the full request.
 ///
-/// A point whose failure is not asked for does not fail. What is not asked for is not looked at: neither an overflow nor
-/// an old value that is not finite is noticed there.
+/// A point whose failure is not asked for does not fail. What is not asked for is not looked at: neither an overflow
+/// nor an old value that is not finite is noticed there.
 fn any_combination_of_outputs<T: Number>(k_ld: f64, [m_1, m_2, m_3]: [f64; 3]) {
     let law = law::<T>([82.341e9, 1.055e9, 2.2, 0.64974e9, k_ld, 0.0458, 1.8, 0.3, m_1, m_2, m_3]);
     let inputs = [ordinary(30), extreme()].concat();
@@ -638,7 +639,7 @@ fn any_combination_of_outputs<T: Number>(k_ld: f64, [m_1, m_2, m_3]: [f64; 3]) {
                     if full.status == status::OVERFLOW {
                         continue;
                     }
-                    let mut wanted = full.of(asked);
+                    let mut wanted = full.masked(asked);
                     let partly = full.status == status::STATE_NOT_FINITE && old != Old::Null;
                     if partly && asked.status && unnoticed(input, asked) {
                         wanted.status = status::OK;
@@ -671,8 +672,8 @@ fn any_combination_of_outputs_f32() {
     any_combination_of_outputs::<f32>(1e9, AXIS);
 }
 
-/// Properties at their bounds: what does not fit the number is an overflow, whatever outputs are asked for, and nothing of it
-/// leaves.
+/// Properties at their bounds: what does not fit the number is an overflow, whatever outputs are asked for, and nothing
+/// of it leaves.
 fn greatest_properties<T: Number>() {
     let section = |x: f64| Input::<T>::fresh([1.0, 0.2, 0.1, 0.1 * x, x, 0.0, 0.0, 0.0, x], AXIS);
     let inputs: Vec<_> = [0.9, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01, 2.0, 100.0].map(section).into();
@@ -706,8 +707,8 @@ fn greatest_properties_f32() {
     greatest_properties::<f32>();
 }
 
-/// Whatever the stiffnesses, from 0 to their bounds, and however far the columns of F are from 1, to the ends of the range: a stress
-/// that is not finite has a status.
+/// Whatever the stiffnesses, from 0 to their bounds, and however far the columns of F are from 1, to the ends of the
+/// range: a stress that is not finite has a status.
 fn any_stiffness<T: Number>() {
     let mut random = fastrand::Rng::with_seed(7);
     let size = if size_of::<T>() == 8 { 52.0 } else { 9.0 };
@@ -771,8 +772,8 @@ fn any_stiffness_f32() {
     any_stiffness::<f32>();
 }
 
-/// The columns of F almost multiples of one another, so that the section's vectors may cancel to nothing while det F does not:
-/// whatever is asked for, no NaN leaves.
+/// The columns of F almost multiples of one another, so that the section's vectors may cancel to nothing while det F
+/// does not: whatever is asked for, no NaN leaves.
 fn almost_parallel_images<T: Number>() {
     let mut random = fastrand::Rng::with_seed(11);
     let by_hand = [
@@ -876,7 +877,8 @@ impl<T: Number> Owned<T> {
     }
 }
 
-/// Slices give what pointers give, at the best level unless another is named; a level beyond the machine is the best too.
+/// Slices give what pointers give, at the best level unless another is named; a level beyond the machine is the best
+/// too.
 #[test]
 fn slices() {
     let (law, inputs, stride) = (preset::<f64>(), ordinary(37), 41);
@@ -1007,9 +1009,10 @@ fn any_law<T: Number>() -> impl Strategy<Value = (Hyperelastic<T>, T)> {
     })
 }
 
-/// Whether the scalar law gives this status, or would for entries of F or of the fibre direction a few roundings away; for entries of F
-/// also a few roundings of its largest one: the law takes F in the axes of the fibre, where the columns of an F that is nearly singular
-/// are mixed, and what is left of a column of 1e-300 beside one of 1 is not to be told from 0.
+/// Whether the scalar law gives this status, or would for entries of F or of the fibre direction a few roundings away;
+/// for entries of F also a few roundings of its largest one: the law takes F in the axes of the fibre, where the
+/// columns of an F that is nearly singular are mixed, and what is left of a column of 1e-300 beside one of 1 is not to
+/// be told from 0.
 fn could_be<T: Number>(law: &Hyperelastic<T>, input: &Input<T>, own: bool, code: i32) -> bool {
     let code_of = |input: &Input<T>| Output::along(law, own.then_some(input.fibre), input, T::splat(1.0)).status;
     let largest = input.f.iter().fold(0.0, |largest: f64, &x| largest.max(Real::abs(x).into()));
@@ -1046,7 +1049,8 @@ fn nothing_meaningless_leaves<T: Number>(
                     let same = (0..9).all(|c| v[6 + c] == kept[c] || !asked.of_state(c));
                     prop_assert!(same, "{v:?} from {input:?}, {call:?}");
                 }
-                // Beyond this a fibre's shear leaves nothing but rounding of the section, and of what can be said of it.
+                // Beyond this a fibre's shear leaves nothing but rounding of the section, and of what can be said of
+                // it.
                 let sensible = input.f.iter().all(|&x| Into::<f64>::into(Real::abs(x)) < T::ROUNDING.sqrt().recip());
                 if asked == Asked::ALL && (sensible || !input.f.iter().all(|&x| Into::<f64>::into(x).is_finite())) {
                     prop_assert!(
@@ -1150,7 +1154,8 @@ fn place_does_not_matter_for_tangents_f32() {
     place_does_not_matter_for_tangents::<f32>();
 }
 
-/// Compactions down to the smallest numbers, with large exponents too: the tangent and the wave speed are finite numbers.
+/// Compactions down to the smallest numbers, with large exponents too: the tangent and the wave speed are finite
+/// numbers.
 fn tiny_compactions<T: Number>(largest: i32, least: i32) {
     for p in [2.0, 2.2, 3.0, 40.0] {
         let law = law::<T>([82.341e9, 1.055e9, p, 0.64974e9, 0.0, 0.0458, 1.8, 0.3, 1.0, 0.0, 0.0]);
@@ -1206,8 +1211,9 @@ fn powers_beyond_single_precision_are_told() {
     }
 }
 
-/// Second axes and axes of their own are refused for points of the hyperelastic law, modes for those of the linear elastic one, wherever
-/// the points are: what a law does not have has no room in the copies of points that are apart, or that fill no register.
+/// Second axes and axes of their own are refused for points of the hyperelastic law, modes for those of the linear
+/// elastic one, wherever the points are: what a law does not have has no room in the copies of points that are apart,
+/// or that fill no register.
 #[test]
 fn arrays_that_a_law_does_not_have_are_refused() {
     let linear = [79414.0, 793.0, 0.0, 3637.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0];

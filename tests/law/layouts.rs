@@ -1,5 +1,5 @@
-//! Blocks in other layouts than component-major arrays of one leading dimension: points in rows, as NumPy keeps them, and a leading
-//! dimension for each group; and which points are active.
+//! Blocks in other layouts than component-major arrays of one leading dimension: points in rows, as NumPy keeps them,
+//! and a leading dimension for each group; and which points are active.
 
 use nalgebra::Matrix3;
 use toron::host::blocks::{self, Block, Given};
@@ -79,7 +79,8 @@ fn by_components(level: Level) -> Results {
     ((0..POINTS).map(point).collect(), status[..POINTS].to_vec())
 }
 
-/// With a row for each point in every array, F as rows of its matrix as C and NumPy keep it. An old state elsewhere, or in place.
+/// With a row for each point in every array, F as rows of its matrix as C and NumPy keep it. An old state elsewhere, or
+/// in place.
 fn by_points(level: Level, in_place: bool) -> Results {
     let (f, old) = points();
     let gradient: Vec<[[f64; 3]; 3]> = f.iter().map(|f| f.transpose().data.0).collect();

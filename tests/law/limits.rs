@@ -412,8 +412,8 @@ fn linear_block(
     (0..n).map(numbers).collect()
 }
 
-/// As for the hyperelastic law: the strength of a point is that of a law with it, with and without a tangent; what means nothing is an
-/// error of its point alone.
+/// As for the hyperelastic law: the strength of a point is that of a law with it, with and without a tangent; what
+/// means nothing is an error of its point alone.
 #[test]
 fn points_of_the_linear_law_have_strengths_of_their_own() {
     let mut failed = [0; 2];

@@ -1,8 +1,8 @@
-//! The linear elastic law's block against the law at a point and against itself, at every level of instructions that this
-//! machine has.
+//! The linear elastic law's block against the law at a point and against itself, at every level of instructions that
+//! this machine has.
 //!
-//! The baseline gives the point's bits. AVX2 and AVX-512 fuse multiplications with additions and stay within a few roundings;
-//! at one level, no result depends on where its point stands nor on its neighbours.
+//! The baseline gives the point's bits. AVX2 and AVX-512 fuse multiplications with additions and stay within a few
+//! roundings; at one level, no result depends on where its point stands nor on its neighbours.
 
 use nalgebra::Matrix3;
 use proptest::prelude::*;
@@ -65,7 +65,8 @@ fn steps(increment: f64, count: usize) -> Vec<Input> {
     samples((part(), part(), prop::array::uniform6(-2.0..2.0), latch), count).map(input).collect()
 }
 
-/// Points that cannot be evaluated: inverted, not finite, a step too large, a state that is no number; one that cannot fail.
+/// Points that cannot be evaluated: inverted, not finite, a step too large, a state that is no number; one that cannot
+/// fail.
 fn troubled() -> Vec<Input> {
     let good = steps(0.01, 1)[0];
     let axes = REST;
@@ -309,8 +310,8 @@ fn outputs_left_out() {
     }
 }
 
-/// Material axes that are turned by many steps in single precision stay orthonormal: about fixed and changing axes, by small and large
-/// angles.
+/// Material axes that are turned by many steps in single precision stay orthonormal: about fixed and changing axes, by
+/// small and large angles.
 #[test]
 fn axes_after_many_steps() {
     const POINTS: usize = 64;
@@ -373,8 +374,8 @@ fn blocks_that_are_refused() {
     assert_eq!(code(block), Ok(status::INVERTED));
 }
 
-/// An increment is as good as its own digits, not as those of F: the error of a step from rest, in roundings of E1 times the
-/// increment, is the same for every increment. The truth is the law in double precision, of the same numbers.
+/// An increment is as good as its own digits, not as those of F: the error of a step from rest, in roundings of E1
+/// times the increment, is the same for every increment. The truth is the law in double precision, of the same numbers.
 #[test]
 fn small_increments_keep_their_digits() {
     fn worst<T: Number>(level: Level, rotation: Rotation, increment: f64) -> f64 {
@@ -436,7 +437,8 @@ fn lanes_stay_with_the_point() {
     assert_eq!((LINEAR_STRESS, LINEAR_LARGEST), (0, 6), "the order of the state");
 }
 
-/// Fibre directions and second axes by points, any lengths; the last two points have no direction, or a second axis along it.
+/// Fibre directions and second axes by points, any lengths; the last two points have no direction, or a second axis
+/// along it.
 fn directions(count: usize) -> Vec<([f64; 3], [f64; 3])> {
     let turn = |i: usize| (0.7 * i as f64).sin_cos();
     let mut directions: Vec<_> = (0..count)

@@ -212,8 +212,9 @@ fn steps_too_large() {
     }
 }
 
-/// Axes that are not orthonormal have a status and keep their values: forgotten ones, too long ones, parallel ones, some that are no
-/// numbers. Those that are written with three digits are taken, and the other frames do not look at them.
+/// Axes that are not orthonormal have a status and keep their values: forgotten ones, too long ones, parallel ones,
+/// some that are no numbers. Those that are written with three digits are taken, and the other frames do not look at
+/// them.
 #[test]
 fn axes_that_are_not_orthonormal() {
     let (law, f) = (yarn(0.0), stretch(1.01));
@@ -460,7 +461,8 @@ fn consistent_tangent() {
     assert!(worst.iter().flatten().all(|&error| error <= 1e-7), "{worst:?}");
 }
 
-/// From rest, in an infinitesimal step, the tangent is C itself; a failed point has none, the call that detects failure all.
+/// From rest, in an infinitesimal step, the tangent is C itself; a failed point has none, the call that detects failure
+/// all.
 #[test]
 fn tangent_at_rest_and_at_failure() {
     let (law, rest) = (yarn(LIMIT), Matrix3::identity());

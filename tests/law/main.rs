@@ -1,7 +1,6 @@
 //! The laws against exact arithmetic, derivatives, invariances and each other, as Rust calls them.
 
 mod block;
-mod energy;
 mod frictional;
 mod layouts;
 mod limits;
@@ -9,7 +8,5 @@ mod linear_block;
 mod linear_elastic;
 mod parameters;
 mod properties;
-mod tangent;
-mod truth;
 mod user;
 mod wave_speed;

@@ -371,8 +371,9 @@ fn least_and_greatest_waves() {
     }
 }
 
-/// Where the law loses ellipticity: the fibre beyond I_el = 1; within the section beyond I_td = 1/2, which compaction delays;
-/// along the fibre, towards the section's long axis, where its tension and the compaction do not hold what is distorted.
+/// Where the law loses ellipticity: the fibre beyond I_el = 1; within the section beyond I_td = 1/2, which compaction
+/// delays; along the fibre, towards the section's long axis, where its tension and the compaction do not hold what is
+/// distorted.
 #[test]
 fn loss_of_ellipticity() {
     let wave = |k: &Stiffness, i_el: f64, i_tc: f64, i_td: f64| {

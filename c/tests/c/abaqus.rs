@@ -1,4 +1,5 @@
-//! The libraries that Abaqus loads without a compiler, in a program that calls them as Standard and Explicit do. Abaqus is not run.
+//! The libraries that Abaqus loads without a compiler, in a program that calls them as Standard and Explicit do. Abaqus
+//! is not run.
 
 use std::path::Path;
 use std::process::Command;

@@ -13,9 +13,9 @@ use toron_test_support::library::{BUILD, LIBRARY, ROOT, SYSTEM, folder, run};
 /// Options for double and for single precision.
 pub const PRECISIONS: [&[&str]; 2] = [&[], &["-DSINGLE"]];
 
-/// The truth's cases, a line each, in the order that `ffi-tests/c/check.h` reads. Those pressed flat are left to `toron eval`, which
-/// calls the same entries: the bounds of the programs for tangents and for S by mode are relative to the values, some of which are 0
-/// there.
+/// The truth's cases, a line each, in the order that `ffi-tests/c/check.h` reads. Those pressed flat are left to `toron
+/// eval`, which calls the same entries: the bounds of the programs for tangents and for S by mode are relative to the
+/// values, some of which are 0 there.
 pub static CASES: LazyLock<PathBuf> = LazyLock::new(|| {
     let table = std::fs::read_to_string(Path::new(ROOT).join("tests/truth/points.jsonl")).expect("points.jsonl");
     let cases = table.lines().map(|line| serde_json::from_str(line).expect("JSON"));
@@ -40,8 +40,8 @@ fn tensor(value: &Value) -> [f64; 6] {
 }
 
 /// One case as a line: id, properties, columns of F, stress and its scale, energies and theirs in double and in single
-/// precision, invariants and theirs, S by mode, three flags, and DDSDDE, 0 at rest where there is none, with what its error may
-/// be. A scale is |truth| plus what rounding F does to it.
+/// precision, invariants and theirs, S by mode, three flags, and DDSDDE, 0 at rest where there is none, with what its
+/// error may be. A scale is |truth| plus what rounding F does to it.
 fn case(t: &Value) -> String {
     const SINGLE: f64 = 6e-8;
     const MODERATE: [&str; 6] = ["small", "degenerate", "moderate", "failure", "units", "fibre_direction"];

@@ -1,5 +1,5 @@
-//! No entry sees or changes its caller's floating-point environment: `ffi-tests/c/environment.c` with the library as it is
-//! shipped, and with copies of it that lack the instructions which change environments, where the program must fail.
+//! No entry sees or changes its caller's floating-point environment: `ffi-tests/c/environment.c` with the library as it
+//! is shipped, and with copies of it that lack the instructions which change environments, where the program must fail.
 #![cfg(all(target_arch = "x86_64", target_os = "linux"))]
 
 use std::collections::BTreeSet;
@@ -31,7 +31,8 @@ fn lines(output: &Output) -> Vec<String> {
 /// The shared libraries.
 const SHARED: [&str; 3] = ["libtoron.so", "libtoron_calculix.so", "libtoron_mgis.so"];
 
-/// The functions that they give to the outside, but for those of behaviours that take a policy, which is without effect.
+/// The functions that they give to the outside, but for those of behaviours that take a policy, which is without
+/// effect.
 pub fn exported() -> BTreeSet<String> {
     let symbols = SHARED.iter().flat_map(|name| functions(&LIBRARY.join(name)));
     symbols.filter(|name| !name.ends_with("_setOutOfBoundsPolicy")).collect()

@@ -1,5 +1,5 @@
-//! The library as its hosts call it: the C and Fortran programs of `ffi-tests`, linked with the library as it is shipped,
-//! against the truth's numbers.
+//! The library as its hosts call it: the C and Fortran programs of `ffi-tests`, linked with the library as it is
+//! shipped, against the truth's numbers.
 
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
@@ -114,7 +114,8 @@ fn fortran_module() {
     }
 }
 
-/// Without `target` at the structures among the module's arguments, gfortran does not see at `-O3` that an element has failed.
+/// Without `target` at the structures among the module's arguments, gfortran does not see at `-O3` that an element has
+/// failed.
 #[test]
 fn fortran_example() {
     let folder = folder("fortran-example");
@@ -226,8 +227,8 @@ fn shims() -> Vec<PathBuf> {
     shims
 }
 
-/// Abaqus compiles fixed form with 132 columns (`-extend_source`), other builds with 72: both must read the same text, so that
-/// no statement may be continued by what stands beyond column 72.
+/// Abaqus compiles fixed form with 132 columns (`-extend_source`), other builds with 72: both must read the same text,
+/// so that no statement may be continued by what stands beyond column 72.
 const LINE_LENGTHS: [u32; 2] = [72, 132];
 
 #[test]

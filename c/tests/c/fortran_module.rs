@@ -189,8 +189,8 @@ impl<'a> Variable<'a> {
         if may_be_null.contains(&self.name) { ", optional" } else { "" }
     }
 
-    /// `, target` for a structure with pointers: without it gfortran takes it that a call with an argument of `intent(in)` leaves
-    /// what the structure's members point to as it is, and uses old values of the results.
+    /// `, target` for a structure with pointers: without it gfortran takes it that a call with an argument of
+    /// `intent(in)` leaves what the structure's members point to as it is, and uses old values of the results.
     fn target(&self) -> &'static str {
         let has_pointers = ["_point_", "_block_", "_increment_", "_vumat_"].iter().any(|part| self.kind.contains(part));
         if has_pointers { ", target" } else { "" }
@@ -208,7 +208,8 @@ impl<'a> Variable<'a> {
         }
     }
 
-    /// The argument of the Fortran function, as attributes and name; `counted` if it is an array whose length C wants to know.
+    /// The argument of the Fortran function, as attributes and name; `counted` if it is an array whose length C wants
+    /// to know.
     fn dummy(&self, counted: bool, host: bool) -> (String, String) {
         let intent = match (self.pointer, self.constant) {
             (false, _) | (true, true) => "in",
@@ -420,8 +421,8 @@ fn every_exported_function_is_in_the_module() {
     assert_eq!(count + 1, module.matches("bind(c, name=").count());
 }
 
-/// The two compilers agree on the size of every structure and on the offset of every member, and a structure's default size is its
-/// size.
+/// The two compilers agree on the size of every structure and on the offset of every member, and a structure's default
+/// size is its size.
 #[test]
 fn layouts_are_those_of_c() {
     let header = header();

@@ -1,5 +1,5 @@
-//! The package `toron` as another crate gets it: without a standard library, without an allocator, in an empty project; and no
-//! function of libtoron can panic: `ffi-tests/freestanding` links, and stops linking as soon as one can.
+//! The package `toron` as another crate gets it: without a standard library, without an allocator, in an empty project;
+//! and no function of libtoron can panic: `ffi-tests/freestanding` links, and stops linking as soon as one can.
 
 use std::path::Path;
 use std::process::{Command, Output};

@@ -1,5 +1,5 @@
-//! The C programs of `ffi-tests/c` under what looks for faults that show in no result: reads and writes where nothing is, values
-//! that nobody has written, leaks, undefined behaviour, races.
+//! The C programs of `ffi-tests/c` under what looks for faults that show in no result: reads and writes where nothing
+//! is, values that nobody has written, leaks, undefined behaviour, races.
 #![cfg(all(target_arch = "x86_64", target_os = "linux"))]
 
 use std::path::{Path, PathBuf};
@@ -58,7 +58,8 @@ fn sanitizers() {
     }
 }
 
-/// Valgrind with a tool; its exit code tells that the tool has found something. It knows no AVX-512: the library runs AVX2.
+/// Valgrind with a tool; its exit code tells that the tool has found something. It knows no AVX-512: the library runs
+/// AVX2.
 fn valgrind(tool: &str, program: &Path) -> Command {
     let mut valgrind = Command::new("valgrind");
     valgrind.arg(format!("--tool={tool}")).args(["--quiet", "--error-exitcode=9"]);
@@ -101,8 +102,8 @@ fn memcheck_finds_faults() {
     }
 }
 
-/// Addresses in a program of what the library remembers of the processor, a byte for each question: relaxed atomics, which drd
-/// takes for ordinary memory.
+/// Addresses in a program of what the library remembers of the processor, a byte for each question: relaxed atomics,
+/// which drd takes for ordinary memory.
 fn processor_features(program: &Path) -> Vec<String> {
     let symbols = run(Command::new("nm").arg(program), "binutils").stdout;
     let lines = String::from_utf8_lossy(&symbols);

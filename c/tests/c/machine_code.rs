@@ -1,5 +1,5 @@
-//! What the compiler made of the block's loops: the kernels built for exactly what is asked decide nothing and call nothing
-//! between one set of lanes and the next.
+//! What the compiler made of the block's loops: the kernels built for exactly what is asked decide nothing and call
+//! nothing between one set of lanes and the next.
 //!
 //! Reads the disassembly that `objdump` (binutils) gives of the library as it is shipped.
 #![cfg(all(target_arch = "x86_64", target_os = "linux"))]
@@ -136,8 +136,8 @@ impl Function {
         (loops && in_use).then(|| self.code[probe].address)
     }
 
-    /// What the stages hold that they should not: calls, branches beside their own; what is computed in a loop but in no
-    /// stage, since a decision makes a loop of it; and jumps to nowhere known, wherever they stand.
+    /// What the stages hold that they should not: calls, branches beside their own; what is computed in a loop but in
+    /// no stage, since a decision makes a loop of it; and jumps to nowhere known, wherever they stand.
     fn faults(&self) -> Vec<String> {
         let unknown = self.code.iter().filter(|i| i.jumps() && i.target().is_none());
         let mut faults: Vec<_> = unknown.map(|i| format!("{:x}: {} {}", i.address, i.name, i.operands)).collect();
@@ -188,8 +188,9 @@ fn kernel<'a>(functions: &'a BTreeMap<String, Function>, precision: &str, level:
     functions.get(&format!("<{name}>")).or_else(|| functions.get(&name)).unwrap_or_else(|| panic!("no function {name}"))
 }
 
-/// Stress and stress with the state: for any fibre of the properties, for fibre directions of points, for the first axis; and with
-/// the state and a longitudinal shear, the wave speed, or limits of the points, alone or with one of these.
+/// Stress and stress with the state: for any fibre of the properties, for fibre directions of points, for the first
+/// axis; and with the state and a longitudinal shear, the wave speed, or limits of the points, alone or with one of
+/// these.
 const USUAL: [u8; 19] = [0, 1, 2, 3, 4, 5, 17, 19, 21, 35, 37, 65, 67, 69, 81, 83, 85, 99, 101];
 /// The kernel that looks up what the block asks for.
 const ANY: u8 = 8;

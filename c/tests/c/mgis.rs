@@ -46,7 +46,8 @@ fn required(host: &str) -> BTreeSet<String> {
 #[test]
 fn every_symbol_is_required() {
     let (mgis, mtest) = (required("mgis"), required("mtest"));
-    // Of each behaviour: 27, one of them for each of the three hypotheses, and the names of the properties; MTest asks for 9 more.
+    // Of each behaviour: 27, one of them for each of the three hypotheses, and the names of the properties; MTest asks
+    // for 9 more.
     assert_eq!((mgis.len(), mtest.len()), (2 * (27 + 2 + 1), 2 * (27 + 2 + 10)));
     assert!(mtest.is_superset(&mgis));
     for (host, symbols) in [("mgis", &mgis), ("mtest", &mtest)] {
@@ -59,8 +60,8 @@ fn every_symbol_is_required() {
     }
 }
 
-/// A library of a law of one's own has what MGIS and MTest require of a behaviour, under the law's name, its names from its table, and
-/// returns the law's stress.
+/// A library of a law of one's own has what MGIS and MTest require of a behaviour, under the law's name, its names from
+/// its table, and returns the law's stress.
 #[test]
 fn a_law_of_ones_own() {
     let path = OWN_LAW.join("libown_law_double.so");
@@ -99,7 +100,8 @@ fn names(library: &Library, behaviour: &str, list: &str) -> Vec<String> {
     }
 }
 
-/// What the library gives to the outside: what hosts require, the bounds, and two texts; and libtoron has nothing of it.
+/// What the library gives to the outside: what hosts require, the bounds, and two texts; and libtoron has nothing of
+/// it.
 #[test]
 fn nothing_else_is_exported() {
     let exported = defined(&shared(), &["-D"]);
@@ -144,7 +146,8 @@ fn integrate(function: Integrate, properties: &[f64], f: &[f64; 9], variables: u
     (stress, new)
 }
 
-/// The properties of a deck of MTest and its F at the end, given to the behaviour that it names, give what it says in comments.
+/// The properties of a deck of MTest and its F at the end, given to the behaviour that it names, give what it says in
+/// comments.
 #[test]
 fn the_deck_for_mtest_says_what_the_behaviour_returns() {
     let deck =

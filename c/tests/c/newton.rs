@@ -3,8 +3,8 @@
 /// What rounding leaves of a residual.
 const ROUNDING: f64 = 1e-12;
 
-/// r' ≤ C r² for residuals over the reaction forces. A tangent that is off by 1 % leaves r' = 0.01 r, a thousand times more
-/// at the smallest residual before the last.
+/// r' ≤ C r² for residuals over the reaction forces. A tangent that is off by 1 % leaves r' = 0.01 r, a thousand times
+/// more at the smallest residual before the last.
 const CONSTANT: f64 = 50.0;
 
 /// The numbers of a line.

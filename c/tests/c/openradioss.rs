@@ -1,5 +1,5 @@
-//! OpenRadioss's two ways in: the library that it loads by itself, in programs that call it as starter and engine do, and the shims
-//! for its SDK. The solver itself is not run.
+//! OpenRadioss's two ways in: the library that it loads by itself, in programs that call it as starter and engine do,
+//! and the shims for its SDK. The solver itself is not run.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -20,8 +20,8 @@ fn compile(name: &str, options: &[&str]) -> PathBuf {
     program
 }
 
-/// Every symbol is bound when the library is loaded, as Linux distributions link by default: nothing of the engine may be wanted
-/// in the starter.
+/// Every symbol is bound when the library is loaded, as Linux distributions link by default: nothing of the engine may
+/// be wanted in the starter.
 #[test]
 fn self_loading_library() {
     for (options, library) in PRECISIONS.into_iter().zip(SHARED) {

@@ -1,5 +1,5 @@
-//! The structures of the C interface are the same in Rust, in C and in C++: every member is where the compiler of the library has it,
-//! and there is nothing between them.
+//! The structures of the C interface are the same in Rust, in C and in C++: every member is where the compiler of the
+//! library has it, and there is nothing between them.
 
 use core::mem::offset_of;
 use std::collections::BTreeSet;

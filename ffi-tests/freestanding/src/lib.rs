@@ -1,14 +1,15 @@
 //! The packages toron and toron-c-functions as they are published, and what the libraries of CalculiX and MGIS export,
 //! without the standard library: a dependency that brought it in would clash with the panic handler below.
 //!
-//! That handler calls a function which does not exist. The linker drops code that nothing reaches before it looks, so that this
-//! library links if, and only if, no function here can panic.
+//! That handler calls a function which does not exist. The linker drops code that nothing reaches before it looks, so
+//! that this library links if, and only if, no function here can panic.
 
 #![no_std]
 
 extern crate toron_c;
 
-// The libraries of CalculiX and MGIS are uses of macros of `toron-solvers`, whose other modules need the standard library.
+// The libraries of CalculiX and MGIS are uses of macros of `toron-solvers`, whose other modules need the standard
+// library.
 extern crate self as toron_solvers;
 pub use toron;
 #[path = "../../../solvers/src/calculix.rs"]

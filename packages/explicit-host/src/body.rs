@@ -314,6 +314,10 @@ impl<T: Number> Body<T> {
     /// # Errors
     /// As there.
     pub fn stress(&self, media: &[Medium<T>]) -> Result<Vec<[f64; 6]>, i32> {
+        T::stress(self, media)
+    }
+
+    pub(super) fn evaluate_stress(&self, media: &[Medium<T>]) -> Result<Vec<[f64; 6]>, i32> {
         let mut stress = Vec::with_capacity(self.mesh.elements.len());
         for block in &self.blocks {
             stress.extend(block.stress(&media[block.medium], &self.state.displacement)?);

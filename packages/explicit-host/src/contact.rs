@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::friction::rub;
+use super::friction::coulomb_return;
 use super::lanes::Number;
 use super::vector::{Vector, add, dot, times};
 
@@ -38,7 +38,7 @@ impl Shape {
 
 /// What strikes, and the parameters of its contact. It moves along one axis.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Rigid {
+pub struct RigidSurface {
     pub shape: Shape,
     pub radius: f64,
     /// Pressure by depth of penetration: the same contact whatever the mesh.
@@ -77,7 +77,7 @@ pub struct Nodes<'a, T> {
 /// The surface, and what the contact has done so far.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Contact {
-    striker: Rigid,
+    striker: RigidSurface,
     nodes: Vec<Node>,
     /// Stored in penetrations and in sticking, nodes that have left included; dissipated by slipping.
     pub stored: f64,
@@ -94,7 +94,7 @@ pub struct Contact {
 
 impl Contact {
     /// Nodes with a share of the surface take part.
-    pub fn new(striker: Rigid, surface: &[f64], mass: &[f64]) -> Self {
+    pub fn new(striker: RigidSurface, surface: &[f64], mass: &[f64]) -> Self {
         let met = (0..surface.len()).filter(|&i| surface[i] > 0.0);
         let node = |i: usize| Node {
             number: i as u32,
@@ -150,7 +150,7 @@ impl Contact {
     }
 }
 
-impl Rigid {
+impl RigidSurface {
     /// How deep a place is in it, and the normal of its surface there; its centre is here. Outside the depth is
     /// negative, and a place is as far from it or farther.
     #[inline(always)]
@@ -190,7 +190,7 @@ impl Node {
     #[inline(always)]
     fn update(
         &mut self,
-        striker: &Rigid,
+        striker: &RigidSurface,
         moved: f64,
         depth: f64,
         normal: Vector,
@@ -203,7 +203,7 @@ impl Node {
         }
         let depth = depth.max(0.0);
         let force = self.stiffness * depth;
-        let friction = rub(self.friction, self.stiffness, step, normal, striker.friction * force);
+        let friction = coulomb_return(self.friction, self.stiffness, step, normal, striker.friction * force);
         self.friction = friction.force;
         self.stored = 0.5 * force * depth + friction.stored;
         ((depth > 0.0).then_some(times(force, normal)), friction.dissipated)
@@ -214,8 +214,8 @@ impl Node {
 mod tests {
     use super::*;
 
-    const CYLINDER: Rigid =
-        Rigid { shape: Shape::Cylinder, radius: 1.0, stiffness: 100.0, friction: 0.5, aim: [0.0; 2] };
+    const CYLINDER: RigidSurface =
+        RigidSurface { shape: Shape::Cylinder, radius: 1.0, stiffness: 100.0, friction: 0.5, aim: [0.0; 2] };
 
     /// A node of unit surface and mass, a tenth inside the cylinder, whose axis is at this height.
     const AXIS: f64 = 0.9;
@@ -227,7 +227,7 @@ mod tests {
     }
 
     impl Node {
-        fn new(striker: Rigid, reference: [f64; 3]) -> Node {
+        fn new(striker: RigidSurface, reference: [f64; 3]) -> Node {
             Node { contact: Contact::new(striker, &[1.0], &[1.0]), reference, displacement: [0.0; 3] }
         }
 
@@ -284,7 +284,7 @@ mod tests {
 
     #[test]
     fn a_sphere_presses_towards_its_surface() {
-        let sphere = Rigid { shape: Shape::Sphere, ..CYLINDER };
+        let sphere = RigidSurface { shape: Shape::Sphere, ..CYLINDER };
         let reference = [0.48, 0.0, 0.64];
         let mut node = Node::new(sphere, reference);
         // A fifth inside, then slid along the sphere's equator.
@@ -302,7 +302,7 @@ mod tests {
     fn a_striker_meets_what_it_aims_at() {
         for shape in [Shape::Sphere, Shape::Flat, Shape::Hemisphere] {
             let force = |aim: [f64; 2], [x, y, z]: [f64; 3]| {
-                let striker = Rigid { shape, aim, ..CYLINDER };
+                let striker = RigidSurface { shape, aim, ..CYLINDER };
                 Node::new(striker, [x + aim[0], y + aim[1], z]).step(0.0, 0.0, [0.0; 3]).0
             };
             let place = [0.3, -0.2, -0.85];
@@ -320,7 +320,7 @@ mod tests {
             (Shape::Hemisphere, [0.0; 3], [10.0, 0.0, 0.0]),
         ] {
             let force = |place: [f64; 3]| {
-                let mut node = Node::new(Rigid { shape, friction: 0.0, ..CYLINDER }, place);
+                let mut node = Node::new(RigidSurface { shape, friction: 0.0, ..CYLINDER }, place);
                 node.step(0.0, 0.0, [0.0; 3]).0
             };
             let found = [force([0.8, 0.0, -0.9]), force([0.9, 0.0, 2.0])];

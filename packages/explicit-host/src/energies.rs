@@ -9,10 +9,10 @@ use super::lanes::largest;
 /// A run whose total energy moves by more than this part of itself is not stable.
 const LARGEST_IMBALANCE: f64 = 0.05;
 
-/// The energies of the body and of the projectile.
+/// The energies of the body and of the striker.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Energies {
-    pub projectile: f64,
+    pub striker: f64,
     pub kinetic: f64,
     /// What the laws report, and what hourglass modes hold, deleted elements' included.
     pub internal: f64,
@@ -21,7 +21,7 @@ pub struct Energies {
     pub friction: f64,
     /// Stored in the penalty, including that of nodes that have left the contact.
     pub contact: f64,
-    /// Work done from outside, through supports that move and a projectile that is held.
+    /// Work done from outside, through supports that move and a striker that is held.
     pub external: f64,
 }
 
@@ -29,20 +29,20 @@ impl Energies {
     /// The part that artificial viscosity has taken of what the blow has brought in since `first`; none where it has
     /// brought in nothing.
     pub fn viscosity_share(&self, first: &Energies) -> Option<f64> {
-        let given = first.projectile - self.projectile + self.external - first.external;
+        let given = first.striker - self.striker + self.external - first.external;
         (given != 0.0).then(|| self.viscosity / given)
     }
 
-    /// All energies but the projectile's, the kinetic and the internal one.
+    /// All energies but the striker's, the kinetic and the internal one.
     pub fn other(&self) -> f64 {
         self.hourglass + self.viscosity + self.friction + self.contact
     }
 
     /// All of them, multiplied.
     pub fn times(&self, factor: f64) -> Energies {
-        let Energies { projectile, kinetic, internal, hourglass, viscosity, friction, contact, external } = *self;
+        let Energies { striker, kinetic, internal, hourglass, viscosity, friction, contact, external } = *self;
         Energies {
-            projectile: factor * projectile,
+            striker: factor * striker,
             kinetic: factor * kinetic,
             internal: factor * internal,
             hourglass: factor * hourglass,
@@ -55,7 +55,7 @@ impl Energies {
 
     /// The conserved sum.
     pub fn total(&self) -> f64 {
-        self.projectile + self.kinetic + self.internal + self.other() - self.external
+        self.striker + self.kinetic + self.internal + self.other() - self.external
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::vector::{Vector, add, dot, times};
 
-/// What rubs, at the end of a step.
+/// Friction at a point of contact, at the end of a step.
 #[derive(Clone, Copy, Debug)]
 pub struct Friction {
     /// In the tangent plane, against the slip.
@@ -19,7 +19,7 @@ pub struct Friction {
 /// which is 0 where nothing touches any more. What is dissipated is the force's work over the step, by the trapezoidal
 /// rule of central differences, less what the spring has gained.
 #[inline(always)]
-pub fn rub(before: Vector, stiffness: f64, slip: Vector, normal: Vector, limit: f64) -> Friction {
+pub fn coulomb_return(before: Vector, stiffness: f64, slip: Vector, normal: Vector, limit: f64) -> Friction {
     let trial = add(before, -stiffness, slip);
     let trial = add(trial, -dot(trial, normal), normal);
     let size = dot(trial, trial).sqrt();

@@ -7,6 +7,7 @@ use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
+use super::kernels::Kernels;
 use toron_materials::entries::precision::BlockPrecision;
 
 /// Elements side by side in an inner loop.
@@ -15,6 +16,7 @@ pub const LANES: usize = 8;
 /// The number that a run is computed in: f64 or f32.
 pub trait Number:
     BlockPrecision
+    + Kernels
     + PartialOrd
     + Add<Output = Self>
     + Sub<Output = Self>

@@ -3,8 +3,8 @@
 //!
 //! It calls the laws as a solver does, through their C entries: blocks of component-major arrays, history in place,
 //! deletion by the latch. The energies of its balance are those that the laws report, so that the balance tells whether
-//! stress and energy belong together and whether the step is short enough. [`struck`] runs a scene on it, from the first
-//! step to the last.
+//! stress and energy belong together and whether the step is short enough. [`struck`] runs a scene on it, from the
+//! first step to the last.
 
 pub mod archive;
 pub mod block;
@@ -17,16 +17,17 @@ pub mod friction;
 pub mod hexahedron;
 pub mod instructions;
 pub mod judgement;
+pub mod kernels;
 pub mod lanes;
 pub mod medium;
 pub mod mesh;
 pub mod mutual_contact;
-pub mod projectile;
 pub mod rows;
 pub mod snapshot;
 pub mod solid;
 pub mod solver;
 pub mod stress;
+pub mod striker;
 pub mod struck;
 pub mod tie;
 pub mod vector;

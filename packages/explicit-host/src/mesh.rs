@@ -1,6 +1,6 @@
 //! A yarn as structured hexahedra: the section by columns and rows, the length by layers.
 //!
-//! Axis 0 runs along the yarn from the plane of symmetry at mid-span, axis 1 points at the projectile, axis 2 across.
+//! Axis 0 runs along the yarn from the plane of symmetry at mid-span, axis 1 points at the striker, axis 2 across.
 
 use std::f64::consts::PI;
 

@@ -15,12 +15,12 @@ pub struct Snapshot {
     pub densities: Vec<[f64; 5]>,
     /// Von Mises stress in the elements of solids.
     pub von_mises: Vec<f64>,
-    /// Height of the projectile's centre, and its radius.
-    pub projectile: Option<(f64, f64)>,
+    /// Height of the striker's centre, and its radius.
+    pub striker: Option<(f64, f64)>,
 }
 
 impl Snapshot {
-    /// How the bodies stand, and a projectile of this radius.
+    /// How the bodies stand, and a striker of this radius.
     pub fn of<T: Number>(solver: &Solver<T>, radius: f64) -> Snapshot {
         let mut snapshot = Snapshot {
             time: solver.state.time,
@@ -28,7 +28,7 @@ impl Snapshot {
             intact: Vec::new(),
             densities: Vec::new(),
             von_mises: Vec::new(),
-            projectile: solver.projectile.as_ref().map(|projectile| (projectile.position, radius)),
+            striker: solver.striker.as_ref().map(|striker| (striker.position, radius)),
         };
         for body in &solver.bodies {
             let elements = 0..body.mesh.elements.len();

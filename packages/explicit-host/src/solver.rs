@@ -13,7 +13,7 @@ use super::energies::{Cost, Energies};
 use super::lanes::{Number, largest};
 use super::medium::Medium;
 use super::mutual_contact::MutualContact;
-use super::projectile::Projectile;
+use super::striker::Striker;
 use toron::law::status;
 use toron_shared::error::Error;
 
@@ -32,7 +32,7 @@ const SHORTEST: f64 = 1e-4;
 pub struct Solver<T> {
     pub bodies: Vec<Body<T>>,
     pub media: Vec<Medium<T>>,
-    pub projectile: Option<Projectile>,
+    pub striker: Option<Striker>,
     /// Contact of the bodies with one another.
     pub mutual: Option<MutualContact>,
     /// How the supports move; at their own speed without.
@@ -97,7 +97,7 @@ impl<T: Number> Solver<T> {
         Solver {
             bodies,
             media,
-            projectile: None,
+            striker: None,
             mutual: None,
             ramp: None,
             longest: f64::INFINITY,
@@ -107,23 +107,32 @@ impl<T: Number> Solver<T> {
         }
     }
 
-    /// Its state between two steps.
-    ///
-    /// # Errors
-    /// The archive's.
-    pub fn archive(&mut self, archive: &mut Archive<'_>) -> Result<(), postcard::Error> {
-        archive.keep(&mut self.state)?;
-        archive.keep(&mut self.projectile)?;
-        self.bodies.iter_mut().try_for_each(|body| body.archive(archive))?;
-        self.mutual.iter_mut().try_for_each(|contact| contact.archive(archive))
-    }
-
     /// The forces of this instant and the velocities in the middle of the coming step, which ends within `left`. With
     /// `measured`, the energies are those of this instant. [`displace`](Self::displace) completes the step.
     ///
     /// # Errors
     /// The law refuses its call, or elements have collapsed so far that there is no stable step.
     pub fn accelerate(&mut self, measured: bool, left: f64) -> Result<(), Error> {
+        T::accelerate(self, measured, left)
+    }
+
+    /// Displacements at the end of the step.
+    pub fn displace(&mut self) {
+        T::displace(self);
+    }
+
+    /// Its state between two steps.
+    ///
+    /// # Errors
+    /// The archive's.
+    pub fn archive(&mut self, archive: &mut Archive<'_>) -> Result<(), postcard::Error> {
+        archive.keep(&mut self.state)?;
+        archive.keep(&mut self.striker)?;
+        self.bodies.iter_mut().try_for_each(|body| body.archive(archive))?;
+        self.mutual.iter_mut().try_for_each(|contact| contact.archive(archive))
+    }
+
+    pub(super) fn compute_accelerations(&mut self, measured: bool, left: f64) -> Result<(), Error> {
         let started = Instant::now();
         let shortest = self.state.first_step.map_or(0.0, |first| COLLAPSED * first / SAFETY);
         let options = StepOptions {
@@ -162,9 +171,9 @@ impl<T: Number> Solver<T> {
     /// Central differences with a damping force that lags by half a step are stable for Δt² ω² + 2 Δt d ≤ 4, that is
     /// Δt ≤ 2/ω (√(1 + ξ²) − ξ) with d = 2 ξ ω.
     fn stable_step(&mut self, bounds: Bounds) -> Result<f64, Error> {
-        let projectile = self.projectile.as_ref().map_or(0.0, Projectile::frequency);
+        let striker = self.striker.as_ref().map_or(0.0, Striker::frequency);
         let mutual = self.mutual.as_ref().map_or(0.0, |contact| contact.state.frequency);
-        let (k, d) = (bounds.stiffness + projectile + mutual, bounds.damping);
+        let (k, d) = (bounds.stiffness + striker + mutual, bounds.damping);
         let step = SAFETY * 4.0 / (d + (d * d + 4.0 * k).sqrt());
         let first = *self.state.first_step.get_or_insert(step);
         if step.is_finite() && step > SHORTEST * first {
@@ -203,8 +212,8 @@ impl<T: Number> Solver<T> {
         if let Some(contact) = &mut self.mutual {
             contact.apply(&mut self.bodies);
         }
-        if let Some(projectile) = &mut self.projectile {
-            projectile.meet(&mut self.bodies, self.state.step);
+        if let Some(striker) = &mut self.striker {
+            striker.meet(&mut self.bodies, self.state.step);
         }
     }
 
@@ -214,8 +223,8 @@ impl<T: Number> Solver<T> {
             if !body.release_nodes() {
                 continue;
             }
-            if let Some(projectile) = &mut self.projectile {
-                projectile.contacts[number].remove(|node| body.is_loose(node));
+            if let Some(striker) = &mut self.striker {
+                striker.contacts[number].remove(|node| body.is_loose(node));
             }
             if let Some(contact) = &mut self.mutual {
                 contact.remove(number, body);
@@ -233,12 +242,12 @@ impl<T: Number> Solver<T> {
             bodies => bodies.par_iter_mut().map(|body| body.update_velocities(interval, measured)).collect(),
         };
         let mut striking = 0.0;
-        if let Some(projectile) = &mut self.projectile {
-            let old = projectile.velocity;
-            if !projectile.held {
-                projectile.velocity += interval * projectile.force / projectile.mass;
+        if let Some(striker) = &mut self.striker {
+            let old = striker.velocity;
+            if !striker.held {
+                striker.velocity += interval * striker.force / striker.mass;
             }
-            striking = 0.5 * projectile.mass * old * projectile.velocity;
+            striking = 0.5 * striker.mass * old * striker.velocity;
         }
         let work = interval * self.external_power();
         self.state.external += work;
@@ -246,44 +255,42 @@ impl<T: Number> Solver<T> {
             // Half of this interval comes after the instant of the measurement.
             let external = self.state.external - 0.5 * work;
             let kinetic = kinetic.iter().sum();
-            self.state.energies = Energies { projectile: striking, kinetic, external, ..self.other_energies() };
+            self.state.energies = Energies { striker: striking, kinetic, external, ..self.other_energies() };
         }
     }
 
     /// The power of the reactions at prescribed velocities.
     fn external_power(&self) -> f64 {
         let power = self.bodies.iter().map(Body::external_power).sum();
-        match self.projectile.as_ref().filter(|projectile| projectile.held) {
-            Some(projectile) => power - projectile.force * projectile.velocity,
+        match self.striker.as_ref().filter(|striker| striker.held) {
+            Some(striker) => power - striker.force * striker.velocity,
             None => power,
         }
     }
 
     fn other_energies(&self) -> Energies {
-        let projectile = self.projectile.as_ref();
+        let striker = self.striker.as_ref();
         let mutual = self.mutual.as_ref();
         Energies {
             internal: self.bodies.iter().map(|body| body.internal_energy(&self.media)).sum(),
             hourglass: self.bodies.iter().map(|body| body.sums.hourglass + body.state.released).sum(),
-            friction: projectile.map_or(0.0, Projectile::dissipated)
-                + mutual.map_or(0.0, |contact| contact.state.dissipated),
+            friction: striker.map_or(0.0, Striker::dissipated) + mutual.map_or(0.0, |contact| contact.state.dissipated),
             viscosity: self.state.viscosity,
-            contact: projectile.map_or(0.0, Projectile::stored) + mutual.map_or(0.0, |contact| contact.state.stored),
+            contact: striker.map_or(0.0, Striker::stored) + mutual.map_or(0.0, |contact| contact.state.stored),
             ..Energies::default()
         }
     }
 
-    /// Displacements at the end of the step.
-    pub fn displace(&mut self) {
+    pub(super) fn update_displacements(&mut self) {
         let started = Instant::now();
         let step = self.state.step;
         match &mut self.bodies[..] {
             [body] => body.displace(step),
             bodies => bodies.par_iter_mut().for_each(|body| body.displace(step)),
         }
-        if let Some(projectile) = &mut self.projectile {
-            projectile.moved = step * projectile.velocity;
-            projectile.position += projectile.moved;
+        if let Some(striker) = &mut self.striker {
+            striker.moved = step * striker.velocity;
+            striker.position += striker.moved;
         }
         self.state.time += step;
         self.state.cost.nodes += started.elapsed();

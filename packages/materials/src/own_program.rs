@@ -35,8 +35,8 @@ enum Command {
     Bench(bench::own_law::Arguments),
     /// Print the header of the law's functions in C.
     Header,
-    /// Evaluate one JSON object a line of the standard input: {"F": rows, "m": [1, 0, 0], "params": {NAME: value}}; "m", the fibre
-    /// direction, may be left out.
+    /// Evaluate one JSON object a line of the standard input: {"F": rows, "m": [1, 0, 0], "params": {NAME: value}};
+    /// "m", the fibre direction, may be left out.
     Eval {
         /// How the law is called.
         #[arg(long, value_enum, default_value = "law")]
@@ -47,9 +47,9 @@ enum Command {
     },
 }
 
-/// The `main` of a program for the law `M`: `run`, `params`, `deck` and `eval`, which read and write what `toron`'s do, `header` and `bench`. `name` is the law's
-/// name in the solvers' libraries, in capitals, and `number` its nn of OpenRadioss's `/MAT/USERnn`; files, and the program itself, call
-/// it by the name in small letters.
+/// The `main` of a program for the law `M`: `run`, `params`, `deck` and `eval`, which read and write what `toron`'s do,
+/// `header` and `bench`. `name` is the law's name in the solvers' libraries, in capitals, and `number` its nn of
+/// OpenRadioss's `/MAT/USERnn`; files, and the program itself, call it by the name in small letters.
 ///
 /// ```ignore
 /// fn main() -> std::process::ExitCode {

@@ -16,7 +16,8 @@ const TICK: i32 = 4;
 #[derive(Clone, Copy, Debug)]
 pub enum Colours {
     Viridis,
-    /// What carries little is grey, what carries much goes from yellow to a dark red; each is darker than the one before.
+    /// What carries little is grey, what carries much goes from yellow to a dark red; each is darker than the one
+    /// before.
     GreyToRed,
 }
 

@@ -105,7 +105,8 @@ struct Outline {
 }
 
 impl Outline {
-    /// The frame in which a character stands that the font lacks: as high as a capital, its inside turned the other way round.
+    /// The frame in which a character stands that the font lacks: as high as a capital, its inside turned the other way
+    /// round.
     fn draw_box(&mut self, advance: f32) {
         const SIDE: f32 = 0.1;
         const PEN: f32 = 0.07;

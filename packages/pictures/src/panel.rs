@@ -176,8 +176,8 @@ impl Panel {
         Ok(())
     }
 
-    /// The range of all lines and the limit with some air, and of 0 unless they vary by far less than they are away from it; and
-    /// the power of a thousand that keeps its labels short.
+    /// The range of all lines and the limit with some air, and of 0 unless they vary by far less than they are away
+    /// from it; and the power of a thousand that keeps its labels short.
     fn range(&self) -> ([f64; 2], i32) {
         let values = self.series.iter().flat_map(|series| &series.values).copied();
         let mut values: Vec<f64> = values.chain(self.limit).collect();
@@ -227,7 +227,8 @@ pub fn bounds(values: &[f64]) -> (f64, f64) {
     if low < high { (low, high) } else { (low, low + 1.0) }
 }
 
-/// A label without the noise of rounding: as many decimals as ticks of this range need, or a power of ten where they are many.
+/// A label without the noise of rounding: as many decimals as ticks of this range need, or a power of ten where they
+/// are many.
 pub fn tick(value: f64, range: f64) -> String {
     let power = range.log10().floor() as i32;
     if !(-3..6).contains(&power) {

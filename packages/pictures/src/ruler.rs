@@ -11,8 +11,8 @@ const LONGEST: f64 = 120.0;
 const TICK: i32 = 4;
 const NAME_AIR: i32 = 12;
 
-/// Draws the line from a place of the picture to the right, with its length behind it; `scale` is the picture's units in a
-/// unit of length.
+/// Draws the line from a place of the picture to the right, with its length behind it; `scale` is the picture's units
+/// in a unit of length.
 pub fn draw(area: &Area, [left, middle]: [i32; 2], scale: f64, unit: &str) -> Drawn<()> {
     let length = round_length(LONGEST / scale);
     let right = fine(left) + (scale * length * f64::from(fine(1))) as i32;

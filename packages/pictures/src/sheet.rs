@@ -1,4 +1,5 @@
-//! The backend that plotters draws on: every shape becomes an outline that goes into the SVG and, rendered, into the PNG.
+//! The backend that plotters draws on: every shape becomes an outline that goes into the SVG and, rendered, into the
+//! PNG.
 
 use std::collections::BTreeSet;
 use std::convert::Infallible;

@@ -129,7 +129,7 @@ fn parts(length: f32) -> i64 {
     (length * PARTS).round() as i64
 }
 
-/// A number of hundredths, without noughts that say nothing.
+/// A number of hundredths, without trailing zeros.
 fn decimal(hundredths: i64) -> String {
     let sign = if hundredths < 0 { "-" } else { "" };
     let [whole, rest] = [hundredths.abs() / 100, hundredths.abs() % 100];

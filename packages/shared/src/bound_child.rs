@@ -1,4 +1,4 @@
-//! A child process that ends with this one, however this one ends: a solver would compute on for hours, for nobody.
+//! A child process that ends with this one, however this one ends: a solver would else compute on for hours, unused.
 
 use std::process::Command;
 

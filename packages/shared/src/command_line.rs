@@ -30,8 +30,8 @@ fn format<'a>(matches: &'a ArgMatches, tables: &[&str]) -> (&'a str, Format) {
     (name, Format { json, quiet })
 }
 
-/// Runs a program: its arguments, read as `command` says, go to `run`. Errors, and what is lost of the standard output, end on the
-/// standard error behind the program's name.
+/// Runs a program: its arguments, read as `command` says, go to `run`. Errors, and what is lost of the standard output,
+/// end on the standard error behind the program's name.
 pub fn run<A: FromArgMatches>(command: Command, tables: &[&str], run: impl FnOnce(A) -> Result<(), Error>) -> ExitCode {
     let program = command.get_name().to_string();
     let version = command.get_version().unwrap_or_default().to_string();

@@ -5,16 +5,16 @@ use serde::de::{DeserializeOwned, Deserializer, Error as _, Visitor};
 
 /// The names of the struct's fields, as files have them.
 pub fn field_names<T: DeserializeOwned>() -> &'static [&'static str] {
-    let mut asked = Asked(&[]);
-    // It gives no value; it is asked for one by the names of what it is to hold.
+    let mut asked = AskedFields(&[]);
+    // Deserialising fails, since there is no value; but before that serde passes the names of the struct's fields.
     let _ = T::deserialize(&mut asked);
     asked.0
 }
 
-/// Keeps the names of the fields that it is asked for.
-struct Asked(&'static [&'static str]);
+/// A deserializer without data, which keeps the names of the fields that a struct asks for.
+struct AskedFields(&'static [&'static str]);
 
-impl<'de> Deserializer<'de> for &mut Asked {
+impl<'de> Deserializer<'de> for &mut AskedFields {
     type Error = Error;
 
     fn deserialize_any<V: Visitor<'de>>(self, _: V) -> Result<V::Value, Error> {

@@ -23,7 +23,7 @@ pub fn write(place: &Path, contents: impl FnOnce(&mut BufWriter<File>) -> io::Re
     put(place, contents, true)
 }
 
-/// The same for a file that nobody changes by hand, such as a mesh: none is kept.
+/// The same for a file that is not edited by hand, such as a mesh: no copy is kept.
 ///
 /// # Errors
 /// As for [`write()`].

@@ -1,12 +1,13 @@
 //! What all programs share; no law, no host and no unit is known here.
 //!
-//! - what a user is told: [`error`] with its exit codes, [`console`], [`progress`], [`text_table`], [`numbers`], [`short_number`],
-//!   [`nearest`] names;
+//! - what a user is told: [`error`] with its exit codes, [`console`], [`progress`], [`text_table`], [`numbers`],
+//!   [`short_number`], [`nearest`] names;
 //! - arguments and the end of a program: [`command_line`];
-//! - files in TOML, with the places of what stands in them: [`toml_file`], [`toml_error`], tables over others in [`layers`],
-//!   a struct's [`field_names`], [`checked`] values; keyword files of solvers: [`keyword_file`];
+//! - files in TOML, with the places of what stands in them: [`toml_file`], [`toml_error`], tables over others in
+//!   [`layers`], a struct's [`field_names`], [`checked`] values; keyword files of solvers: [`keyword_file`];
 //! - where a program writes: [`run_directory`], [`kept_file`], [`file_names`], [`folder`];
-//! - which program it is: the [`mod@build`]; what runs beside it: [`interrupt`], [`bound_child`], the [`shell`]'s words.
+//! - which program it is: the [`mod@build`]; what runs beside it: [`interrupt`], [`bound_child`], the [`shell`]'s
+//!   words.
 
 pub mod bound_child;
 pub mod build;

@@ -111,8 +111,8 @@ fn seen_from(directory: &Path, file: &Path) -> String {
 }
 
 impl Locked {
-    /// Writes down whose the files are, before the first of them is written. In a directory that no run has written to, files of the
-    /// same names are a user's own, and get other names.
+    /// Writes down whose the files are, before the first of them is written. In a directory that no run has written to,
+    /// files of the same names are a user's own, and get other names.
     ///
     /// # Errors
     /// It cannot be written, or a file not be renamed.

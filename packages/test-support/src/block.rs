@@ -77,7 +77,7 @@ impl Output {
     }
 
     /// What the outputs asked for hold; the rest is 0.
-    pub fn of(mut self, asked: Asked) -> Output {
+    pub fn masked(mut self, asked: Asked) -> Output {
         for (c, bits) in self.bits.iter_mut().enumerate() {
             if !asked.value(c) {
                 *bits = 0;
@@ -295,7 +295,7 @@ pub fn run<T: Number>(law: &Hyperelastic<T>, inputs: &[Input<T>], call: &Call<T>
         }),
         status: codes[call.offset + i],
     });
-    let outputs = outputs.map(|output| output.of(asked)).collect();
+    let outputs = outputs.map(|output| output.masked(asked)).collect();
     for (array, what) in [(&gradient, "F"), (&fibre, "fibre"), (&old, "old state"), (&stress, "stress")]
         .into_iter()
         .chain([(&state, "state"), (&modes, "modes"), (&wave, "wave speed")])

@@ -22,8 +22,8 @@ pub fn flags() -> String {
     std::env::var("RUSTFLAGS").unwrap_or_default() + " -Csymbol-mangling-version=v0"
 }
 
-/// The library as a user installs it, from today's source, but for the names of functions inside; the libraries that solvers load
-/// by themselves are with it.
+/// The library as a user installs it, from today's source, but for the names of functions inside; the libraries that
+/// solvers load by themselves are with it.
 pub static INSTALLED: LazyLock<PathBuf> = LazyLock::new(|| {
     let installed = BUILD.join("installed");
     let environment = |command: &mut Command| {

@@ -96,8 +96,8 @@ impl Case {
         Matrix3::from_fn(|i, j| self.f[i][j])
     }
 
-    /// Whether single precision can tell the point from others: rounding F moves no invariant by more than 1 %, and the numbers and
-    /// the products of F and the shear stiffness fit.
+    /// Whether single precision can tell the point from others: rounding F moves no invariant by more than 1 %, and the
+    /// numbers and the products of F and the shear stiffness fit.
     pub fn fits_single_precision(&self) -> bool {
         let moved = self.sensitivity_invariants.iter().map(|k| k.value()).fold(0.0, f64::max);
         let entries = self.f.iter().flatten().filter(|x| **x != 0.0);
@@ -130,13 +130,14 @@ impl Case {
         Some((error / size).sqrt())
     }
 
-    /// Whether rounding F may take I_tc to the other side of 0, where the curvature of the compaction's energy changes without bound.
+    /// Whether rounding F may take I_tc to the other side of 0, where the curvature of the compaction's energy changes
+    /// without bound.
     pub fn at_the_kink_of_compaction(&self) -> bool {
         self.itc.value() != 0.0 && self.itc.value().abs() <= f64::EPSILON * self.sensitivity_invariants[1].value()
     }
 
-    /// What the rounding of dS/dE does to DDSDDE, over |DDSDDE|: the root mean square of what half a unit in the last place of
-    /// each entry becomes when it is pushed forward.
+    /// What the rounding of dS/dE does to DDSDDE, over |DDSDDE|: the root mean square of what half a unit in the last
+    /// place of each entry becomes when it is pushed forward.
     pub fn rounding_of_material_tangent(&self) -> f64 {
         const PAIRS: [(usize, usize); 6] = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)];
         let (f, jacobian) = (self.deformation_gradient(), self.deformation_gradient().determinant());
@@ -184,8 +185,9 @@ pub fn cases() -> Vec<Case> {
     read(include_str!("../../../tests/truth/points.jsonl"))
 }
 
-/// 176 points far from what a yarn does, where sums over F cancel: fibres that have slipped up to 10⁸ times the section's size,
-/// oblique fibres that are short beside F, pressed or with their section blown up, fibre directions next to a coordinate axis.
+/// 176 points far from what a yarn does, where sums over F cancel: fibres that have slipped up to 10⁸ times the
+/// section's size, oblique fibres that are short beside F, pressed or with their section blown up, fibre directions
+/// next to a coordinate axis.
 pub fn far_cases() -> Vec<Case> {
     read(include_str!("../../../tests/truth/far.jsonl"))
 }

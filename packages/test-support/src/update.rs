@@ -1,5 +1,5 @@
-//! Files that are made from the sources and committed. A test holds each against what is made today; `cargo xtask update
-//! KIND` runs the tests of a kind with `TORON_UPDATE=KIND`, and they write theirs anew.
+//! Files that are made from the sources and committed. A test holds each against what is made today; `cargo xtask
+//! update KIND` runs the tests of a kind with `TORON_UPDATE=KIND`, and they write theirs anew.
 
 /// Whether files of this kind are to be written anew.
 pub fn is_asked(kind: &str) -> bool {

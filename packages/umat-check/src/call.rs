@@ -97,7 +97,7 @@ impl Law {
     }
 }
 
-/// What is said of a library without UMAT: what it has instead, by the names of its symbols.
+/// The error of a library without UMAT: which other routine it has, by the names of its symbols.
 fn without_umat(path: &Path) -> String {
     let bytes = std::fs::read(path).unwrap_or_default();
     let is_name = |text: &&str| text.bytes().all(|byte| byte.is_ascii_alphanumeric() || byte == b'_');
@@ -333,16 +333,16 @@ impl<'a> Session<'a> {
     }
 
     /// Calls the UMAT.
-    pub fn ask(&mut self, call: &Call) -> Answer {
+    pub fn call_law(&mut self, call: &Call) -> Answer {
         if !self.exchanged {
-            return self.ask_in_order(call);
+            return self.call_law_in_order(call);
         }
         let (first, second) = PLACES;
         let mut call = call.clone();
         for values in [&mut call.stress, &mut call.strain, &mut call.strain_increment] {
             values.swap(first, second);
         }
-        let mut answer = self.ask_in_order(&call);
+        let mut answer = self.call_law_in_order(&call);
         answer.stress.swap(first, second);
         answer.modulus.swap(first, second);
         for row in &mut answer.modulus {
@@ -351,7 +351,7 @@ impl<'a> Session<'a> {
         answer
     }
 
-    fn ask_in_order(&mut self, call: &Call) -> Answer {
+    fn call_law_in_order(&mut self, call: &Call) -> Answer {
         if let Some(shared) = self.shared {
             if self.records { shared.record(&call.numbers()) } else { shared.count() }
         }
@@ -380,8 +380,8 @@ impl<'a> Session<'a> {
         let [mut layer, mut section, mut increment] = [1, 1, call.increment];
         // JSTEP: the step, a static one, NLGEOM=YES, no perturbation.
         let mut step = [1, 1, 1, 0];
-        // SAFETY: the arguments of a UMAT, each as long as Abaqus declares it; matrices are in Fortran's order. What the subroutine does
-        // beyond is its author's affair, and this process is there to bear it.
+        // SAFETY: the arguments of a UMAT, each as long as Abaqus declares it; matrices are in Fortran's order. What
+        // the subroutine does beyond is its author's affair, and this process is there to bear it.
         unsafe {
             (self.law.umat)(
                 self.stress.as_mut_ptr(),

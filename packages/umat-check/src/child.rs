@@ -1,4 +1,8 @@
-//! A question is asked in a child process, which a law may bring down: how that ends is an answer too.
+//! Every call of a law is made in a child process, which the law may end: how it ends is an answer too.
+//!
+//! The parent writes a [`Request`] to a file and starts this program again as `check-child` ([`run_task`]); the child
+//! loads the library, runs the [`Task`], and writes a [`ChildReply`] to a file ([`run`]). Memory that both map
+//! ([`Shared`]) has the last call's arguments and where a fault was, if there is no reply.
 
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
@@ -16,13 +20,13 @@ use super::{energy, objectivity, process, rest, steps, tangent, vumat, work_dir}
 use toron_shared::bound_child;
 use toron_shared::error::Error;
 
-/// A call that takes longer has no end.
+/// A call that takes longer counts as one that never returns.
 pub const LONGEST_CALL: Duration = Duration::from_secs(5);
 /// A question that takes longer is given up.
 const LONGEST_QUESTION: Duration = Duration::from_secs(60);
-const GLANCE: Duration = Duration::from_millis(4);
-/// The end of the standard error that is kept.
-const KEPT: usize = 1 << 14;
+const POLL_INTERVAL: Duration = Duration::from_millis(4);
+/// How many bytes of the standard error's end are kept.
+const STDERR_KEPT: usize = 1 << 14;
 
 /// Exit codes of `utilities.c`.
 const BY_XIT: i32 = 71;
@@ -30,7 +34,7 @@ const BY_MESSAGE: i32 = 72;
 /// The child's own exit codes: for a library that cannot be loaded, and for what is not the law's.
 const NOT_LOADED: i32 = 73;
 const FAILED: i32 = 75;
-/// What the loader ends a process with.
+/// The loader's, where a symbol is nowhere.
 const UNRESOLVED: i32 = 127;
 /// Rust's, after a panic.
 const PANICKED: i32 = 101;
@@ -38,7 +42,7 @@ const PANICKED: i32 = 101;
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub enum Task {
     /// Whether there is a VUMAT and no UMAT.
-    Alone,
+    OnlyVumat,
     /// What the law reads.
     Reads,
     Question {
@@ -62,10 +66,10 @@ pub struct Request {
     pub result: PathBuf,
 }
 
-/// What a child says if it lives.
+/// What a child writes if the law has not ended it.
 #[derive(Debug, Serialize, Deserialize)]
 pub enum ChildReply {
-    Alone(bool),
+    OnlyVumat(bool),
     Reads(Reads),
     Finding(Finding),
     /// Stress, state, DDSDDE by rows, PNEWDT, as text: they need not be finite.
@@ -81,52 +85,52 @@ pub struct Ending {
     pub call: Option<Call>,
 }
 
-/// The child: answers a request, and ends.
+/// The child process, `check-child`: reads a request, runs its task, writes the reply, and ends.
 ///
 /// # Errors
 /// None that come back: its exit code tells its own failures from the law's ends.
-pub fn answer(request: &Path) -> Result<(), Error> {
-    if let Err(error) = answered(request) {
+pub fn run(request: &Path) -> Result<(), Error> {
+    if let Err(error) = reply_to(request) {
         toron_shared::console::print_error(&error.to_string());
         std::process::exit(FAILED);
     }
     Ok(())
 }
 
-fn answered(request: &Path) -> Result<(), Error> {
+fn reply_to(request: &Path) -> Result<(), Error> {
     let io_error = |error: io::Error| Error::Input(format!("{}: {error}", request.display()));
     let text = std::fs::read(request).map_err(io_error)?;
     let Request { library, material, task, guard, shared, result } =
         serde_json::from_slice(&text).map_err(|error| Error::Input(format!("{}: {error}", request.display())))?;
     let shared = Shared::open(&shared).map_err(io_error)?;
-    if matches!(task, Task::Alone) {
+    if matches!(task, Task::OnlyVumat) {
         Shared::catch_signals();
-        return say(&result, &ChildReply::Alone(loaded(vumat::call::alone(&library))));
+        return write_reply(&result, &ChildReply::OnlyVumat(loaded(vumat::call::only_vumat(&library))));
     }
     if material.explicit.called {
         let law = loaded(vumat::call::Law::load(&library));
         Shared::catch_signals();
-        let said = vumat::child::answer(&law, &material, &task, guard, shared).map_err(io_error)?;
-        let said = said.ok_or_else(|| Error::Input("this is asked of a UMAT alone".to_string()))?;
-        return say(&result, &said);
+        let reply = vumat::child::reply_to(&law, &material, &task, guard, shared).map_err(io_error)?;
+        let reply = reply.ok_or_else(|| Error::Input("this is asked of a UMAT alone".to_string()))?;
+        return write_reply(&result, &reply);
     }
     let law = loaded(Law::load(&library));
     Shared::catch_signals();
     law.begin();
     let mut session = Session::new(&law, &material, guard, Some(shared)).map_err(io_error)?;
-    let said = match task {
-        Task::Alone => ChildReply::Alone(false),
+    let reply = match task {
+        Task::OnlyVumat => ChildReply::OnlyVumat(false),
         Task::Reads => ChildReply::Reads(process::reads(&mut session)),
         Task::Question { question, reads, allowed } => {
-            ChildReply::Finding(line(question, &law, &material, &mut session, reads, allowed))
+            ChildReply::Finding(answer_question(question, &law, &material, &mut session, reads, allowed))
         }
         Task::LargeTurns => ChildReply::Finding(objectivity::at_large_turns(&mut session)),
         Task::Call(bits) => {
             let call = Call::from_bits(&bits).ok_or_else(|| Error::Input("a call is not whole".to_string()))?;
-            ChildReply::Answer(in_words(&session.ask(&call), &material))
+            ChildReply::Answer(answer_table(&session.call_law(&call), &material))
         }
     };
-    say(&result, &said)
+    write_reply(&result, &reply)
 }
 
 /// What is loaded; where it cannot be, this process has nothing to do.
@@ -137,14 +141,15 @@ fn loaded<T>(law: Result<T, String>) -> T {
     })
 }
 
-fn say(result: &Path, said: &ChildReply) -> Result<(), Error> {
-    let text = serde_json::to_vec(said).map_err(|error| Error::Input(error.to_string()))?;
+fn write_reply(result: &Path, reply: &ChildReply) -> Result<(), Error> {
+    let text = serde_json::to_vec(reply).map_err(|error| Error::Input(error.to_string()))?;
     std::fs::write(result, text).map_err(|error| Error::Input(format!("{}: {error}", result.display())))?;
     // SAFETY: it takes a number and does not return. What the library would do at the process's end is not asked about.
     unsafe { libc::_exit(0) }
 }
 
-fn line(
+/// A question to a UMAT: each is a function of the module that is named after it.
+fn answer_question(
     question: Question,
     law: &Law,
     material: &Material,
@@ -154,11 +159,11 @@ fn line(
 ) -> Finding {
     match question {
         Question::Build | Question::Memory => process::touch(session),
-        Question::Rest => rest::ask(session),
-        Question::Tangent => tangent::ask(session, reads, allowed),
+        Question::Rest => rest::rest(session),
+        Question::Tangent => tangent::tangent(session, reads, allowed),
         Question::Objectivity => objectivity::objectivity(session, reads),
         Question::Isotropy => objectivity::isotropy(session),
-        Question::Steps => steps::ask(session),
+        Question::Steps => steps::steps(session),
         Question::Energy => energy::energy(session),
         Question::Cycles => energy::cycles(session, reads),
         Question::Dissipation => energy::dissipation(session),
@@ -175,7 +180,7 @@ fn line(
     }
 }
 
-fn in_words(answer: &Answer, material: &Material) -> Vec<(String, String)> {
+fn answer_table(answer: &Answer, material: &Material) -> Vec<(String, String)> {
     let row = |values: &[f64]| values.iter().map(|value| format!("{value:.9e}")).collect::<Vec<_>>().join("  ");
     let components = material.components;
     let mut words = vec![
@@ -188,11 +193,12 @@ fn in_words(answer: &Answer, material: &Material) -> Vec<(String, String)> {
     words
 }
 
-/// The parent: asks in a child, in this folder.
+/// The parent: runs a task in a child process, in this folder, and returns the child's reply, or how it ended without
+/// one.
 ///
 /// # Errors
 /// The child cannot be started, its files cannot be written, or the library cannot be loaded or has no UMAT.
-pub fn ask(
+pub fn run_task(
     folder: &Path,
     library: &Path,
     material: &Material,
@@ -225,14 +231,14 @@ pub fn ask(
     bound_child::bind(&mut command);
     let mut child = command.spawn().map_err(io_error)?;
     let errors = child.stderr.take();
-    let reader = std::thread::spawn(move || errors.map_or(String::new(), last_of));
+    let reader = std::thread::spawn(move || errors.map_or(String::new(), last_bytes));
     let status = watch(&mut child, &shared, longest_call).map_err(io_error)?;
     let messages = reader.join().unwrap_or_default();
-    let said = std::fs::read(&result).ok().and_then(|text| serde_json::from_slice::<ChildReply>(&text).ok());
-    if let (Some(said), Watched::Ended(status)) = (said, &status)
+    let reply = std::fs::read(&result).ok().and_then(|text| serde_json::from_slice::<ChildReply>(&text).ok());
+    if let (Some(reply), Watched::Ended(status)) = (reply, &status)
         && status.success()
     {
-        return Ok(Ok(said));
+        return Ok(Ok(reply));
     }
     if let Watched::Ended(status) = &status {
         match status.code() {
@@ -269,21 +275,21 @@ fn watch(child: &mut Child, shared: &Path, longest_call: Duration) -> io::Result
             child.wait()?;
             return Ok(if hangs { Watched::Hangs(longest_call) } else { Watched::TakesTooLong });
         }
-        std::thread::sleep(GLANCE);
+        std::thread::sleep(POLL_INTERVAL);
     }
 }
 
-/// The end of what is written, all of which is read.
-fn last_of(mut stream: impl Read) -> String {
+/// Reads a stream to its end, and keeps its last bytes.
+fn last_bytes(mut stream: impl Read) -> String {
     let mut kept = Vec::new();
-    let mut work_dir = [0; 4096];
-    while let Ok(count) = stream.read(&mut work_dir) {
+    let mut buffer = [0; 4096];
+    while let Ok(count) = stream.read(&mut buffer) {
         if count == 0 {
             break;
         }
-        kept.extend_from_slice(&work_dir[..count]);
-        if kept.len() > 2 * KEPT {
-            kept.drain(..kept.len() - KEPT);
+        kept.extend_from_slice(&buffer[..count]);
+        if kept.len() > 2 * STDERR_KEPT {
+            kept.drain(..kept.len() - STDERR_KEPT);
         }
     }
     String::from_utf8_lossy(&kept).to_string()
@@ -318,9 +324,9 @@ fn ending(status: &Watched, messages: &str, seen: &Seen) -> Ending {
         }
         (Some(PANICKED), _) => end("slow", format!("this check itself fails: {}", last_line(messages))),
         (Some(code), _) => {
-            let said = last_line(messages);
-            let said = if said.is_empty() { String::new() } else { format!(": {said}") };
-            end("stop", format!("the law ends the process (STOP, exit code {code}) {after}{said}"))
+            let message = last_line(messages);
+            let message = if message.is_empty() { String::new() } else { format!(": {message}") };
+            end("stop", format!("the law ends the process (STOP, exit code {code}) {after}{message}"))
         }
         (None, signal) => {
             let signal = signal.unwrap_or(0);

@@ -12,10 +12,10 @@ use super::child::{self, ChildReply, Ending, Task};
 use super::compile::{self, Built};
 use super::finding::{Finding, NOT_FINITE, Question, Verdict};
 use super::guarded::Guard;
-use super::input::{self, Input, Over};
+use super::input::{self, Input, Overrides};
 use super::material::{DEFAULT_NAME, Material, Reads};
 use super::repeated::{self, Repeated};
-use super::report::{OfMaterial, Report};
+use super::report::{MaterialReport, Report};
 use super::shared;
 use super::work_dir::WorkDir;
 use toron_shared::console::print;
@@ -97,7 +97,7 @@ pub fn run(program: &str, arguments: &Arguments) -> Result<(), Error> {
         return Repeated::read(again)?.run(&work_dir.path);
     }
     let Some(file) = &arguments.file else { return Err(Error::Input("no file is named".to_string())) };
-    let over = Over {
+    let overrides = Overrides {
         properties: arguments.props.clone(),
         states: arguments.statev,
         components: arguments.ntens,
@@ -106,21 +106,22 @@ pub fn run(program: &str, arguments: &Arguments) -> Result<(), Error> {
         orientation: arguments.orientation,
         seed: arguments.seed,
     };
-    let Input { mut materials, mut allowed } = input::input(file, arguments.scene.as_deref(), &over)?;
+    let Input { mut materials, mut allowed } = input::input(file, arguments.scene.as_deref(), &overrides)?;
     allowed.extend(arguments.allow.iter().cloned());
     let built = compile::compile(file, &work_dir.path)?;
     RunDirectory::check(&arguments.output, &repeated::writes(file))?;
-    if arguments.vumat || vumat_alone(&built, &work_dir.path, materials.first())? {
+    if arguments.vumat || only_vumat(&built, &work_dir.path, materials.first())? {
         let single = match &arguments.single {
             Some(library) => Some(Ok(canonical(library)?)),
             None => built.single(file, &work_dir.path)?,
         };
-        explicit(single.as_ref(), &mut materials)?;
+        declare_vumat(single.as_ref(), &mut materials)?;
     } else if arguments.single.is_some() {
         return Err(Error::Input("single is for a VUMAT; allowed: with one, or with --vumat".to_string()));
     }
     let check = Check { file, built: &built, work_dir: &work_dir.path, allowed: &allowed, arguments };
-    let materials: Result<Vec<OfMaterial>, Error> = materials.iter().map(|material| check.material(material)).collect();
+    let materials: Result<Vec<MaterialReport>, Error> =
+        materials.iter().map(|material| check.check_material(material)).collect();
     let mut report = Report { file: file.display().to_string(), verdict: Verdict::Right, materials: materials? };
     let wrong = report.wrong().join(", ");
     if !wrong.is_empty() {
@@ -136,11 +137,12 @@ pub fn run(program: &str, arguments: &Arguments) -> Result<(), Error> {
     if wrong.is_empty() { Ok(()) } else { Err(Error::Evaluation(format!("{}: wrong: {wrong}", file.display()))) }
 }
 
-/// Whether a library has a VUMAT and no UMAT, asked in a child as everything else.
-fn vumat_alone(built: &Built, work_dir: &Path, material: Option<&Material>) -> Result<bool, Error> {
+/// Whether a library has a VUMAT and no UMAT; the child finds out, as it does everything else.
+fn only_vumat(built: &Built, work_dir: &Path, material: Option<&Material>) -> Result<bool, Error> {
     let Some(material) = material else { return Ok(false) };
-    let said = child::ask(work_dir, &built.library, material, Task::Alone, Guard::Padded, child::LONGEST_CALL)?;
-    Ok(matches!(said, Ok(ChildReply::Alone(true))))
+    let reply =
+        child::run_task(work_dir, &built.library, material, Task::OnlyVumat, Guard::Padded, child::LONGEST_CALL)?;
+    Ok(matches!(reply, Ok(ChildReply::OnlyVumat(true))))
 }
 
 /// A path that the child finds from where it runs.
@@ -149,7 +151,7 @@ fn canonical(path: &Path) -> Result<PathBuf, Error> {
 }
 
 /// Declares that a VUMAT is called, and where its build for single precision is.
-fn explicit(single: Option<&Result<PathBuf, String>>, materials: &mut [Material]) -> Result<(), Error> {
+fn declare_vumat(single: Option<&Result<PathBuf, String>>, materials: &mut [Material]) -> Result<(), Error> {
     for material in materials {
         if material.components == 3 {
             return Err(Error::Input(
@@ -162,8 +164,8 @@ fn explicit(single: Option<&Result<PathBuf, String>>, materials: &mut [Material]
     Ok(())
 }
 
-/// How long a law is waited for that has hung before.
-const SHORTER: Duration = Duration::from_secs(1);
+/// How long a call may take once another has never returned.
+const LONGEST_CALL_AFTER_HANG: Duration = Duration::from_secs(1);
 
 /// A file that is checked.
 struct Check<'a> {
@@ -175,10 +177,11 @@ struct Check<'a> {
 }
 
 impl Check<'_> {
-    fn material(&self, material: &Material) -> Result<OfMaterial, Error> {
-        let mut lines = vec![Finding::new(Question::Build, Verdict::Right, None, self.built.by.clone())];
-        // With room, since the law may need it; the pages at the ends come next.
-        let reads = match self.ask(material, Task::Reads, Guard::Padded, false, child::LONGEST_CALL)? {
+    /// Asks all questions about one material, in their order.
+    fn check_material(&self, material: &Material) -> Result<MaterialReport, Error> {
+        let mut findings = vec![Finding::new(Question::Build, Verdict::Right, None, self.built.by.clone())];
+        // With padding, since the law may need it; guard pages come with the questions.
+        let reads = match self.run_task(material, Task::Reads, Guard::Padded, false, child::LONGEST_CALL)? {
             Ok(ChildReply::Reads(reads)) => Some(reads),
             Ok(_) => None,
             Err(_) => None,
@@ -192,31 +195,35 @@ impl Check<'_> {
         let mut guard = Guard::Behind;
         let mut ended: Vec<(String, Question)> = Vec::new();
         for question in asked {
-            // Of a law that ends before it says what it reads, an inverted F is not asked for.
+            // A law that ends before it is known what it reads is not called with an inverted F.
             let unknown = if question == Question::Invalid { Reads::Rate } else { Reads::Mixed };
-            let mut line = self.question(material, question, reads.unwrap_or(unknown), guard, &mut ended)?;
-            if question == Question::Memory && line.verdict != Verdict::Right {
+            let mut finding = self.answer_question(material, question, reads.unwrap_or(unknown), guard, &mut ended)?;
+            if question == Question::Memory && finding.verdict != Verdict::Right {
                 guard = Guard::Padded;
             }
             if guard == Guard::Padded
                 && matches!(question, Question::Repeat | Question::Threads)
-                && line.verdict == Verdict::Wrong
+                && finding.verdict == Verdict::Wrong
             {
-                line.text.push_str("; it may follow from what memory says");
+                finding.text.push_str("; it may follow from what memory says");
             }
             let allowed = self.allowed.get(question.name()).copied();
-            if let (Verdict::Wrong, Some(allowed), Some(figure)) = (line.verdict, allowed, line.figure)
+            if let (Verdict::Wrong, Some(allowed), Some(figure)) = (finding.verdict, allowed, finding.figure)
                 && figure <= allowed
             {
-                line.verdict = Verdict::Warning;
+                finding.verdict = Verdict::Warning;
             }
-            lines.push(line);
+            findings.push(finding);
         }
-        seen_together(&mut lines);
-        Ok(OfMaterial { name: material.name.clone(), law: reads.map(|reads| reads.name().to_string()), lines })
+        relate(&mut findings);
+        Ok(MaterialReport {
+            name: material.name.clone(),
+            law: reads.map(|reads| reads.name().to_string()),
+            lines: findings,
+        })
     }
 
-    fn ask(
+    fn run_task(
         &self,
         material: &Material,
         task: Task,
@@ -225,13 +232,14 @@ impl Check<'_> {
         longest_call: Duration,
     ) -> Result<Result<ChildReply, Ending>, Error> {
         let library = self.built.checked.as_ref().filter(|_| checked).unwrap_or(&self.built.library);
-        child::ask(self.work_dir, library, material, task, guard, longest_call).map_err(|error| match error {
+        child::run_task(self.work_dir, library, material, task, guard, longest_call).map_err(|error| match error {
             Error::Input(text) => Error::Input(format!("{}: {text}", self.file.display())),
             other => other,
         })
     }
 
-    fn question(
+    /// Runs a question's task in a child, twice for the memory, and makes a finding of how it ends.
+    fn answer_question(
         &self,
         material: &Material,
         question: Question,
@@ -253,34 +261,34 @@ impl Check<'_> {
         };
         // A law that has hung once is not waited for as long again.
         let hung = ended.iter().any(|(kind, _)| kind == "hang");
-        let longest_call = if hung { SHORTER } else { child::LONGEST_CALL };
+        let longest_call = if hung { LONGEST_CALL_AFTER_HANG } else { child::LONGEST_CALL };
         let mut answer = None;
         for &guard in guards {
-            match self.ask(material, task.clone(), guard, checked, longest_call)? {
-                Ok(ChildReply::Finding(mut line)) => {
-                    if let Some(call) = line.call_bits.take().and_then(|bits| Call::from_bits(&bits)) {
-                        line.call = Some(self.kept(material, question, guard, call)?);
+            match self.run_task(material, task.clone(), guard, checked, longest_call)? {
+                Ok(ChildReply::Finding(mut finding)) => {
+                    if let Some(call) = finding.call_bits.take().and_then(|bits| Call::from_bits(&bits)) {
+                        finding.call = Some(self.keep_call(material, question, guard, call)?);
                     }
-                    answer = Some(line);
+                    answer = Some(finding);
                 }
                 Ok(_) => {}
-                Err(ending) => return self.ended(material, question, ending, guard, ended),
+                Err(ending) => return self.ending_as_finding(material, question, ending, guard, ended),
             }
         }
-        let line = answer.unwrap_or_else(|| Finding::new(question, Verdict::NotSure, None, "no answer"));
-        if checked && line.kinds.iter().any(|kind| kind == NOT_FINITE) {
+        let finding = answer.unwrap_or_else(|| Finding::new(question, Verdict::NotSure, None, "no answer"));
+        if checked && finding.kinds.iter().any(|kind| kind == NOT_FINITE) {
             let unset = self.built.used_unset(self.file, self.work_dir);
             let unset = if unset.is_empty() { String::new() } else { format!(": by gfortran {}", unset.join(", ")) };
-            return Ok(Finding { text: format!("{}{unset}", line.text), ..line });
+            return Ok(Finding { text: format!("{}{unset}", finding.text), ..finding });
         }
         if question == Question::Objectivity
             && !material.explicit.called
-            && line.verdict == Verdict::Right
+            && finding.verdict == Verdict::Right
             && reads != Reads::Total
         {
-            return self.at_large_turns(material, line, guard, longest_call);
+            return self.at_large_turns(material, finding, guard, longest_call);
         }
-        Ok(line)
+        Ok(finding)
     }
 
     /// Turns of 90° in one increment: no solver has them, and a law that is right for small ones is only warned of.
@@ -291,9 +299,9 @@ impl Check<'_> {
         guard: Guard,
         longest_call: Duration,
     ) -> Result<Finding, Error> {
-        let text = match self.ask(material, Task::LargeTurns, guard, false, longest_call)? {
-            Ok(ChildReply::Finding(line)) if line.verdict == Verdict::Right => return Ok(line),
-            Ok(ChildReply::Finding(line)) => line.text,
+        let text = match self.run_task(material, Task::LargeTurns, guard, false, longest_call)? {
+            Ok(ChildReply::Finding(finding)) if finding.verdict == Verdict::Right => return Ok(finding),
+            Ok(ChildReply::Finding(finding)) => finding.text,
             Ok(_) => return Ok(right),
             Err(ending) => ending.text,
         };
@@ -301,8 +309,8 @@ impl Check<'_> {
         Ok(Finding::new(Question::Objectivity, Verdict::Warning, right.figure, text))
     }
 
-    /// The process has ended: that is the answer. The same end in another line says nothing new.
-    fn ended(
+    /// The finding where the law has ended the process. The same kind of end in a later question is not reported again.
+    fn ending_as_finding(
         &self,
         material: &Material,
         question: Question,
@@ -331,26 +339,26 @@ impl Check<'_> {
             return Ok(Finding::new(question, Verdict::Warning, None, text).with("assumed size"));
         }
         ended.push((kind.clone(), question));
-        let of_the_line = kind == "runtime check"
+        let of_the_question = kind == "runtime check"
             || matches!(question, Question::Threads | Question::Repeat | Question::Histories)
             || shared::names().any(|array| kind.ends_with(array));
-        let verdict = if of_the_line { Verdict::Wrong } else { Verdict::Ended };
+        let verdict = if of_the_question { Verdict::Wrong } else { Verdict::Ended };
         let hint = match kind.as_str() {
             "XIT" | "stop" if material.name == DEFAULT_NAME => {
                 format!("; CMNAME is {DEFAULT_NAME} here: --name, if the law asks for it")
             }
             _ => String::new(),
         };
-        let mut line = Finding::new(question, verdict, None, format!("{text}{hint}")).with(&kind);
+        let mut finding = Finding::new(question, verdict, None, format!("{text}{hint}")).with(&kind);
         // The build with checks at run time is not the one that repeats a call, and of threads no call is kept.
         if let Some(call) = call.filter(|_| !matches!(question, Question::Runtime | Question::Threads)) {
-            line.call = Some(self.kept(material, question, guard, call)?);
+            finding.call = Some(self.keep_call(material, question, guard, call)?);
         }
-        Ok(line)
+        Ok(finding)
     }
 
     /// The file of a call, for `--again`.
-    fn kept(&self, material: &Material, question: Question, guard: Guard, call: Call) -> Result<String, Error> {
+    fn keep_call(&self, material: &Material, question: Question, guard: Guard, call: Call) -> Result<String, Error> {
         let repeated = Repeated { file: self.file.to_path_buf(), material: material.clone(), guard, call };
         Ok(repeated.write(&self.arguments.output, question)?.display().to_string())
     }
@@ -363,55 +371,56 @@ fn old_assumed_size(message: &str) -> Option<&str> {
     (rest.trim() == "above upper bound of 1").then_some(array)
 }
 
-/// What one line says of another: one cause is told once.
-fn seen_together(lines: &mut [Finding]) {
-    stress_before_tangent(lines);
-    not_finite_once(lines);
-    crash_of_unset_variable(lines);
+/// Findings that follow from others: one cause is reported once.
+fn relate(findings: &mut [Finding]) {
+    stress_before_tangent(findings);
+    not_finite_once(findings);
+    crash_of_unset_variable(findings);
 }
 
 /// Where the stress itself is wrong, the tangent's kind may follow from it.
-fn stress_before_tangent(lines: &mut [Finding]) {
-    let is_wrong =
-        |question: Question| lines.iter().any(|line| line.check == question.name() && line.verdict == Verdict::Wrong);
+fn stress_before_tangent(findings: &mut [Finding]) {
+    let is_wrong = |question: Question| {
+        findings.iter().any(|finding| finding.check == question.name() && finding.verdict == Verdict::Wrong)
+    };
     let of_stress = [Question::Objectivity, Question::Isotropy].into_iter().find(|&question| is_wrong(question));
     let Some(of_stress) = of_stress.map(Question::name) else { return };
-    for line in lines.iter_mut().filter(|line| line.check == Question::Tangent.name()) {
-        if line.verdict == Verdict::Wrong && !line.kinds.is_empty() {
-            let kind = line.text.strip_prefix("none of the usual mistakes; ");
-            let text = kind.map_or_else(|| format!("perhaps {}", line.text), str::to_string);
-            line.text = format!("the stress itself is wrong (see {of_stress}): mend it first; {text}");
+    for finding in findings.iter_mut().filter(|finding| finding.check == Question::Tangent.name()) {
+        if finding.verdict == Verdict::Wrong && !finding.kinds.is_empty() {
+            let kind = finding.text.strip_prefix("none of the usual mistakes; ");
+            let text = kind.map_or_else(|| format!("perhaps {}", finding.text), str::to_string);
+            finding.text = format!("the stress itself is wrong (see {of_stress}): mend it first; {text}");
         }
     }
 }
 
 /// What is not finite in one line is so in others.
-fn not_finite_once(lines: &mut [Finding]) {
+fn not_finite_once(findings: &mut [Finding]) {
     let mut first: Option<String> = None;
-    for line in lines.iter_mut() {
-        if line.verdict != Verdict::Wrong || !line.kinds.iter().any(|kind| kind == NOT_FINITE) {
+    for finding in findings.iter_mut() {
+        if finding.verdict != Verdict::Wrong || !finding.kinds.iter().any(|kind| kind == NOT_FINITE) {
             continue;
         }
         match &first {
             Some(first) => {
-                line.verdict = Verdict::NotSure;
-                line.text = format!("not finite, as in {first}");
+                finding.verdict = Verdict::NotSure;
+                finding.text = format!("not finite, as in {first}");
             }
-            None => first = Some(line.check.clone()),
+            None => first = Some(finding.check.clone()),
         }
     }
 }
 
 /// A crash where the build with checks has found the cause.
-fn crash_of_unset_variable(lines: &mut [Finding]) {
+fn crash_of_unset_variable(findings: &mut [Finding]) {
     let runtime = Question::Runtime.name();
-    if !lines.iter().any(|line| line.check == runtime && line.verdict == Verdict::Wrong) {
+    if !findings.iter().any(|finding| finding.check == runtime && finding.verdict == Verdict::Wrong) {
         return;
     }
-    for line in lines.iter_mut() {
-        if line.verdict.fails() && line.kinds.iter().any(|kind| kind == "crash") {
-            line.verdict = Verdict::NotSure;
-            line.text.push_str("; see runtime");
+    for finding in findings.iter_mut() {
+        if finding.verdict.fails() && finding.kinds.iter().any(|kind| kind == "crash") {
+            finding.verdict = Verdict::NotSure;
+            finding.text.push_str("; see runtime");
         }
     }
 }
@@ -432,14 +441,14 @@ mod tests {
     fn a_wrong_stress_comes_before_the_tangent() {
         let tangent = Finding::new(Question::Tangent, Verdict::Wrong, None, "symmetrised").with("symmetrised");
         let mut alone = [tangent.clone(), Finding::new(Question::Objectivity, Verdict::Right, None, "")];
-        seen_together(&mut alone);
+        relate(&mut alone);
         assert_eq!(alone[0].text, "symmetrised");
         let mut both = [tangent, Finding::new(Question::Objectivity, Verdict::Wrong, None, "")];
-        seen_together(&mut both);
+        relate(&mut both);
         assert!(both[0].text.starts_with("the stress itself is wrong (see objectivity)"));
         let not_finite = |question| Finding::new(question, Verdict::Wrong, None, "").with(NOT_FINITE);
         let mut both = [not_finite(Question::Rest), not_finite(Question::Tangent)];
-        seen_together(&mut both);
+        relate(&mut both);
         assert_eq!([both[0].verdict, both[1].verdict], [Verdict::Wrong, Verdict::NotSure]);
         assert_eq!(both[1].text, "not finite, as in rest");
     }

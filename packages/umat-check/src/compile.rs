@@ -30,11 +30,11 @@ enum Language {
     Library,
 }
 
-/// How gfortran is told to read a source.
+/// The flags with which gfortran reads a source.
 #[derive(Clone, Copy, Debug)]
 struct Form {
     flags: &'static [&'static str],
-    /// What is said of it in the report.
+    /// Its name in the report.
     said: &'static str,
 }
 
@@ -42,8 +42,8 @@ const fn form(flags: &'static [&'static str], said: &'static str) -> Form {
     Form { flags, said }
 }
 
-/// In this order, until one compiles: what Abaqus's compiler takes comes first. `-fdec` is the dialect that it has from DEC. A leading
-/// tab counts for less there than here, so that lines may be too long.
+/// In this order, until one compiles: what Abaqus's compiler takes comes first. `-fdec` is the dialect that it has from
+/// DEC. A leading tab counts for less there than here, so that lines may be too long.
 const FIXED_FORMS: [Form; 5] = [
     form(&["-ffixed-form", "-ffixed-line-length-132"], ""),
     form(&["-ffixed-form", "-ffixed-line-length-132", "-fdec"], ""),
@@ -123,7 +123,8 @@ impl Built {
         unset_in(&messages.unwrap_or_default())
     }
 
-    /// The same for single precision, where the source leaves it to `vaba_param.inc`; inside, why it does not compile so.
+    /// The same for single precision, where the source leaves it to `vaba_param.inc`; inside, why it does not compile
+    /// so.
     ///
     /// # Errors
     /// Files cannot be read or written.

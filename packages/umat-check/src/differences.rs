@@ -1,4 +1,5 @@
-//! Derivatives of a law's own stress by central differences, extrapolated (Ridders 1982), with an estimate of their error.
+//! Derivatives of a law's own stress by central differences, extrapolated (Ridders 1982), with an estimate of their
+//! error.
 
 use super::call::{Answer, Call, Session};
 use super::kinematics::{Components, Modulus, exp, of_stress, rotation_of, unit_strain};
@@ -127,7 +128,8 @@ fn answered(answer: &Answer) -> bool {
     !answer.refused() && answer.stress.iter().all(|value| value.is_finite())
 }
 
-/// The Jaumann rate of the Kirchhoff stress over J: the deformation at the increment's end is strained further, without rotation.
+/// The Jaumann rate of the Kirchhoff stress over J: the deformation at the increment's end is strained further, without
+/// rotation.
 pub fn of_deformation(
     session: &mut Session,
     point: &Point,
@@ -143,7 +145,7 @@ pub fn of_deformation(
         let strained = exp(&(strain * size)) * f1;
         let mut call = point.call(&strained, material);
         call.time_step = base.time_step;
-        let answer = session.ask(&call);
+        let answer = session.call_law(&call);
         let kirchhoff = global(&answer.stress, &strained, material) * (strained.determinant() / volume);
         answered(&answer).then(|| of_stress(&(axes.transpose() * kirchhoff * axes), components))
     })
@@ -156,7 +158,7 @@ pub fn of_strain_increment(session: &mut Session, base: &Call) -> Option<Derivat
         let mut call = base.clone();
         call.strain_increment[column] += size;
         call.f1 = exp(&(unit_strain(components, column) * size)) * base.f1;
-        let answer = session.ask(&call);
+        let answer = session.call_law(&call);
         answered(&answer).then_some(answer.stress)
     })
 }

@@ -44,8 +44,8 @@ fn size(material: &Material) -> f64 {
     material.stretch.iter().fold(f64::INFINITY, |size, stretch| size.min(stretch.ln().abs().max(1e-3))).min(0.3)
 }
 
-/// F = 1 + A sin t + B (1 - cos t), once round from the virgin state. The sum over equal parts is exact to all orders for what is
-/// smooth.
+/// F = 1 + A sin t + B (1 - cos t), once round from the virgin state. The sum over equal parts is exact to all orders
+/// for what is smooth.
 fn cycle(session: &mut Session, rng: &mut Rng, parts: usize) -> Result<Option<Cycle>, String> {
     let size = 0.7 * size(session.material);
     let a = gradient(rng, session.material) * size;
@@ -295,7 +295,7 @@ pub fn dissipation(session: &mut Session) -> Finding {
     }
 }
 
-/// What is said of SPD + SCD that are set.
+/// A text for the report where SPD + SCD are set.
 fn accumulated(session: &mut Session, found: &Reported) -> Finding {
     let finer = reported(session, FINER * STRAIGHT).ok().flatten().map_or(f64::NAN, |finer| finer.dissipated);
     let part = finer / found.dissipated;

@@ -12,8 +12,8 @@ const LONGEST: f64 = 150.0;
 /// The largest turn of one increment, 5°: many rate laws integrate the spin as solvers do, for small turns alone.
 pub const LARGEST_TURN: f64 = 0.0873;
 
-/// Legs between random states: the sequence of F after each increment. Increments of a leg are equal; those of different legs
-/// differ by up to a factor of thirty.
+/// Legs between random states: the sequence of F after each increment. Increments of a leg are equal; those of
+/// different legs differ by up to a factor of thirty.
 pub fn history(rng: &mut Rng, material: &Material, legs: usize) -> Vec<Matrix3<f64>> {
     let mut history = Vec::new();
     let mut f = Matrix3::identity();

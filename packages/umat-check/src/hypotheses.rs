@@ -4,9 +4,9 @@ use nalgebra::Matrix3;
 
 use super::kinematics::{Components, Modulus, places, tensor, unit_strain};
 
-/// What the mistakes are made of, at one state.
-pub struct Sight {
-    /// The right modulus.
+/// The right tangent at one state, and what the usual mistakes are made of.
+pub struct ExactTangent {
+    /// The modulus.
     pub truth: Modulus,
     /// Whether it is that of the Jaumann rate of the Kirchhoff stress, and not the plain ∂Δσ/∂Δε.
     pub jaumann: bool,
@@ -99,9 +99,9 @@ fn material(spatial: &Modulus, f: &Matrix3<f64>, components: usize) -> Option<Mo
     }))
 }
 
-/// All mistakes at a state, always in the same order.
-pub fn all(sight: &Sight, components: usize) -> Vec<Hypothesis> {
-    let Sight { truth, stress, f, .. } = sight;
+/// The modulus that each usual mistake gives at a state, always in the same order.
+pub fn usual_mistakes(exact: &ExactTangent, components: usize) -> Vec<Hypothesis> {
+    let ExactTangent { truth, stress, f, .. } = exact;
     let mut found = Vec::new();
     let mut add = |kinds: &[&'static str], text: &str, modulus: Modulus, factor: Factor| {
         found.push(Hypothesis { kinds: kinds.to_vec(), text: text.to_string(), modulus, factor });
@@ -118,7 +118,7 @@ pub fn all(sight: &Sight, components: usize) -> Vec<Hypothesis> {
         ("the terms of the stress have the wrong sign", sum(truth, &terms, -2.0)),
         ("half of the terms of the stress", sum(truth, &terms, -0.5)),
     ];
-    if sight.jaumann {
+    if exact.jaumann {
         rates.push(("the Jaumann rate of the Cauchy stress: σ⊗I is missing", sum(truth, &by_volume, -1.0)));
         rates.push(("the Oldroyd rate of the Cauchy stress", sum(&spatial, &by_volume, -1.0)));
         let green_naghdi = green_naghdi(truth, stress, f, components);
@@ -177,7 +177,7 @@ pub fn all(sight: &Sight, components: usize) -> Vec<Hypothesis> {
         add(&[name], "columns", map(|i, j| truth[i][exchanged(j)]), Factor::One);
     }
     for (index, text) in ["the modulus of unloading", "the modulus without time"].into_iter().enumerate() {
-        let modulus = sight.intact.get(index).copied().unwrap_or(nowhere);
+        let modulus = exact.intact.get(index).copied().unwrap_or(nowhere);
         add(&["intact"], text, modulus, Factor::One);
         if index == 0 {
             add(&["intact"], "the undamaged modulus, in proportion to that of unloading", modulus, Factor::OfEachState);

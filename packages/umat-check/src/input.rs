@@ -1,4 +1,4 @@
-//! What a check is told: a file in TOML, and the arguments of the command over it.
+//! The input of a check: a file in TOML, and the arguments of the command, which replace its keys.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -50,9 +50,9 @@ struct Own {
     fibres: Option<Spanned<Vec<Vec<f64>>>>,
 }
 
-/// What the command's arguments say of the material.
+/// Arguments of the command that replace keys of the file.
 #[derive(Clone, Debug, Default)]
-pub struct Over {
+pub struct Overrides {
     pub properties: Option<Vec<f64>>,
     pub states: Option<usize>,
     pub components: Option<usize>,
@@ -71,24 +71,24 @@ pub struct Input {
 
 /// Longest CMNAME.
 const LONGEST_NAME: usize = 80;
-/// Most entries of STATEV that are believed.
+/// The largest count of STATEV's entries that is allowed.
 const MOST_STATES: usize = 100_000;
 
 /// Reads the file, if there is one: the one named, or the one beside the law.
 ///
 /// # Errors
 /// It cannot be read, or says what is not allowed.
-pub fn input(law: &Path, file: Option<&Path>, over: &Over) -> Result<Input, Error> {
+pub fn input(law: &Path, file: Option<&Path>, overrides: &Overrides) -> Result<Input, Error> {
     let beside = law.with_extension("toml");
     let file: Option<PathBuf> = file.map(Path::to_path_buf).or_else(|| beside.is_file().then_some(beside));
     let (name, text) = match &file {
         Some(file) => read(file)?,
         None => ("the arguments".to_string(), String::new()),
     };
-    parse(&Source { name: &name, text: &text }, over)
+    parse(&Source { name: &name, text: &text }, overrides)
 }
 
-fn parse(source: &Source, over: &Over) -> Result<Input, Error> {
+fn parse(source: &Source, overrides: &Overrides) -> Result<Input, Error> {
     let file: File = source.parse()?;
     let mut allowed = BTreeMap::new();
     for (key, value) in &file.allow {
@@ -99,41 +99,43 @@ fn parse(source: &Source, over: &Over) -> Result<Input, Error> {
         allowed.insert(key.clone(), value.value());
     }
     let owns = if file.materials.is_empty() { vec![Own::default()] } else { file.materials.clone() };
-    let materials: Result<Vec<Material>, Error> = owns.iter().map(|own| material(source, &file, own, over)).collect();
+    let materials: Result<Vec<Material>, Error> =
+        owns.iter().map(|own| material(source, &file, own, overrides)).collect();
     Ok(Input { materials: materials?, allowed })
 }
 
-fn material(source: &Source, file: &File, own: &Own, over: &Over) -> Result<Material, Error> {
-    let components = match (over.components, &file.ntens) {
+fn material(source: &Source, file: &File, own: &Own, overrides: &Overrides) -> Result<Material, Error> {
+    let components = match (overrides.components, &file.ntens) {
         (Some(components), _) => allowed_components(components).map_err(Error::Input)?,
         (None, Some(ntens)) => {
             allowed_components(*ntens.get_ref()).map_err(|message| source.error(ntens.span(), &message))?
         }
         (None, None) => 6,
     };
-    let name = match (&over.name, own.name.as_ref().or(file.name.as_ref())) {
+    let name = match (&overrides.name, own.name.as_ref().or(file.name.as_ref())) {
         (Some(name), _) => allowed_name(name).map_err(Error::Input)?,
         (None, Some(name)) => allowed_name(name.get_ref()).map_err(|message| source.error(name.span(), &message))?,
         (None, None) => DEFAULT_NAME.to_string(),
     };
     let given = own.initial.as_ref().or(file.initial.as_ref());
     let mut initial = given.map_or(Vec::new(), |initial| initial.get_ref().clone());
-    let states = over.states.or(own.statev).or(file.statev).unwrap_or(initial.len());
+    let states = overrides.states.or(own.statev).or(file.statev).unwrap_or(initial.len());
     if states > MOST_STATES {
         return Err(Error::Input(format!("statev is {states}; allowed: 0 to {MOST_STATES}")));
     }
     if let Some(given) = given
         && states < initial.len()
     {
-        if over.states.is_none() {
+        if overrides.states.is_none() {
             let message = format!("initial has {} numbers; allowed: statev = {states} or fewer", initial.len());
             return Err(source.error(given.span(), &message));
         }
         initial.truncate(states);
     }
     initial.resize(states, 0.0);
-    let properties = over.properties.clone().or(own.properties.clone()).or(file.properties.clone()).unwrap_or_default();
-    let key = if over.properties.is_some() { "--props" } else { "properties" };
+    let properties =
+        overrides.properties.clone().or(own.properties.clone()).or(file.properties.clone()).unwrap_or_default();
+    let key = if overrides.properties.is_some() { "--props" } else { "properties" };
     all_finite(key, &properties)?;
     all_finite("initial", &initial)?;
     let stretch = match &file.stretch {
@@ -158,10 +160,10 @@ fn material(source: &Source, file: &File, own: &Own, over: &Over) -> Result<Mate
             None => 0.0,
         },
         time_step: value(&file.dtime).unwrap_or(1.0),
-        traits: traits(source, own.traits.as_ref().or(file.traits.as_ref()), over)?,
-        orientation: over.orientation || file.orientation.unwrap_or(false),
+        traits: traits(source, own.traits.as_ref().or(file.traits.as_ref()), overrides)?,
+        orientation: overrides.orientation || file.orientation.unwrap_or(false),
         fibres: fibres(source, own.fibres.as_ref().or(file.fibres.as_ref()))?,
-        seed: over.seed.or(file.seed).unwrap_or(1),
+        seed: overrides.seed.or(file.seed).unwrap_or(1),
         explicit: explicit(source, file, states)?,
     })
 }
@@ -213,10 +215,10 @@ fn allowed_components(components: usize) -> Result<usize, String> {
     }
 }
 
-fn traits(source: &Source, file: Option<&Spanned<Vec<String>>>, over: &Over) -> Result<Traits, Error> {
+fn traits(source: &Source, file: Option<&Spanned<Vec<String>>>, overrides: &Overrides) -> Result<Traits, Error> {
     let mut traits = Traits::default();
     let unknown = |name: &str| format!("trait \"{name}\"; allowed: {}", Traits::ALLOWED);
-    if let Some(names) = &over.traits {
+    if let Some(names) = &overrides.traits {
         for name in names {
             if !traits.declare(name) {
                 return Err(Error::Input(unknown(name)));
@@ -249,7 +251,7 @@ mod tests {
     use super::*;
 
     fn of(text: &str) -> Result<Input, String> {
-        parse(&Source { name: "law.toml", text }, &Over::default()).map_err(|error| error.to_string())
+        parse(&Source { name: "law.toml", text }, &Overrides::default()).map_err(|error| error.to_string())
     }
 
     #[test]

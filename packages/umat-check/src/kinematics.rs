@@ -4,8 +4,8 @@ use nalgebra::{Matrix3, Rotation3, SymmetricEigen, Vector3};
 
 /// An increment ΔF = V R: what a UMAT gets of it.
 ///
-/// Abaqus itself integrates by Hughes–Winget, which is inexact for finite increments and would blame the law for it; polar
-/// decomposition and logarithm are exact.
+/// Abaqus itself integrates by Hughes–Winget, which is inexact for finite increments and would blame the law for it;
+/// polar decomposition and logarithm are exact.
 pub struct Increment {
     /// ln V, on the axes of the increment's end.
     pub strain: Matrix3<f64>,

@@ -1,8 +1,9 @@
 //! What is wrong with a UMAT, one's own or anybody's: the program `umat-check`, and `toron check`.
 //!
-//! The file becomes a library ([`compile`]) that a child process loads and calls as Abaqus/Standard does ([`child`], [`call`],
-//! [`point`]). One question a module: [`tangent`] (with [`differences`], [`judgement`], [`hypotheses`]), [`objectivity`], [`steps`],
-//! [`energy`], [`rest`], [`process`]. Answers are lines ([`finding`]) of a [`report`]. [`vumat`] has what differs in Abaqus/Explicit.
+//! The file becomes a library ([`compile`]) that a child process loads and calls as Abaqus/Standard does ([`child`],
+//! [`call`], [`point`]). One question a module: [`tangent`] (with [`differences`], [`judgement`], [`hypotheses`],
+//! [`mistakes`]), [`objectivity`], [`steps`], [`energy`], [`rest`], [`process`]. Answers are lines ([`finding`]) of a
+//! [`report`]. [`vumat`] has what differs in Abaqus/Explicit.
 
 #![cfg(target_os = "linux")]
 
@@ -20,6 +21,7 @@ pub mod input;
 pub mod judgement;
 pub mod kinematics;
 pub mod material;
+pub mod mistakes;
 pub mod objectivity;
 pub mod point;
 pub mod process;

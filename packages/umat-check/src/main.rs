@@ -24,7 +24,7 @@ fn main() -> std::process::ExitCode {
 
     let command = CommandLine::command().mut_arg("output", |output| output.default_value("umat-check-out"));
     toron_shared::command_line::run(command, &[], |arguments: CommandLine| match arguments.child {
-        Some(Child::CheckChild { request }) => child::answer(&request),
+        Some(Child::CheckChild { request }) => child::run(&request),
         None => command::run("umat-check", &arguments.check),
     })
 }

@@ -1,4 +1,5 @@
-//! Whether the answer turns with the axes: superposed rotations, and those of the reference where the law is isotropic or has fibres.
+//! Whether the answer turns with the axes: superposed rotations, and those of the reference where the law is isotropic
+//! or has fibres.
 
 use fastrand::Rng;
 use nalgebra::{Matrix3, Vector3};
@@ -31,7 +32,8 @@ pub fn objectivity(session: &mut Session, reads: Reads) -> Finding {
     if reads == Reads::Total { at_large_turns(session) } else { at_small_turns(session) }
 }
 
-/// A steady spin, which adds up to large turns. A law that integrates the spin itself errs with the square of the turn at least.
+/// A steady spin, which adds up to large turns. A law that integrates the spin itself errs with the square of the turn
+/// at least.
 fn at_small_turns(session: &mut Session) -> Finding {
     let spin = |turn_of_one: f64| {
         move |rng: &mut Rng, material: &Material, _: usize, count: usize| {
@@ -144,8 +146,8 @@ fn last(rotation: Matrix3<f64>, count: usize) -> Vec<Matrix3<f64>> {
     rotations
 }
 
-/// Random histories, and the same with rotations: the largest difference of the stress, over the largest stress of the history.
-/// Each increment in so many equal parts, in its time.
+/// Random histories, and the same with rotations: the largest difference of the stress, over the largest stress of the
+/// history. Each increment in so many equal parts, in its time.
 fn compared(
     session: &mut Session,
     parts: usize,

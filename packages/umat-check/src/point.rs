@@ -1,5 +1,5 @@
-//! A material point that is driven as Abaqus drives it: stress and strain turned before the call, state carried from one increment to
-//! the next.
+//! A material point that is driven as Abaqus drives it: stress and strain turned before the call, state carried from
+//! one increment to the next.
 
 use nalgebra::Matrix3;
 
@@ -7,7 +7,7 @@ use super::call::{Answer, Call, Session};
 use super::kinematics::{Components, Increment, of_strain, of_stress, rotation_of, strain_tensor, tensor};
 use super::material::Material;
 
-/// Where a point has got to.
+/// A point's state after its last increment.
 #[derive(Clone, Debug)]
 pub struct Point {
     /// On global axes, also where the law's are corotational.
@@ -35,7 +35,8 @@ pub enum Failure {
 const HALVINGS: u32 = 6;
 
 impl Point {
-    /// A point that has not been deformed, of this element and number. The element is 1 everywhere: laws may have tables by it.
+    /// A point that has not been deformed, of this element and number. The element is 1 everywhere: laws may have
+    /// tables by it.
     pub fn virgin(session: &mut Session, place: [i32; 2]) -> Point {
         let state = session.initial_state(place);
         let nothing = [0.0; 6];
@@ -129,7 +130,7 @@ impl Point {
     ) -> Result<Answer, Failure> {
         let mut call = self.call(f1, session.material);
         call.time_step = time_step;
-        let answer = session.ask(&call);
+        let answer = session.call_law(&call);
         if answer.refused() {
             let Some(halvings) = halvings.checked_sub(1) else { return Err(Failure::Refused) };
             let middle = Increment::between(&self.f, f1).at(0.5, &self.f);

@@ -1,5 +1,5 @@
-//! What a law does to the process that it runs in: memory, order and threads of calls, outputs that it leaves unset, floating-point
-//! exceptions, invalid input, many random histories.
+//! What a law does to the process that it runs in: memory, order and threads of calls, outputs that it leaves unset,
+//! floating-point exceptions, invalid input, many random histories.
 
 use std::time::{Duration, Instant};
 
@@ -24,13 +24,13 @@ pub fn reads(session: &mut Session) -> Reads {
         path.truncate(20);
         for f1 in &path {
             let call = point.call(f1, session.material);
-            let answer = session.ask(&call);
+            let answer = session.call_law(&call);
             if answer.refused() || !answer.finite() {
                 break;
             }
             let size = answer.stress.iter().fold(0.0_f64, |size, stress| size.max(stress.abs()));
             let mut changed = |call: &Call| {
-                let other = session.ask(call);
+                let other = session.call_law(call);
                 let difference = other.stress.iter().zip(&answer.stress).map(|(a, b)| (a - b).abs());
                 !difference.fold(0.0, f64::max).le(&(1e-12 * size))
             };
@@ -111,14 +111,14 @@ pub fn repeat(session: &mut Session) -> Finding {
         let mut point = Point::virgin(session, [1, k as i32 + 1]);
         for (increment, f1) in path.iter().enumerate().take(alone[k].len()) {
             let call = point.call(f1, session.material);
-            let first = session.ask(&call);
+            let first = session.call_law(&call);
             if first.refused() {
                 break;
             }
             let further = Matrix3::new(1.002, 0.001, 0.0, 0.0, 0.999, 0.0, 0.0, 0.0, 1.001) * f1;
             let between = point.call(&further, session.material);
-            session.ask(&between);
-            let second = session.ask(&call);
+            session.call_law(&between);
+            let second = session.call_law(&call);
             if !first.same(&second) {
                 return wrong(format!(
                     "the same call answers otherwise the second time, at increment {}{}",
@@ -236,12 +236,12 @@ pub fn outputs(session: &mut Session) -> Finding {
         let mut point = Point::virgin(session, [1, k as i32 + 1]);
         for f1 in &path {
             let mut call = point.call(f1, session.material);
-            let zero = session.ask(&call);
+            let zero = session.call_law(&call);
             if zero.refused() || !zero.finite() {
                 break;
             }
             call.unset = f64::from_bits(UNSET);
-            let answer = session.ask(&call);
+            let answer = session.call_law(&call);
             asked += 1;
             for i in 0..components {
                 for j in 0..components {
@@ -301,7 +301,7 @@ pub fn exceptions(session: &mut Session) -> Finding {
             // SAFETY: they take and give numbers, and change the flags of this thread alone.
             let (answer, found) = unsafe {
                 feclearexcept(all);
-                let answer = session.ask(&call);
+                let answer = session.call_law(&call);
                 (answer, fetestexcept(all))
             };
             asked += 1;
@@ -348,7 +348,7 @@ pub fn invalid(session: &mut Session, reads: Reads) -> Finding {
     call.f1[(0, 0)] = f64::NAN;
     call.strain_increment[0] = f64::NAN;
     let mut answer_to = |call: &Call, what: &str, said: &mut Vec<String>| {
-        let answer = session.ask(call);
+        let answer = session.call_law(call);
         if answer.refused() {
             said.push(format!("{what}: PNEWDT"));
             true
@@ -402,7 +402,7 @@ pub fn histories(session: &mut Session, reads: Reads) -> Finding {
                     break;
                 }
                 Err(Failure::NotFinite(call)) => {
-                    let answer = session.ask(&call);
+                    let answer = session.call_law(&call);
                     let text =
                         format!("{} of history {} (F = {})", not_finite(&answer, session), number + 1, rows(&call.f1));
                     return Finding::new(Question::Histories, Verdict::Wrong, None, text).with(NOT_FINITE);
@@ -457,7 +457,7 @@ pub fn runtime(session: &mut Session) -> Finding {
                 Ok(_) => {}
                 Err(Failure::Refused) => break,
                 Err(Failure::NotFinite(call)) => {
-                    let answer = session.ask(&call);
+                    let answer = session.call_law(&call);
                     let text = format!(
                         "{} of the build that fills unset reals with NaN: a variable is used unset",
                         not_finite(&answer, session)

@@ -88,7 +88,7 @@ impl Repeated {
     pub fn run(&self, work_dir: &Path) -> Result<(), Error> {
         let built = compile::compile(&self.file, work_dir)?;
         let numbers = self.call.numbers().into_iter().map(f64::to_bits).collect();
-        match child::ask(
+        match child::run_task(
             work_dir,
             &built.library,
             &self.material,

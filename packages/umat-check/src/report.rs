@@ -10,13 +10,13 @@ use toron_shared::text_table::folded;
 pub struct Report {
     pub file: String,
     pub verdict: Verdict,
-    pub materials: Vec<OfMaterial>,
+    pub materials: Vec<MaterialReport>,
 }
 
 #[derive(Serialize)]
-pub struct OfMaterial {
+pub struct MaterialReport {
     pub name: String,
-    /// What it reads: total, rate, mixed; none where it does not live to say so.
+    /// What it reads: total, rate, mixed; none where it ended the process before that was known.
     pub law: Option<String>,
     pub lines: Vec<Finding>,
 }
@@ -36,15 +36,15 @@ impl Report {
 
     /// For the terminal; `program` is the command that repeats a call.
     pub fn as_text(&self, program: &str, colours: bool) -> String {
-        self.materials.iter().map(|material| self.of_material(material, program, colours)).collect()
+        self.materials.iter().map(|material| self.material_as_text(material, program, colours)).collect()
     }
 
-    fn of_material(&self, material: &OfMaterial, program: &str, colours: bool) -> String {
+    fn material_as_text(&self, material: &MaterialReport, program: &str, colours: bool) -> String {
         let law = material.law.as_ref().map_or(String::new(), |law| format!(", a {law} law"));
         let mut text = format!("{}: {}{law}\n\n", self.file, material.name);
         let shown = gathered(&material.lines);
         for line in &shown {
-            text.push_str(&written(line, program, colours));
+            text.push_str(&as_text(line, program, colours));
         }
         let count = |verdict: Verdict| material.lines.iter().filter(|line| line.verdict == verdict).count();
         let counts =
@@ -94,7 +94,8 @@ const FIGURE: usize = 8;
 const VERDICT: usize = 13;
 const WORDS: usize = 78;
 
-fn written(line: &Finding, program: &str, colours: bool) -> String {
+/// A line of the report.
+fn as_text(line: &Finding, program: &str, colours: bool) -> String {
     let figure = line.figure.map_or(String::new(), short);
     let verdict = format!("{:<VERDICT$}", line.verdict.name());
     let verdict = match (colours, line.verdict) {
@@ -149,11 +150,11 @@ mod tests {
         let right = Finding::new(Question::Rest, Verdict::Right, Some(0.0), "no stress at rest");
         let long = "a sentence of many words ".repeat(8);
         let wrong = Finding::new(Question::Tangent, Verdict::Wrong, Some(0.25), long.trim());
-        let plain = [written(&right, "umat-check", false), written(&wrong, "umat-check", false)].concat();
+        let plain = [as_text(&right, "umat-check", false), as_text(&wrong, "umat-check", false)].concat();
         let columns: Vec<usize> = plain.lines().map(|line| line.len() - line.trim_start().len()).collect();
         assert_eq!(columns[..2], [0, 0]);
         assert!(columns[2..].iter().all(|&column| column == NAME + FIGURE + 2 + VERDICT));
-        let coloured = written(&right, "umat-check", true);
-        assert_eq!(coloured.replace("\x1b[32m", "").replace("\x1b[0m", ""), written(&right, "umat-check", false));
+        let coloured = as_text(&right, "umat-check", true);
+        assert_eq!(coloured.replace("\x1b[32m", "").replace("\x1b[0m", ""), as_text(&right, "umat-check", false));
     }
 }

@@ -9,10 +9,10 @@ use super::point::Point;
 /// Of the stiffness, what counts as no stress.
 const TOLERANCE: f64 = 1e-9;
 
-pub fn ask(session: &mut Session) -> Finding {
+pub fn rest(session: &mut Session) -> Finding {
     let point = Point::virgin(session, [1, 1]);
     let call = point.call(&Matrix3::identity(), session.material);
-    let answer = session.ask(&call);
+    let answer = session.call_law(&call);
     if !answer.finite() {
         let begins = &session.material.initial;
         let hint = if begins.is_empty() || begins.iter().any(|state| *state != 0.0) {

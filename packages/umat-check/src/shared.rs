@@ -1,5 +1,5 @@
-//! A file that the child writes through its memory and the parent reads: how many calls there were, the last one's arguments, and where
-//! a fault was. It outlives the child.
+//! A file that the child writes through its memory and the parent reads: how many calls there were, the last one's
+//! arguments, and where a fault was. It outlives the child.
 
 use std::fs::OpenOptions;
 use std::io;
@@ -84,7 +84,8 @@ impl Shared {
     /// Writes the address and the number of a signal to the file, and ends.
     pub fn catch_signals() {
         for signal in [libc::SIGSEGV, libc::SIGBUS, libc::SIGFPE, libc::SIGILL] {
-            // SAFETY: a handler of the type that SA_SIGINFO wants; all else of the structure is zero, which is valid for it.
+            // SAFETY: a handler of the type that SA_SIGINFO wants; all else of the structure is zero, which is valid
+            // for it.
             unsafe {
                 let mut action: libc::sigaction = std::mem::zeroed();
                 action.sa_sigaction = on_signal as *const () as usize;
@@ -119,8 +120,8 @@ impl Shared {
 extern "C" fn on_signal(signal: libc::c_int, info: *mut libc::siginfo_t, _: *mut libc::c_void) {
     let area = AREA.load(Ordering::SeqCst);
     if !area.is_null() {
-        // SAFETY: the mapping is longer than the two words, and stays; the system hands a valid structure to a handler. Stores and
-        // _exit are allowed in one.
+        // SAFETY: the mapping is longer than the two words, and stays; the system hands a valid structure to a handler.
+        // Stores and _exit are allowed in one.
         unsafe {
             (*area.add(FAULT)).store((*info).si_addr() as u64, Ordering::SeqCst);
             (*area.add(SIGNAL)).store(signal as u64, Ordering::SeqCst);

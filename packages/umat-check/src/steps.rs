@@ -14,8 +14,8 @@ use super::point::{Failure, Point};
 const HISTORIES: usize = 16;
 /// Each increment in so many parts.
 const PARTS: [usize; 5] = [1, 2, 4, 8, 16];
-/// Where these tell no order: a threshold that is crossed within an increment makes differences uneven, and a law that relaxes faster
-/// than the time passes shows none before parts are shorter than its relaxation.
+/// Where these tell no order: a threshold that is crossed within an increment makes differences uneven, and a law that
+/// relaxes faster than the time passes shows none before parts are shorter than its relaxation.
 const MOST_PARTS: usize = 4096;
 const LONGEST: Duration = Duration::from_secs(10);
 /// Increments of a history.
@@ -27,7 +27,8 @@ const SETTLED: f64 = 1e-3;
 /// An order of convergence below this is none.
 const LOWEST_ORDER: f64 = 0.5;
 
-/// A path, the stress at its end with the most parts and the largest on the way, and the last change of the first over the second.
+/// A path, the stress at its end with the most parts and the largest on the way, and the last change of the first over
+/// the second.
 struct Ended {
     path: Vec<Matrix3<f64>>,
     stress: Matrix3<f64>,
@@ -35,7 +36,7 @@ struct Ended {
     change: f64,
 }
 
-pub fn ask(session: &mut Session) -> Finding {
+pub fn steps(session: &mut Session) -> Finding {
     let mut rng = Rng::with_seed(session.material.seed ^ 0x57);
     let mut largest_change = 0.0_f64;
     let (mut coarse, mut fine, mut last) = (0.0, 0.0, 0.0);
@@ -100,8 +101,8 @@ pub fn ask(session: &mut Session) -> Finding {
     Finding::new(Question::Steps, Verdict::Warning, Some(order), text).with("no convergence")
 }
 
-/// The order of the last two changes of the stress when the parts of a path are halved again and again, and the last change; none where
-/// the law refuses them. It ends where an order is seen twice, or the stress has settled.
+/// The order of the last two changes of the stress when the parts of a path are halved again and again, and the last
+/// change; none where the law refuses them. It ends where an order is seen twice, or the stress has settled.
 fn finer(session: &mut Session, worst: &Ended) -> Result<Option<(f64, f64)>, String> {
     let started = Instant::now();
     let (mut stress, mut parts, mut seen) = (worst.stress, PARTS[PARTS.len() - 1], 0);

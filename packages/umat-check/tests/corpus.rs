@@ -1,5 +1,5 @@
-//! `umat-check` on the laws of `ffi-tests/check`: those that are right are called right with any properties, and each fault
-//! is found and called by its name.
+//! `umat-check` on the laws of `ffi-tests/check`: those that are right are called right with any properties, and each
+//! fault is found and called by its name.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -122,7 +122,8 @@ fn alarms_of_sets(sets: usize, lines: &[&str]) -> String {
 /// Lines that every law has to be right in: a check that is sure of nothing raises no alarm either.
 const REQUIRED: [&str; 8] = ["memory", "rest", "tangent", "objectivity", "repeat", "threads", "histories", "steps"];
 
-/// What is not right of a law that is right: of those lines all but right, of others what is neither right nor left out.
+/// What is not right of a law that is right: of those lines all but right, of others what is neither right nor left
+/// out.
 fn shortcomings(law: &str) -> String {
     let (code, report) = check(&corpus("laws").join(law), &[]);
     let lines = report["materials"][0]["lines"].as_array().expect("lines");

@@ -1,5 +1,6 @@
-//! The yarn under impact in Akantu, a finite-element program with eight integration points in a hexahedron that calls the law as a
-//! material in Python (`ffi-tests/akantu/impact.py`), against `toron impact` on the same mesh and against theory.
+//! The yarn under impact in Akantu, a finite-element program with eight integration points in a hexahedron that calls
+//! the law as a material in Python (`ffi-tests/akantu/impact.py`), against `toron impact` on the same mesh and against
+//! theory.
 
 use std::path::Path;
 

@@ -1,9 +1,10 @@
-//! The decks of `ffi-tests/calculix` in CalculiX, an unmodified solver that loads the shared library: against closed forms,
-//! the library's own answer and equilibrium recomputed here; with the library's tangent and with one differentiated
-//! numerically.
+//! The decks of `ffi-tests/calculix` in CalculiX, an unmodified solver that loads the shared library: against closed
+//! forms, the library's own answer and equilibrium recomputed here; with the library's tangent and with one
+//! differentiated numerically.
 //!
-//! CalculiX prints seven digits, hence the tolerances: 1e-6 of the largest value where one printed number stands against
-//! a closed form, 5e-6 where printed displacements go through differences over an element and the fibre's stiffness.
+//! CalculiX prints seven digits, hence the tolerances: 1e-6 of the largest value where one printed number stands
+//! against a closed form, 5e-6 where printed displacements go through differences over an element and the fibre's
+//! stiffness.
 
 use crate::calculix_decks::{
     Job, Results, Tangent, assert_quadratic, both_tangents as run, control, properties, vectors,
@@ -60,7 +61,8 @@ fn assert_uniform(results: &Results, expected: &Point<f64>) {
     assert!(worst < PRINTED && worst_state < PRINTED, "{worst:e}, {worst_state:e}");
 }
 
-/// Every integration point's Cauchy stress, and equilibrium, against a law's Cauchy stress at the printed displacements.
+/// Every integration point's Cauchy stress, and equilibrium, against a law's Cauchy stress at the printed
+/// displacements.
 fn assert_equilibrium(mesh: &Mesh, results: &Results, cauchy: impl Fn(&Matrix3<f64>) -> [f64; 6]) {
     let displacements = vectors(results.last("displacements"));
     // Stress, point by point.
@@ -240,8 +242,8 @@ fn bar(length: f64, pull: f64) -> (Mesh, [(&'static str, String); 3]) {
     (mesh, includes)
 }
 
-/// The reaction of a bar that is drawn along its fibre is this stress until it has come to this stretch, beyond it nothing; the
-/// increment that breaks still carries. The latch is the state variable `failed`.
+/// The reaction of a bar that is drawn along its fibre is this stress until it has come to this stretch, beyond it
+/// nothing; the increment that breaks still carries. The latch is the state variable `failed`.
 fn assert_breaks(results: &Results, pull: f64, stress: impl Fn(f64) -> f64, stretch: f64, failed: usize) {
     let limit = stress(stretch) * EDGE * EDGE;
     let reactions = results.all("total force");
@@ -279,7 +281,8 @@ fn fibre_pull_to_failure() {
     }
 }
 
-/// With a state variable for limits of points, which CalculiX leaves 0, the bar breaks as without; a variable of the law's is none.
+/// With a state variable for limits of points, which CalculiX leaves 0, the bar breaks as without; a variable of the
+/// law's is none.
 #[test]
 fn a_variable_for_limits_that_is_0_is_that_of_the_card() {
     const PULL: f64 = 0.06;
@@ -311,8 +314,8 @@ fn with_own_law(deck: &str, from: &str, properties: &str) -> String {
 
 const PULLED_YARN: &str = "82341.0, 1055.0, 2.2, 649.74, 0.0, 0.0458, 1.8, 0.0\n1.0, 0.0, 0.0\n";
 
-/// With the fibre along the first of rectangular axes: the residuals are squared, and the stress is that of the law with the fibre in
-/// global axes.
+/// With the fibre along the first of rectangular axes: the residuals are squared, and the stress is that of the law
+/// with the fibre in global axes.
 #[test]
 fn a_law_of_ones_own_converges_quadratically() {
     let (mesh, includes) = twist(3);

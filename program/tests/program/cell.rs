@@ -1,5 +1,6 @@
-//! The yarn's section in CalculiX and in the explicit host, on coarse meshes: against the thesis's parameters, against Hertz, against its own balance of
-//! energy. Those that are too long for every run are ignored; `.ci/long cell` runs them, before a release.
+//! The yarn's section in CalculiX and in the explicit host, on coarse meshes: against the thesis's parameters, against
+//! Hertz, against its own balance of energy. Those that are too long for every run are ignored; `.ci/long cell` runs
+//! them, before a release.
 //!
 //! Where the bands come from:
 //!
@@ -154,7 +155,8 @@ fn work_becomes_strain_energy() {
     }
 }
 
-/// The hexagonal cell in the explicit host and in CalculiX: the same fibres, another element, contact and way of solving.
+/// The hexagonal cell in the explicit host and in CalculiX: the same fibres, another element, contact and way of
+/// solving.
 #[test]
 fn the_explicit_host_agrees_with_calculix() {
     let scene = Scene { elements: 6, increments: 12, ..scene() };
@@ -220,7 +222,8 @@ fn a_random_packing_needs_no_calculix() {
     }
 }
 
-/// With 12 increments CalculiX takes for an equilibrium of this mesh what stores more than the walls' work; with 24 it does not.
+/// With 12 increments CalculiX takes for an equilibrium of this mesh what stores more than the walls' work; with 24 it
+/// does not.
 #[test]
 fn a_load_that_needs_more_increments_gets_them() {
     let folder = toron_test_support::library::folder("cell-refined");
@@ -254,8 +257,9 @@ fn square_packing_is_softer_than_hexagonal() {
 
 /// Two cylinders, pressed together between their centres. The approach of a centre to the contact is, after Johnson
 /// (Eq. 5.58), 2P/(πE*) (ln(4R/a) − ½), with the centre as the point of reference, and a² = 4PR/(πE*) for equal
-/// cylinders, each of which sees a rigid plane. E* is that of the plane problem: 1 over S22 − S12²/S11. With larger loads the
-/// approach grows beyond that, by 5 % at a = 0.14 R: a St. Venant–Kirchhoff solid softens when it is compressed.
+/// cylinders, each of which sees a rigid plane. E* is that of the plane problem: 1 over S22 − S12²/S11. With larger
+/// loads the approach grows beyond that, by 5 % at a = 0.14 R: a St. Venant–Kirchhoff solid softens when it is
+/// compressed.
 #[test]
 fn two_cylinders_touch_as_hertz_says() {
     let scene = Scene { largest_distortion: 6e-3, increments: 6, friction: 0.0, ..scene() };
@@ -442,7 +446,8 @@ fn the_cell_converges() {
     }
 }
 
-/// I_tc and I_td of the middle's fibres by themselves: those of the deformation that brings their centres nearest to where they are.
+/// I_tc and I_td of the middle's fibres by themselves: those of the deformation that brings their centres nearest to
+/// where they are.
 fn of_the_middle(model: &Model, outcome: &Outcome) -> [f64; 2] {
     let quads = model.bodies[0].quads.len();
     let now = |fibre: usize| {
@@ -488,7 +493,8 @@ fn least_area(model: &Model, outcome: &Outcome) -> f64 {
     pairs.map(ratio).fold(f64::INFINITY, f64::min)
 }
 
-/// By the law with the cell's parameters, the middle of a box stores what the cell stores under the middle's own strain.
+/// By the law with the cell's parameters, the middle of a box stores what the cell stores under the middle's own
+/// strain.
 #[track_caller]
 fn assert_middle_is_the_cell(model: &Model, outcome: &Outcome, cell: &Fit) {
     let [i_tc, i_td] = of_the_middle(model, outcome);
@@ -507,9 +513,9 @@ fn assert_middle_is_the_cell(model: &Model, outcome: &Outcome, cell: &Fit) {
     assert_within(ratio, 1.0, 0.05);
 }
 
-/// The thesis's 115 fibres in CalculiX, as far as a St. Venant–Kirchhoff solid goes. The shorter rows leave half a diameter free at each
-/// end, into which fibres are pressed: the middle is strained less than the walls say. Strained as it is, it stores what the cell
-/// stores. The explicit host takes the same way, with another element and contact.
+/// The thesis's 115 fibres in CalculiX, as far as a St. Venant–Kirchhoff solid goes. The shorter rows leave half a
+/// diameter free at each end, into which fibres are pressed: the middle is strained less than the walls say. Strained
+/// as it is, it stores what the cell stores. The explicit host takes the same way, with another element and contact.
 #[test]
 #[ignore = "takes half an hour"]
 fn the_box_of_the_thesis_in_calculix() {

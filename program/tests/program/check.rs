@@ -7,8 +7,8 @@ use serde_json::Value;
 
 use toron_test_support::library::{LIBRARY, ROOT};
 
-/// Checks a library with a scene of `ffi-tests/check`, which must be right: the names of the lines that are right, and of those that are
-/// neither right nor left out.
+/// Checks a library with a scene of `ffi-tests/check`, which must be right: the names of the lines that are right, and
+/// of those that are neither right nor left out.
 fn check(library: &str, scene: &str, arguments: &[String]) -> [Vec<String>; 2] {
     let output = Command::new(env!("CARGO_BIN_EXE_toron"))
         .current_dir(LIBRARY.as_path())

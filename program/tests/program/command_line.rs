@@ -245,7 +245,8 @@ fn read_by<'a>(card: &'a str, comment: &str) -> Vec<&'a str> {
     card.lines().filter(|line| !line.starts_with(comment)).collect()
 }
 
-/// LS-DYNA's time step follows from K + 4G/3, which must not be below the fastest wave of the law, along the fibre or not.
+/// LS-DYNA's time step follows from K + 4G/3, which must not be below the fastest wave of the law, along the fibre or
+/// not.
 #[test]
 fn a_card_has_the_fastest_wave() {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("fastest-wave");
@@ -352,7 +353,8 @@ fn a_preset_prints_as_a_card() {
     }
 }
 
-/// Every field of ten columns has a blank before it, in any units, and says its number to five digits or names itself rounded.
+/// Every field of ten columns has a blank before it, in any units, and says its number to five digits or names itself
+/// rounded.
 #[test]
 fn a_card_takes_changes_and_options() {
     let mm = |arguments: &[&str]| card(&[&["--units", "mm-tonne-s", "--host"], arguments].concat());

@@ -1,4 +1,5 @@
-//! `toron compare` on the histories of one strike as four hosts write them; the folder's README says which of them are from runs.
+//! `toron compare` on the histories of one strike as four hosts write them; the folder's README says which of them are
+//! from runs.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};

@@ -317,8 +317,8 @@ fn written(line: &str) -> Option<(String, String, Vec<String>)> {
 /// What a folder's files are called in which several commands have some of the same names.
 type Owners = BTreeMap<(String, &'static str), (Vec<String>, String)>;
 
-/// That a command of `page` is refused by none of those before, whatever their order: what has files of the same names has
-/// another directory, or the same scene.
+/// That a command of `page` is refused by none of those before, whatever their order: what has files of the same names
+/// has another directory, or the same scene.
 fn leaves_others(owners: &mut Owners, page: &str, (directory, command, given): (String, String, Vec<String>)) {
     let names = match &*command {
         "fabric" | "impact" | "fibres" => "a summary",

@@ -1,7 +1,7 @@
-//! The documents say what the library says. What stands in them between `<!-- generated: NAME -->` and `<!-- end -->` is the
-//! library's own words, or what the program prints where NAME is a command; `cargo xtask update documents` writes it
-//! anew. The programs shown there compile and print what is shown behind them, links lead to a file and to a heading in
-//! it, and the code names of the symbols exist.
+//! The documents say what the library says. What stands in them between `<!-- generated: NAME -->` and `<!-- end -->`
+//! is the library's own words, or what the program prints where NAME is a command; `cargo xtask update documents`
+//! writes it anew. The programs shown there compile and print what is shown behind them, links lead to a file and to a
+//! heading in it, and the code names of the symbols exist.
 
 use std::collections::BTreeSet;
 use std::ffi::c_char;
@@ -605,7 +605,8 @@ fn the_readme_s_figure_of_the_yarn_is_what_its_command_gives() {
     assert!(read("results/impact.md").contains(&format!("{speed:.1}")), "{speed}");
 }
 
-/// What a page tells to write and to type: its files, by the name in the line before, and its commands with what they print.
+/// What a page tells to write and to type: its files, by the name in the line before, and its commands with what they
+/// print.
 enum Told {
     File { name: String, text: String },
     Command { words: Vec<String>, output: Option<String> },

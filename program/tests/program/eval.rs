@@ -160,10 +160,11 @@ fn entries_in_double_precision() {
     meets_the_truth("vumat", &POLAR);
 }
 
-/// DDSDDE of the entries that return another tangent, which is pushed forward exactly: a strong shear magnifies the rounding of
-/// dS/dE. What that alone does decides, for the error of the exact dS/dE, rounded, is by chance: in the worst shear its root mean
-/// square is 2.1e-12, and one in ten of 200 roundings exceeds 2.5e-12. Found are at most 1.65 times the root mean square in shears,
-/// 3.7 times where the section is distorted or the yarn pressed flat, and 5.5e-15 where nothing is magnified.
+/// DDSDDE of the entries that return another tangent, which is pushed forward exactly: a strong shear magnifies the
+/// rounding of dS/dE. What that alone does decides, for the error of the exact dS/dE, rounded, is by chance: in the
+/// worst shear its root mean square is 2.1e-12, and one in ten of 200 roundings exceeds 2.5e-12. Found are at most 1.65
+/// times the root mean square in shears, 3.7 times where the section is distorted or the yarn pressed flat, and 5.5e-15
+/// where nothing is magnified.
 #[test]
 fn tangents_that_are_pushed_forward() {
     for via in ["mgis", "calculix"] {
@@ -225,8 +226,8 @@ const HARD: [&str; 13] = [
 /// Its logarithm is little above one, so that no two stiffnesses give the same energy.
 const STRETCH: &str = "2.72";
 
-/// As stiffness and, where it is a stretch, as entry of F: the law's own bits at the nearest double. The reference reading
-/// is the standard library's, which rounds correctly.
+/// As stiffness and, where it is a stretch, as entry of F: the law's own bits at the nearest double. The reference
+/// reading is the standard library's, which rounds correctly.
 #[test]
 fn decimal_numbers_are_exact() {
     let bits = |k_el: f64, stretch: f64| {
@@ -309,8 +310,8 @@ fn lines_that_are_no_points() {
     }
 }
 
-/// Any amount of space is allowed, keys may stand in any order, others are ignored; the last line needs no end, and a blank
-/// one is none.
+/// Any amount of space is allowed, keys may stand in any order, others are ignored; the last line needs no end, and a
+/// blank one is none.
 #[test]
 fn lines_that_are_points_all_the_same() {
     let spaces = " ".repeat(1 << 20);

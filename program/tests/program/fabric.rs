@@ -8,7 +8,8 @@ use std::time::Duration;
 use crate::weave::Picture;
 use toron_test_support::library::{ROOT, folder};
 
-/// A quarter of a disc of five by five yarns, struck for this many microseconds; further keys go into the scene's table.
+/// A quarter of a disc of five by five yarns, struck for this many microseconds; further keys go into the scene's
+/// table.
 fn scene(end: f64, keys: &str) -> String {
     format!(
         "title = \"a patch\"\nunits = \"mm-g-ms\"\n\
@@ -456,7 +457,8 @@ fn wait_for_lines(child: &mut std::process::Child, file: &Path, lines: usize) {
     }
 }
 
-/// Runs until the history has so many lines, then ends the run by Ctrl-C; returns its outputs. The scene must not end by itself.
+/// Runs until the history has so many lines, then ends the run by Ctrl-C; returns its outputs. The scene must not end
+/// by itself.
 fn interrupted_after(lines: usize, mut program: Command, history: &Path, meanwhile: impl FnOnce()) -> [String; 2] {
     program.stdout(std::process::Stdio::piped()).stderr(std::process::Stdio::piped());
     let mut child = program.spawn().expect("it starts");
@@ -517,7 +519,8 @@ fn a_run_that_is_interrupted_says_how_it_goes_on_and_does_so_with_the_same_bits(
     assert!((0..2).all(|number| frame(&whole, number).is_some() && frame(&whole, number) == frame(&output, number)));
 }
 
-/// A case that has ended stays as it is when a later one was interrupted; and all files of an earlier run go before the first case.
+/// A case that has ended stays as it is when a later one was interrupted; and all files of an earlier run go before the
+/// first case.
 #[test]
 fn cases_that_have_ended_are_not_begun_again() {
     let keys = "hyperelastic.properties = { k_ld = 126.0 }\n[[case]]\nname = \"first\"\nend = 0.001\n\

@@ -1,5 +1,5 @@
-//! The fibres of a yarn as rows of beads, in LAMMPS: one of them against Smith's theory, 19 of them under a projectile, and what the
-//! program says when something is wrong.
+//! The fibres of a yarn as rows of beads, in LAMMPS: one of them against Smith's theory, 19 of them under a projectile,
+//! and what the program says when something is wrong.
 //!
 //! Where the bands come from:
 //!
@@ -113,7 +113,8 @@ fn nineteen_fibres_break_under_a_projectile() {
     );
 }
 
-/// Rows between walls: by the stretch of their contacts they store what an elastic lattice does, and the walls' work is all there.
+/// Rows between walls: by the stretch of their contacts they store what an elastic lattice does, and the walls' work is
+/// all there.
 #[test]
 fn rows_of_fibres_are_pressed() {
     let program = LAMMPS.as_path();

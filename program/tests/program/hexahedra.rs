@@ -1,5 +1,5 @@
-//! A mesh of eight-node hexahedra, with the kinematics and the nodal forces of the fully integrated element, independent
-//! of any solver.
+//! A mesh of eight-node hexahedra, with the kinematics and the nodal forces of the fully integrated element,
+//! independent of any solver.
 
 use std::fmt::Write;
 
@@ -49,8 +49,8 @@ impl Mesh {
     }
 
     /// A quarter of an elliptical cylinder along x, of these half axes along y and z: a square of n × n elements in its
-    /// middle, n rings of 2n around it, one layer along x. Also the elements of the outermost ring: their face S4 is the
-    /// skin.
+    /// middle, n rings of 2n around it, one layer along x. Also the elements of the outermost ring: their face S4 is
+    /// the skin.
     pub fn quarter_ellipse(n: usize, thickness: f64, axes: [f64; 2]) -> (Mesh, Vec<usize>) {
         let part = |i: usize| i as f64 / n as f64;
         let mut flat: Vec<[f64; 2]> = Vec::new();

@@ -14,7 +14,7 @@ use toron_parameters::identify::file::Job;
 use toron_parameters::identify::fit::{Fit, Problem};
 use toron_parameters::identify::parameter::{PARAMETERS, Parameter, Values};
 use toron_parameters::identify::response::{Measured, Quantity};
-use toron_parameters::identify::{notes, output, report, worth};
+use toron_parameters::identify::{notes, output, report, sensitivity};
 use toron_strikes::impact::{self, scene::Scene};
 use toron_test_support::library::ROOT;
 
@@ -275,8 +275,9 @@ fn sets_are_fitted_after_those_that_tell_what_they_need() {
     assert_relative_eq!(fit.values[Parameter::KTd.index()].expect("k_td"), TRUE[3], max_relative = 1e-6);
 }
 
-/// The same data in other units give the same yarn, and values and intervals are those of an independent computation (NumPy and
-/// SciPy: least squares, covariances propagated, Student's t with Welch and Satterthwaite's degrees of freedom).
+/// The same data in other units give the same yarn, and values and intervals are those of an independent computation
+/// (NumPy and SciPy: least squares, covariances propagated, Student's t with Welch and Satterthwaite's degrees of
+/// freedom).
 #[test]
 fn the_energies_example_has_the_intervals_of_an_independent_computation() {
     let expected = [
@@ -496,7 +497,8 @@ fn parameters_that_the_data_cannot_tell_apart_are_named() {
     assert!(found.contains("tell only a combination of eps_lim and alpha"), "{found}");
 }
 
-/// Starting files of known yarns: the fibres tell k_el, the strain at failure and the density; what nobody has published stays open.
+/// Starting files of known yarns: the fibres tell k_el, the strain at failure and the density; what nobody has
+/// published stays open.
 #[test]
 fn yarns_from_data_sheets_are_presets_to_be_completed() {
     for (name, modulus) in
@@ -660,8 +662,10 @@ fn a_scene_shows_what_the_parameters_are_worth() {
     std::fs::write(folder.join("scene.toml"), scene("")).expect("a file");
     let job = Job::read(&example("yarn.toml")).expect("the example is valid");
     let fit = job.problem.fit().expect("a fit");
-    let trials = worth::trials(&job, &fit, &Scene::read(&folder.join("scene.toml")).expect("a scene")).expect("a run");
-    // k_el, k_tc, p, k_td at two ends each, k_tc and p also with the other one; no failure, so eps_lim and alpha are left out.
+    let trials =
+        sensitivity::trials(&job, &fit, &Scene::read(&folder.join("scene.toml")).expect("a scene")).expect("a run");
+    // k_el, k_tc, p, k_td at two ends each, k_tc and p also with the other one; no failure, so eps_lim and alpha are
+    // left out.
     assert_eq!(trials.len(), 1 + 4 * 2 + 2 * 2, "{trials:?}");
     assert!(trials[1..].iter().all(|trial| trial.speed != trials[0].speed));
     std::fs::write(folder.join("kevlar-identified.toml"), output::preset(&job, &fit)).expect("a file");

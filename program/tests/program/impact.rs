@@ -1,5 +1,5 @@
-//! The yarn under impact on coarse meshes, against the thesis, against another solver and against theory. `docs/guides/impact.md` has
-//! the figures of the full scenes.
+//! The yarn under impact on coarse meshes, against the thesis, against another solver and against theory.
+//! `docs/guides/impact.md` has the figures of the full scenes.
 //!
 //! Where the bands come from:
 //!
@@ -94,8 +94,8 @@ fn a_slow_projectile_is_held() {
     assert_balanced(&result);
 }
 
-/// The linear law breaks; so few elements hold 120 m/s, but not 160: 102.7 m/s are left, and a striking speed of 1 % more or less
-/// moves that by 1.
+/// The linear law breaks; so few elements hold 120 m/s, but not 160: 102.7 m/s are left, and a striking speed of 1 %
+/// more or less moves that by 1.
 #[test]
 fn the_linear_law_breaks() {
     let mut case = tiny("table_4_5.toml", "linear-120", 1);
@@ -295,7 +295,8 @@ fn a_held_projectile_has_no_residual_speed() {
     assert_eq!(result.last().speed, case.speed);
 }
 
-/// Hourglass modes that hold more than a tenth of the internal energy are warned of, once a wave has been at the clamp and back.
+/// Hourglass modes that hold more than a tenth of the internal energy are warned of, once a wave has been at the clamp
+/// and back.
 #[test]
 fn much_hourglass_energy_is_warned_of() {
     let mut case = tiny("table_4_5.toml", "mf-120", 1);
@@ -350,8 +351,8 @@ fn a_soft_contact_is_warned_of() {
     );
 }
 
-/// Twice the same run gives the same numbers, through the break; outputs that are not wanted change none, single precision
-/// few.
+/// Twice the same run gives the same numbers, through the break; outputs that are not wanted change none, single
+/// precision few.
 #[test]
 fn runs_repeat_and_outputs_do_not_matter() {
     let mut case = tiny("table_4_5.toml", "mf-120", 2);

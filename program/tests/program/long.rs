@@ -103,7 +103,8 @@ fn the_bench_times_every_entry_as_a_c_program_does() {
     assert!(wrong.is_empty(), "beyond {TOLERANCE}:\n{}", wrong.join("\n"));
 }
 
-/// The struck panel that gives way as the thesis's does, at both speeds, on the fine mesh; what is other in it by pairs.
+/// The struck panel that gives way as the thesis's does, at both speeds, on the fine mesh; what is other in it by
+/// pairs.
 fn panel(changes: &[[&str; 2]]) -> String {
     let example = Path::new(ROOT).join("examples/fabric_impact/non_penetrating.toml");
     let text = std::fs::read_to_string(example).expect("the example");
@@ -168,7 +169,8 @@ fn figure(text: &str, row: &str, column: &str) -> Option<f64> {
 /// What the results call that panel.
 const PANEL: &str = "R = 25.4 mm, clearance 10 µm";
 
-/// The documents' figures of the panel of R = 25.4 mm and clearance 10 µm on the fine mesh: deflection at 63 m/s, speed left of 142 m/s.
+/// The documents' figures of the panel of R = 25.4 mm and clearance 10 µm on the fine mesh: deflection at 63 m/s, speed
+/// left of 142 m/s.
 #[test]
 #[ignore = "takes an hour"]
 fn the_fine_panel_gives_the_figures_of_the_documents() {

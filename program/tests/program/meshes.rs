@@ -9,7 +9,8 @@ use toron_test_support::python;
 
 const PITCH: &str = "0.7470588";
 
-/// A plain weave of so many yarns a family by TexGen: the width of a yarn, the points of its section, whether it is refined.
+/// A plain weave of so many yarns a family by TexGen: the width of a yarn, the points of its section, whether it is
+/// refined.
 fn texgen(name: &str, yarns: usize, width: &str, points: &str, refined: &str) -> PathBuf {
     let output = folder(name);
     let scripts = Path::new(ROOT).join("ffi-tests/pytexgen");
@@ -48,7 +49,8 @@ fn texgen_s_weave_is_read_checked_and_drawn() {
     let report = String::from_utf8(answer.stdout).expect("text");
     assert!(answer.status.success(), "{}", String::from_utf8_lossy(&answer.stderr));
     assert!(report.contains("4 warp, 4 weft"), "{report}");
-    // A polygon of 12 points at equal distances along the ellipse has 0.936 of its area, π/4 of 0.5337 by 0.115; over the pitch, twice.
+    // A polygon of 12 points at equal distances along the ellipse has 0.936 of its area, π/4 of 0.5337 by 0.115; over
+    // the pitch, twice.
     let straight = 2.0 * 0.936 * std::f64::consts::PI / 4.0 * 0.5337 * 0.115 / 0.747;
     let crimp = figure(&report, "crimp of warp and weft");
     assert!((1.2..1.6).contains(&crimp), "{report}");
@@ -147,7 +149,8 @@ fn a_woven_panel_read_back_has_the_same_history() {
         woven == history("[mesh]\nfile = \"weave.vtu\"\npart = \"quarter\"\nheight = 0.115\n"),
         "the histories differ"
     );
-    // The contact's search is set to the height, which is given: a measured one differs by rounding. A case may have a mesh of its own.
+    // The contact's search is set to the height, which is given: a measured one differs by rounding. A case may have a
+    // mesh of its own.
     let cases = "[[case]]\nname = \"woven\"\n[[case]]\nname = \"read\"\nmesh = { file = \"weave.vtu\", part = \"quarter\", height = 0.115 }\n";
     let answer = toron(&output, "fabric", &format!("units = \"mm-g-ms\"\n{weave}{SCENE}{cases}"));
     assert!(answer.status.success(), "{}", String::from_utf8_lossy(&answer.stderr));

@@ -1,5 +1,5 @@
-//! The decks of a struck panel for three solvers, read back: nodes, volumes, masses and the fibre's direction in every element by each
-//! solver's own rule. None of the solvers is run here.
+//! The decks of a struck panel for three solvers, read back: nodes, volumes, masses and the fibre's direction in every
+//! element by each solver's own rule. None of the solvers is run here.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;

@@ -64,8 +64,8 @@ fn shots(output: &Path) -> Vec<String> {
     lines
 }
 
-/// One run, the parts of a job array that are joined, and a run that was killed and went on have the same shots to the bit; and so
-/// have one and two threads.
+/// One run, the parts of a job array that are joined, and a run that was killed and went on have the same shots to the
+/// bit; and so have one and two threads.
 #[test]
 fn shots_are_the_same_however_they_are_split() {
     let (folder, scene) = place("split", &panel("even", 10, "spread = 500.0"));
@@ -162,7 +162,8 @@ fn a_run_that_is_refused_leaves_no_directory() {
     }
 }
 
-/// With until = "decided" a shot that goes through ends as soon as that is certain, earlier than by the rules of others, and counts.
+/// With until = "decided" a shot that goes through ends as soon as that is certain, earlier than by the rules of
+/// others, and counts.
 #[test]
 fn a_decided_shot_is_through() {
     let text = panel("even", 2, "").replace("[60.0, 200.0]", "[240.0, 260.0]").replace("aim = \"cell\"\n", "");

@@ -1,5 +1,5 @@
-//! A yarn of elliptical section pressed between rigid plates, in CalculiX with contact: `ffi-tests/calculix/contact.inp`.
-//! `cargo xtask update pictures` writes the picture of `docs/images` anew.
+//! A yarn of elliptical section pressed between rigid plates, in CalculiX with contact:
+//! `ffi-tests/calculix/contact.inp`. `cargo xtask update pictures` writes the picture of `docs/images` anew.
 
 use std::fmt::Write;
 use std::path::Path;
@@ -86,7 +86,8 @@ fn a_yarn_between_plates() {
     println!("  force of the plate {:.6e}, of the plane of symmetry {held:.6e}", last.force);
     assert!((held - last.force).abs() < 1e-5 * last.force);
 
-    // The plate's work is what the yarn stores; the contact's springs keep some of it, and the trapezoidal rule adds some.
+    // The plate's work is what the yarn stores; the contact's springs keep some of it, and the trapezoidal rule adds
+    // some.
     let mut work = 0.5 * increments[0].travel * increments[0].force;
     work += increments.windows(2).map(|i| 0.5 * (i[1].travel - i[0].travel) * (i[1].force + i[0].force)).sum::<f64>();
     println!("  work of the plate {work:.5e}, energy of the yarn {:.5e}", last.energy);

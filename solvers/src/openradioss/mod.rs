@@ -1,13 +1,14 @@
 //! Laws as OpenRadioss loads them, `/MAT/USERnn`, with no other library and no SDK. See `toron::host::openradioss`.
 //!
-//! The symbols' names are the solver's choice and clash with those of a library that the SDK makes. The library reads and writes the
-//! starter's scratch files, and ends the run where the model is wrong.
+//! The symbols' names are the solver's choice and clash with those of a library that the SDK makes. The library reads
+//! and writes the starter's scratch files, and ends the run where the model is wrong.
 //!
-//! The engine passes a group of elements in five calls on one thread: two with what is input, one with the arrays of the group, and
-//! two that collect what is output. The first three are remembered in a thread-local variable, and the fourth evaluates the law.
+//! The engine passes a group of elements in five calls on one thread: two with what is input, one with the arrays of
+//! the group, and two that collect what is output. The first three are remembered in a thread-local variable, and the
+//! fourth evaluates the law.
 //!
-//! Routines of the solver are looked up when they are needed: not all of them are in the starter, so that a library which demanded
-//! them could not be loaded there.
+//! Routines of the solver are looked up when they are needed: not all of them are in the starter, so that a library
+//! which demanded them could not be loaded there.
 
 pub mod engine;
 mod solver;
@@ -16,8 +17,8 @@ mod symbols;
 
 use toron::host::openradioss::{Laws, MyReal};
 
-/// The version of the interface: from 1301501260 on the engine passes the deformation gradient, from 2102011230 on there are optional
-/// routines for the start and the end of a run, of which these libraries have none.
+/// The version of the interface: from 1301501260 on the engine passes the deformation gradient, from 2102011230 on
+/// there are optional routines for the start and the end of a run, of which these libraries have none.
 pub const INTERFACE: i32 = 2_102_011_230;
 
 /// Ends the run: the model has what no library of these laws has.

@@ -22,7 +22,8 @@ fn routine(name: &CStr) -> Option<*mut c_void> {
     (!found.is_null()).then_some(found)
 }
 
-/// Writes a message to the standard output and, in the engine, to its listing, and ends the run as the solver itself does.
+/// Writes a message to the standard output and, in the engine, to its listing, and ends the run as the solver itself
+/// does.
 pub fn stop(message: &str) {
     // An output that is closed must not keep the run from ending.
     let _ = writeln!(std::io::stdout(), " toron: {message}");
@@ -48,7 +49,8 @@ pub fn stop(message: &str) {
 /// for them.
 pub fn coordinates_of_nodes<T: Real>(elements: usize) -> Vec<T> {
     let Some(get) = routine(c"mat_solid_get_nod_x_") else { return Vec::new() };
-    // Room for numbers of double precision too: a library for the other precision is refused, but not before it has asked.
+    // Room for numbers of double precision too: a library for the other precision is refused, but not before it has
+    // asked.
     let room = elements * 8 * 3;
     let mut coordinates = vec![T::splat(0.0); room * size_of::<f64>() / size_of::<T>()];
     // SAFETY: `MAT_SOLID_GET_NOD_X(USER_X)` of the engine writes 24 numbers for each element of the group that calls
@@ -66,8 +68,8 @@ pub fn current_option() -> Option<(i32, String)> {
     let get = routine(c"cpp_current_option_")?;
     let (mut id, mut unit, mut include, mut key_length, mut title_length) = (0, 0, 0, 0, 0);
     let (mut key, mut title) = ([0_u8; 500], [0_u8; 500]);
-    // SAFETY: `cpp_current_option_(ID, UID, includeId, KEY, SKEY, TITR, STITR)` of the starter's reader; it writes at most 100
-    // characters of the keyword and 500 of the title.
+    // SAFETY: `cpp_current_option_(ID, UID, includeId, KEY, SKEY, TITR, STITR)` of the starter's reader; it writes at
+    // most 100 characters of the keyword and 500 of the title.
     unsafe {
         type Get = unsafe extern "C" fn(*mut i32, *mut i32, *mut i32, *mut u8, *mut i32, *mut u8, *mut i32);
         let get: Get = std::mem::transmute(get);

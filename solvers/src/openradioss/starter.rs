@@ -13,7 +13,7 @@ use super::solver::{current_option, stop};
 const COLUMNS: usize = 20;
 const FIELDS: usize = 5;
 
-/// What the starter is told of a material.
+/// What the starter needs to know of a material.
 pub struct Material<T> {
     pub uparam: Vec<T>,
     /// NUVAR.
@@ -22,8 +22,8 @@ pub struct Material<T> {
     pub modulus: T,
 }
 
-/// Reads the card of `/MAT/USERnn`, nn = `number`, and writes its part of the listing; `ilaw` and `root` are in the names of the scratch
-/// files. Where the card is wrong, the run ends.
+/// Reads the card of `/MAT/USERnn`, nn = `number`, and writes its part of the listing; `ilaw` and `root` are in the
+/// names of the scratch files. Where the card is wrong, the run ends.
 pub fn material<T: MyReal + FromStr>(
     laws: &Laws<T>,
     ilaw: i32,
@@ -58,7 +58,8 @@ pub fn material<T: MyReal + FromStr>(
     Some(Material { uparam, variables: material.variables, modulus: material.modulus })
 }
 
-/// The numbers of a card: five fields of 20 columns in a line, 0 where a field is blank. Lines of comments begin with #.
+/// The numbers of a card: five fields of 20 columns in a line, 0 where a field is blank. Lines of comments begin with
+/// #.
 fn fields<T: MyReal + FromStr>(text: &str) -> Result<Vec<T>, String> {
     let mut values = Vec::new();
     for (line, text) in (1..).zip(text.lines().filter(|line| !line.starts_with('#'))) {

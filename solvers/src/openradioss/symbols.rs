@@ -1,13 +1,14 @@
 //! The symbols that the solver looks up.
 //!
-//! The routines of the engine declare the leading arguments, up to the last one that they use: on the solver's platforms the caller
-//! removes the arguments of a C routine, so that it may take fewer than it is given. The refused ones declare none, since they use
-//! none: the solver takes no library that lacks one of them, and a model that calls one stops, with what it asks for.
+//! The routines of the engine declare the leading arguments, up to the last one that they use: on the solver's
+//! platforms the caller removes the arguments of a C routine, so that it may take fewer than it is given. The refused
+//! ones declare none, since they use none: the solver takes no library that lacks one of them, and a model that calls
+//! one stops, with what it asks for.
 //!
 //! What the solver passes is said of each routine under "Safety"; the blocks refer to that.
 
-/// The symbols of a library with the laws of a list, a constant of type [`Laws`](toron::host::openradioss::Laws), for the solver's real
-/// numbers of this type.
+/// The symbols of a library with the laws of a list, a constant of type [`Laws`](toron::host::openradioss::Laws), for
+/// the solver's real numbers of this type.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! openradioss_symbols {
@@ -23,8 +24,8 @@ macro_rules! openradioss_symbols {
                 unsafe { *version = $crate::openradioss::INTERFACE };
             }
 
-            /// `LECMUSERnn`: `ilaw` is the number in the names of the scratch files, `rootn` the first `rootlen` characters of the run's
-            /// name, `number` is nn.
+            /// `LECMUSERnn`: `ilaw` is the number in the names of the scratch files, `rootn` the first `rootlen`
+            /// characters of the run's name, `number` is nn.
             ///
             /// # Safety
             /// `rootn` has `rootlen` characters, `uparam` `maxuparam` values, `parmat` at least three.
@@ -110,7 +111,8 @@ macro_rules! openradioss_symbols {
                 $crate::openradioss::engine::begin::<$t>(cycle, material, density);
             }
 
-            /// The second call: the deformation gradient. Each array is followed by its length, which is the solver's vector length.
+            /// The second call: the deformation gradient. Each array is followed by its length, which is the solver's
+            /// vector length.
             ///
             /// # Safety
             /// The arrays are valid until the fourth call.
@@ -141,8 +143,8 @@ macro_rules! openradioss_symbols {
                 ]);
             }
 
-            /// The third call: counts and arrays of the group. The law is not evaluated yet, since the arrays for its stress come with
-            /// the fourth call.
+            /// The third call: counts and arrays of the group. The law is not evaluated yet, since the arrays for its
+            /// stress come with the fourth call.
             ///
             /// # Safety
             /// Counts and time are numbers, and the arrays are valid until the fourth call.
@@ -181,8 +183,8 @@ macro_rules! openradioss_symbols {
                 });
             }
 
-            /// The fourth call: the arrays for the stress. Evaluates the law. The viscous stress comes behind it; the solver has set
-            /// that and VISCMAX to 0, as they are to be.
+            /// The fourth call: the arrays for the stress. Evaluates the law. The viscous stress comes behind it; the
+            /// solver has set that and VISCMAX to 0, as they are to be.
             ///
             /// # Safety
             /// The arrays have the solver's vector length, and those of the calls before are still valid.

@@ -7,7 +7,7 @@ use crate::law::status;
 use super::card::{Card, FibreFrom, Layout, NEEDS};
 use super::laws::Laws;
 
-/// What the starter wants to know of a material besides UPARAM.
+/// What the starter needs to know of a material besides UPARAM.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Read<T> {
     /// NUPARAM and NUVAR.

@@ -12,25 +12,37 @@ use crate::law::number::level::Level;
 use crate::law::status;
 use crate::law::tangent::Measure;
 
-/// A block as slices. The state is updated in place: old on entry, new on return. The components of each array are listed in
-/// [`block`](super); what is `None` is neither read, computed nor written.
+/// A block as slices. The state is updated in place: old on entry, new on return. The components of each array are
+/// listed in [`block`](super); what is `None` is neither read, computed nor written.
 #[derive(Debug, Default)]
 pub struct Arrays<'a, T> {
-    /// The number of points; and the leading dimension of all arrays, at least `n`.
+    /// The number of points.
     pub n: usize,
+    /// The leading dimension of all arrays: from one component to the next, at least `n`.
     pub leading_dimension: usize,
+    /// 9: F by columns.
     pub deformation_gradient: &'a [T],
+    /// 3: the fibre direction of each point, of any length; `None` for that of the properties.
     pub fibre: Option<&'a [T]>,
-    /// The true fibre strain at failure, ln(1 + ε_lim), of each point; 0 for that of the properties. Read where `failure` is computed.
+    /// The true fibre strain at failure, ln(1 + ε_lim), of each point; 0 for that of the properties. Read where
+    /// `failure` is computed.
     pub limit: Option<&'a [T]>,
     /// The reference density; used only with `wave_speed`.
     pub density: T,
+    /// 6: Cauchy stress 11 22 33 12 23 31.
     pub stress: Option<&'a mut [T]>,
+    /// 4: energies of the modes per reference volume, of elongation, compaction, distortion and longitudinal shear.
     pub energies: Option<&'a mut [T]>,
+    /// 4: strain invariants of the modes, in the same order.
     pub invariants: Option<&'a mut [T]>,
+    /// 2: the failure index, and 1 from the call on that finds it at 1 or above, else 0. A point that has failed has no
+    /// stress. `None`: no point fails.
     pub failure: Option<&'a mut [T]>,
+    /// 24: second Piola–Kirchhoff stress of each mode, 11 22 33 12 23 31.
     pub modes: Option<&'a mut [T]>,
+    /// 1: an upper bound of the wave speed, for current element lengths.
     pub wave_speed: Option<&'a mut [T]>,
+    /// 36, entry (row, column) at 6 row + column; or 81 for [`Measure::Nominal`], at 9 row + column.
     pub tangent: Option<&'a mut [T]>,
     /// The measure of `tangent`.
     pub measure: Measure,
@@ -42,16 +54,16 @@ pub struct Arrays<'a, T> {
     pub level: Option<Level>,
 }
 
-/// A block whose arrays have been checked. It can be split into parts, which have no points in common and may be evaluated by
-/// different threads.
+/// A block whose arrays have been checked. It can be split into parts, which have no points in common and may be
+/// evaluated by different threads.
 #[derive(Debug)]
 pub struct Block<'a, T> {
     points: Points<T>,
     arrays: PhantomData<&'a mut T>,
 }
 
-// SAFETY: a block has exclusive access to the arrays that it writes. Its parts have different points, and with a leading
-// dimension no less than n different points are at different addresses.
+// SAFETY: a block has exclusive access to the arrays that it writes. Its parts have different points, and with a
+// leading dimension no less than n different points are at different addresses.
 unsafe impl<T: Send + Sync> Send for Block<'_, T> {}
 
 impl<'a, T: Precision> Block<'a, T> {
@@ -128,7 +140,8 @@ impl<T: Precision> Hyperelastic<T> {
     /// Evaluates the law at every point of a block. Returns the worst (most negative) of the status codes.
     ///
     /// # Errors
-    /// An array that is too short, a leading dimension below n, a density that is not positive if the wave speed is requested.
+    /// An array that is too short, a leading dimension below n, a density that is not positive if the wave speed is
+    /// requested.
     pub fn block(&self, arrays: Arrays<'_, T>) -> Result<i32, Error> {
         self.checked_block(Block::new(arrays)?)
     }
@@ -138,8 +151,8 @@ impl<T: Precision> Hyperelastic<T> {
     /// # Errors
     /// A density that is not positive if the wave speed is requested.
     pub fn checked_block(&self, block: Block<'_, T>) -> Result<i32, Error> {
-        // SAFETY: the points are valid: `Block::new` has checked the lengths of the arrays, which are slices and do not overlap; only
-        // the state is both read and written, through one pointer.
+        // SAFETY: the points are valid: `Block::new` has checked the lengths of the arrays, which are slices and do not
+        // overlap; only the state is both read and written, through one pointer.
         unsafe { self.step(&block.points) }
     }
 }

@@ -28,7 +28,8 @@ pub trait Precision: Registers + 'static {
     /// Runs the kernels of the hyperelastic law at a level.
     ///
     /// # Safety
-    /// As for [`Law::step`](crate::law::interface::Law::step), with checked points next to each other; the processor has the level's instructions.
+    /// As for [`Law::step`](crate::law::interface::Law::step), with checked points next to each other; the processor
+    /// has the level's instructions.
     #[doc(hidden)]
     unsafe fn dispatch(level: Level, law: &Hyperelastic<Self>, block: &Points<Self>) -> i32;
 
@@ -47,8 +48,8 @@ pub trait Precision: Registers + 'static {
     unsafe fn dispatch_linear(level: Level, law: &LinearElastic<Self>, block: &Points<Self>) -> i32;
 }
 
-// An impl for each type and not a generic one, so that the kernels are compiled in this crate and not in the crates that use
-// it.
+// An impl for each type and not a generic one, so that the kernels are compiled in this crate and not in the crates
+// that use it.
 impl Precision for f64 {
     unsafe fn dispatch(level: Level, law: &Hyperelastic<f64>, block: &Points<f64>) -> i32 {
         // SAFETY: the same block and level.
@@ -96,8 +97,8 @@ fn whole<T: Registers, I: Instructions>(first: usize, n: usize) -> Range<usize> 
 /// # Safety
 /// As for [`Precision::dispatch`].
 unsafe fn dispatch<T: Precision>(level: Level, law: &Hyperelastic<T>, block: &Points<T>) -> i32 {
-    // SAFETY: the block is valid, and the processor has the level's instructions; what does not fill a register of them is padded.
-    // AVX-512 is chosen for more points than a register holds.
+    // SAFETY: the block is valid, and the processor has the level's instructions; what does not fill a register of them
+    // is padded. AVX-512 is chosen for more points than a register holds.
     unsafe {
         match level {
             #[cfg(target_arch = "x86_64")]
@@ -150,8 +151,8 @@ unsafe fn run<T: Registers, I: Instructions>(law: &Hyperelastic<T>, block: &Poin
     const LIMITS_WAVE_STATE_ALIGNED: u8 = LIMITS + WAVE_STATE_ALIGNED;
     const STRESS_FIBRES: u8 = STRESS + FIBRES;
     const STRESS_ALIGNED: u8 = STRESS + ALIGNED;
-    // SAFETY: the block fills a register, and has the arrays of the request that each kernel is compiled for: that is what `state`,
-    // `explicit`, `stress_alone` and `fibres` tell.
+    // SAFETY: the block fills a register, and has the arrays of the request that each kernel is compiled for: that is
+    // what `state`, `explicit`, `stress_alone` and `fibres` tell.
     unsafe {
         match (state, law.shears, stress_alone) {
             (true, false, _) if limits && fibres => I::run::<T, LIMITS_STATE_FIBRES>(law, none, block),
@@ -266,8 +267,8 @@ unsafe fn run_any_frictional<T: Registers, I: Instructions>(law: &Frictional<T>,
 /// As for [`Precision::dispatch_linear`].
 unsafe fn dispatch_linear<T: Precision>(level: Level, law: &LinearElastic<T>, block: &Points<T>) -> i32 {
     let n = block.n;
-    // SAFETY: the block is valid, and the processor has the level's instructions; `part` and `wide` are whole registers, and `rest` is
-    // fewer points than one holds.
+    // SAFETY: the block is valid, and the processor has the level's instructions; `part` and `wide` are whole
+    // registers, and `rest` is fewer points than one holds.
     unsafe {
         match level {
             Level::Baseline => {
@@ -300,7 +301,8 @@ unsafe fn dispatch_linear<T: Precision>(level: Level, law: &LinearElastic<T>, bl
     }
 }
 
-/// Runs the kernel of the linear elastic law; not if there are no points, since the processor may not have the instructions.
+/// Runs the kernel of the linear elastic law; not if there are no points, since the processor may not have the
+/// instructions.
 ///
 /// # Safety
 /// As for [`Precision::dispatch_linear`], for points of the block that fill whole registers.
@@ -312,6 +314,7 @@ unsafe fn run_linear<T: Registers, I: Instructions>(
     if points.is_empty() {
         return status::OK;
     }
-    // SAFETY: points of a valid block that fill whole registers: there are some, so that the level has these instructions.
+    // SAFETY: points of a valid block that fill whole registers: there are some, so that the level has these
+    // instructions.
     unsafe { I::run_linear(law, block, points) }
 }

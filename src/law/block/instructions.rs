@@ -1,5 +1,5 @@
-//! The sets of instructions that blocks are evaluated with: registers, and the kernels compiled for them. Each set has a file
-//! of its own, so that the compiler builds them in parallel.
+//! The sets of instructions that blocks are evaluated with: registers, and the kernels compiled for them. Each set has
+//! a file of its own, so that the compiler builds them in parallel.
 
 use core::ops::Range;
 

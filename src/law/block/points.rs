@@ -16,18 +16,20 @@ use crate::law::wave_speed;
 /// The parts that a state may be kept in, each an array of its own: those that a law does not have are null.
 pub const PARTS: usize = 3;
 
-/// Points as a host passes them: a pointer for each array, or each component. An array that is null is absent: an old state is 0 then,
-/// and an output is not computed. F at the end must be there, and F at the start for a law that reads it.
+/// Points as a host passes them: a pointer for each array, or each component. An array that is null is absent: an old
+/// state is 0 then, and an output is not computed. F at the end must be there, and F at the start for a law that reads
+/// it.
 ///
-/// F, the directions and the stress have one pointer for each component, since some hosts keep components in separate arrays; the
-/// other arrays are component-major with the leading dimension of their group. The old state may be in the arrays of the new one. The
-/// components of each array are listed in [`block`](super).
+/// F, the directions and the stress have one pointer for each component, since some hosts keep components in separate
+/// arrays; the other arrays are component-major with the leading dimension of their group. The old state may be in the
+/// arrays of the new one. The components of each array are listed in [`block`](super).
 ///
 /// # Safety
-/// Points are **valid** if every pointer that is not null points to as many values as `n`, the leading dimensions, the strides and
-/// the table of [`block`](super) say, valid for reading or writing; if with these, different entries are at different places; if
-/// arrays with a pointer for each component are null in all of them or in none; and if outputs overlap nothing but, exactly, the old
-/// state that they replace. [`Law::step`] is unsafe, since only its caller can know this.
+/// Points are **valid** if every pointer that is not null points to as many values as `n`, the leading dimensions, the
+/// strides and the table of [`block`](super) say, valid for reading or writing; if with these, different entries are at
+/// different places; if arrays with a pointer for each component are null in all of them or in none; and if outputs
+/// overlap nothing but, exactly, the old state that they replace. [`Law::step`] is unsafe, since only its caller can
+/// know this.
 #[derive(Clone, Copy, Debug)]
 pub struct Points<T> {
     /// The number of points.
@@ -46,8 +48,8 @@ pub struct Points<T> {
     /// The fibre direction and a second axis of each point, of any length; null for those of the properties.
     pub fibre: [*const T; 3],
     pub second_axis: [*const T; 3],
-    /// A failure limit of each point: the true fibre strain, ln(1 + ε_lim), of the hyperelastic law, or the strength of the linear elastic
-    /// one; null or 0 for that of the properties. Read where the failure is computed.
+    /// A failure limit of each point: the true fibre strain, ln(1 + ε_lim), of the hyperelastic law, or the strength of
+    /// the linear elastic one; null or 0 for that of the properties. Read where the failure is computed.
     pub limit: *const T,
     /// The three material axes in space, one after the other, in and out; only for [`Rotation::Spin`].
     pub axes: *mut T,
@@ -62,7 +64,8 @@ pub struct Points<T> {
     pub modes: *mut T,
     /// A bound of the wave speed.
     pub wave_speed: *mut T,
-    /// The tangent of `measure`: entry (row, column) is component 6 row + column, or 9 row + column where the measure is 9×9.
+    /// The tangent of `measure`: entry (row, column) is component 6 row + column, or 9 row + column where the measure
+    /// is 9×9.
     pub tangent: *mut T,
     pub measure: Measure,
     /// A status code for each point.
@@ -76,8 +79,8 @@ pub struct Points<T> {
     pub level: Option<Level>,
 }
 
-/// The distance from one point to the next in each group of arrays; what has one number for a point (wave speed, status, active) is
-/// contiguous.
+/// The distance from one point to the next in each group of arrays; what has one number for a point (wave speed,
+/// status, active) is contiguous.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Strides {
     /// Of F at both ends.
@@ -144,8 +147,8 @@ pub(crate) fn parts<T>(state: *const T, leading_dimension: usize, counts: [usize
 }
 
 impl<T> Points<T> {
-    /// The limits of points that have their own, where they are read: beside a failure that is computed, which is in the part `last` of
-    /// the state.
+    /// The limits of points that have their own, where they are read: beside a failure that is computed, which is in
+    /// the part `last` of the state.
     #[inline(always)]
     pub(crate) fn limits(&self, last: usize) -> *const T {
         match self.state_new.get(last) {
@@ -183,12 +186,12 @@ impl<T> Points<T> {
     }
 }
 
-/// More points, and more numbers between two components, than any memory holds: a greater number is a negative one, converted. An
-/// array of 81 components with such distances is still shorter than half the address space.
+/// More points, and more numbers between two components, than any memory holds: a greater number is a negative one,
+/// converted. An array of 81 components with such distances is still shorter than half the address space.
 pub(crate) const MOST: usize = isize::MAX as usize >> 10;
 
-/// Checks that the entries of an array with so many components and points are all at different places, component by component or
-/// point by point, and none before its start.
+/// Checks that the entries of an array with so many components and points are all at different places, component by
+/// component or point by point, and none before its start.
 ///
 /// # Errors
 /// Entries may overlap, or are nowhere; `names` are those of the leading dimension and of the stride.
@@ -242,8 +245,8 @@ fn check_other_layout(
 /// What a law wants of its points.
 #[derive(Clone, Copy)]
 pub(crate) struct Needs {
-    /// The number of variables in each part of the state, and the last part that there is, which has the latch; of it an old one is
-    /// read although no new one is wanted.
+    /// The number of variables in each part of the state, and the last part that there is, which has the latch; of it
+    /// an old one is read although no new one is wanted.
     pub parts: [usize; PARTS],
     pub last: usize,
     /// The place of the latch in the last part.
@@ -268,8 +271,8 @@ impl Needs {
         Needs { parts, last, latch, f_old, limit: L::HAS_LIMIT, axes: L::HAS_AXES, modes: L::HAS_MODES }
     }
 
-    /// How many variables of a part's old state are read: in the last one those up to the latch, behind which is the flag for element
-    /// deletion.
+    /// How many variables of a part's old state are read: in the last one those up to the latch, behind which is the
+    /// flag for element deletion.
     #[inline(always)]
     pub const fn read(&self, part: usize, components: usize) -> usize {
         if part == self.last { self.latch + 1 } else { components }
@@ -277,8 +280,8 @@ impl Needs {
 }
 
 impl<T: Scalar> Points<T> {
-    /// `n` points next to each other, with one leading dimension for all groups and no arrays yet: for the fields that a host does not
-    /// name.
+    /// `n` points next to each other, with one leading dimension for all groups and no arrays yet: for the fields that
+    /// a host does not name.
     #[inline(always)]
     pub fn without_arrays(n: usize, leading_dimension: usize) -> Self {
         Points {
@@ -423,7 +426,8 @@ impl<T: Scalar> Points<T> {
         in_place
     }
 
-    /// Copies the old state, or zeros where there is none, to the arrays of the new one: for kernels that work in place.
+    /// Copies the old state, or zeros where there is none, to the arrays of the new one: for kernels that work in
+    /// place.
     ///
     /// # Safety
     /// The points are valid and next to each other.
@@ -434,8 +438,8 @@ impl<T: Scalar> Points<T> {
                 continue;
             }
             for c in 0..components {
-                // SAFETY: of valid points both arrays have the component c, n values from `c * stride` on, and do not overlap if
-                // they are not the same. A number whose bytes are all 0 is 0.
+                // SAFETY: of valid points both arrays have the component c, n values from `c * stride` on, and do not
+                // overlap if they are not the same. A number whose bytes are all 0 is 0.
                 unsafe {
                     match old.is_null() {
                         true => new.add(c * stride).write_bytes(0, n),

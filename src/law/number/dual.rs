@@ -12,11 +12,14 @@ use super::real::{Real, assigning};
 /// digits. A comparison compares the values; at a kink the derivative is that of the branch which the value takes.
 #[derive(Clone, Copy, Debug)]
 pub struct Dual<R> {
+    /// x.
     pub value: R,
+    /// x′, the derivative.
     pub slope: R,
 }
 
 impl<R: Real> Dual<R> {
+    /// A value with its derivative.
     #[inline(always)]
     pub fn new(value: R, slope: R) -> Self {
         Dual { value, slope }

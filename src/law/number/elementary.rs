@@ -1,8 +1,8 @@
 //! Logarithm, inverse hyperbolic sine and power, written over [`Real`]: the same functions in every build.
 //!
 //! The `log` of a C library differs between machines and has no lanes; these functions give the same bits wherever the
-//! arithmetic does. Errors in units in the last place (ulp), the worst found by the tests against a correctly rounded reference
-//! at every level of instructions (`law/tests/elementary.rs`):
+//! arithmetic does. Errors in units in the last place (ulp), the worst found by the tests against a correctly rounded
+//! reference at every level of instructions (`law/tests/elementary.rs`):
 //!
 //! | function | f64 | f32 | where |
 //! |---|---|---|---|
@@ -20,8 +20,9 @@ use core::f64::consts::{LN_2, LOG2_E};
 
 use super::real::Real;
 
-/// A polynomial of up to twelve coefficients, given from the constant one on. Fours of terms are summed side by side, and their sums
-/// by Horner's scheme: the chain of dependent operations is less than half as long as Horner's, at one or two operations more.
+/// A polynomial of up to twelve coefficients, given from the constant one on. Fours of terms are summed side by side,
+/// and their sums by Horner's scheme: the chain of dependent operations is less than half as long as Horner's, at one
+/// or two operations more.
 #[inline(always)]
 fn polynomial<R: Real>(coefficients: &[f64], x: R) -> R {
     let square = x * x;
@@ -121,8 +122,8 @@ pub fn ln_1p<R: Real>(x: R) -> R {
 
 /// a = asinh(s/j) for s ≥ 0 and j > 0 up to its last step.
 ///
-/// With z = e^2a = (s + t)²/j², t = √(s² + j²), and the nearest power of two 2^k, a = ½ k ln 2 + artanh w,
-/// w = (z − 2^k)/(z + 2^k). For k = 0 that is w = s/t, which keeps its digits down to s = 0, and a/s follows without a quotient
+/// With z = e^2a = (s + t)²/j², t = √(s² + j²), and the nearest power of two 2^k, a = ½ k ln 2 + artanh w, w = (z −
+/// 2^k)/(z + 2^k). For k = 0 that is w = s/t, which keeps its digits down to s = 0, and a/s follows without a quotient
 /// 0/0.
 #[derive(Clone, Copy)]
 pub struct Asinh<R: Real> {
@@ -163,7 +164,8 @@ impl<R: Real> Asinh<R> {
     }
 }
 
-/// The exponent of a power, prepared once: q = high + low, where the product of `high` and an integer up to 2^11 is exact.
+/// The exponent of a power, prepared once: q = high + low, where the product of `high` and an integer up to 2^11 is
+/// exact.
 #[derive(Clone, Copy, Debug)]
 pub struct Exponent<R> {
     value: R,

@@ -1,4 +1,5 @@
-//! The number types that the laws are written in, scalars and SIMD registers, with their elementary functions and vectors.
+//! The number types that the laws are written in, scalars and SIMD registers, with their elementary functions and
+//! vectors.
 
 pub mod dual;
 pub(crate) mod elementary;

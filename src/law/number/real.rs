@@ -95,13 +95,17 @@ pub trait Real:
     fn mul_add(self, a: Self, b: Self) -> Self;
     /// `a b − c d` to within 1.5 ulp, however much of it cancels.
     fn difference_of_products(a: Self, b: Self, c: Self, d: Self) -> Self;
+    /// The square root, correctly rounded; NaN of negative numbers.
     fn sqrt(self) -> Self;
+    /// The absolute value.
     fn abs(self) -> Self;
     /// The larger one; `other` where `self` is NaN.
     fn max(self, other: Self) -> Self;
     /// The smaller one; `other` where `self` is NaN.
     fn min(self, other: Self) -> Self;
+    /// Where `self` is less than `other`; nowhere with a NaN.
     fn lt(self, other: Self) -> Self::Mask;
+    /// Where `self` is less than `other` or equal to it; nowhere with a NaN.
     fn le(self, other: Self) -> Self::Mask;
     /// `a` where the mask holds, `b` elsewhere; the value that is not selected has no influence, even if it is NaN.
     fn select(mask: Self::Mask, a: Self, b: Self) -> Self;

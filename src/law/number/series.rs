@@ -1,4 +1,5 @@
-//! The coefficients of the polynomials of the elementary functions: minimax, found by Remez exchange in 300-bit arithmetic.
+//! The coefficients of the polynomials of the elementary functions: minimax, found by Remez exchange in 300-bit
+//! arithmetic.
 
 /// ½ (artanh w − w)/w³ in powers of w², |w| ≤ 1/5; relative error of artanh 2^−55.9, 2^−28.4.
 pub(super) const HALF_ARTANH_F64: [f64; 7] = quartered([

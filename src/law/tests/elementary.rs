@@ -1,8 +1,8 @@
 //! The elementary functions and the lanes' operations, at every level of instructions that this machine has.
 //!
-//! The functions keep the errors that the table of `number/elementary.rs` promises, in units in the last place of the exact
-//! result. In double precision the reference has 128 binary digits; in single precision the double-precision library is
-//! exact enough, its error being below 2^-26 of such a unit. `--nocapture` prints the worst found and where.
+//! The functions keep the errors that the table of `number/elementary.rs` promises, in units in the last place of the
+//! exact result. In double precision the reference has 128 binary digits; in single precision the double-precision
+//! library is exact enough, its error being below 2^-26 of such a unit. `--nocapture` prints the worst found and where.
 
 use std::fmt::Debug;
 
@@ -140,8 +140,8 @@ fn samples(range: std::ops::Range<f64>, count: usize) -> impl Iterator<Item = f6
     (0..count).map(move |_| range.start + (range.end - range.start) * random.f64())
 }
 
-/// Positive numbers of every size: all exponents, the neighbourhood of 1, and the seams of the reduction at ¾ times powers
-/// of two.
+/// Positive numbers of every size: all exponents, the neighbourhood of 1, and the seams of the reduction at ¾ times
+/// powers of two.
 fn positive() -> Vec<f64> {
     let exponents = (-1022..=1022).step_by(3).flat_map(|k| [1.0, 1.1, 1.3, 1.999].map(|z: f64| z * f64::powi(2.0, k)));
     let near_one = (1..1000).flat_map(|k| [1.0 - f64::from(k) * 2f64.powi(-53), 1.0 + f64::from(k) * 2f64.powi(-52)]);
@@ -484,8 +484,8 @@ fn public_functions_at_the_ends_of_the_range() {
     check!(f32);
 }
 
-// The bounds in double and single precision, as in the table of `law/number/elementary.rs`. For the power, (a, b) stands for
-// a + b q.
+// The bounds in double and single precision, as in the table of `law/number/elementary.rs`. For the power, (a, b)
+// stands for a + b q.
 const LN_SUM: (f64, f64) = (3.0, 3.0);
 const LN: (f64, f64) = (3.0, 3.0);
 const EXP: (f64, f64) = (1.5, 1.5);
@@ -597,8 +597,9 @@ macro_rules! dividing {
 dividing!(reciprocals_and_quotients_f64, f64, reference(1.0), 75.0);
 dividing!(reciprocals_and_quotients_f32, f32, 1.0, 7.0);
 
-/// The mantissas of double precision whose reciprocals lie nearest to halfway between two numbers, x m = 2^106 + k for an odd m of
-/// 54 bits and |k| ≤ 8: where a reciprocal computed in any other way than by a division goes wrong first. Found by factoring.
+/// The mantissas of double precision whose reciprocals lie nearest to halfway between two numbers, x m = 2^106 + k for
+/// an odd m of 54 bits and |k| ≤ 8: where a reciprocal computed in any other way than by a division goes wrong first.
+/// Found by factoring.
 const HALFWAY: [u64; 86] = [
     0x1ffffff8000001,
     0x1fffffffffffff,
@@ -737,8 +738,8 @@ impl Function<2, 1> for NewtonStep {
     }
 }
 
-/// The reciprocal of AVX-512 step by step, from approximations of every error that the instruction may have: the result does not
-/// depend on it, so that it is the same on every maker's processors, and this needs none of them.
+/// The reciprocal of AVX-512 step by step, from approximations of every error that the instruction may have: the result
+/// does not depend on it, so that it is the same on every maker's processors, and this needs none of them.
 #[cfg(target_arch = "x86_64")]
 #[test]
 fn refined_reciprocals_do_not_depend_on_the_approximation() {

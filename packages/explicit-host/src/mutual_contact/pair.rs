@@ -6,7 +6,7 @@ use super::Parameters;
 use super::face::{Place, Query};
 use super::motion::Motion;
 use super::surface::Surface;
-use crate::friction::rub;
+use crate::friction::coulomb_return;
 use crate::vector::{Vector, add, dot};
 
 /// A node near a face of another body.
@@ -74,7 +74,9 @@ impl Pair {
             // face is lost as well.
             let lost = match met.filter(|met| met.depth <= 0.0) {
                 Some(_) if old == [0.0; 3] => 0.0,
-                Some(met) => rub(old, self.stiffness, self.slip(own, master, met.weights), met.normal, 0.0).dissipated,
+                Some(met) => {
+                    coulomb_return(old, self.stiffness, self.slip(own, master, met.weights), met.normal, 0.0).dissipated
+                }
                 None => self.stored,
             };
             (self.friction, self.stored, self.on_face) = ([0.0; 3], 0.0, OnFace::default());
@@ -83,10 +85,10 @@ impl Pair {
             return (None, lost);
         };
         let slip = self.slip(own, master, met.weights);
-        let lost = self.deepen(met.depth, dot(slip, slip).sqrt(), pressed, dot(met.normal, slip));
+        let lost = self.update_penetration(met.depth, dot(slip, slip).sqrt(), pressed, dot(met.normal, slip));
         let force = self.stiffness * self.depth;
         let rough = if master.wall { 0.0 } else { friction };
-        let friction = rub(old, self.stiffness, slip, met.normal, rough * force);
+        let friction = coulomb_return(old, self.stiffness, slip, met.normal, rough * force);
         self.friction = friction.force;
         self.stored = 0.5 * force * self.depth + friction.stored;
         let total = add(self.friction, force, met.normal);
@@ -120,7 +122,7 @@ impl Pair {
     /// Where the face is another one and some of the depth does not count, what counts is what the motion has stored:
     /// `pressed` by the old face's force, and `out` of the new face. A node beside an edge goes from face to face in
     /// every other step, and no energy comes in.
-    fn deepen(&mut self, depth: f64, slip: f64, pressed: Option<f64>, out: f64) -> f64 {
+    fn update_penetration(&mut self, depth: f64, slip: f64, pressed: Option<f64>, out: f64) -> f64 {
         let before = if self.known { self.depth + self.uncounted } else { depth };
         let jumps = self.uncounted > 0.0 || (depth - before).abs() > slip;
         self.known = true;
@@ -183,10 +185,10 @@ mod tests {
     #[test]
     fn a_node_between_two_faces_gains_no_energy() {
         let mut pair = pair(1.0, 0.0);
-        let lost = pair.deepen(0.4, 0.01, Some(0.0), 0.0);
+        let lost = pair.update_penetration(0.4, 0.01, Some(0.0), 0.0);
         assert!((lost - 0.5 * STIFFNESS * (1.0 - 0.16)).abs() < 1e-12, "{lost}");
         for depth in [1.0, 0.5, 1.0, 0.45, 1.0] {
-            assert_eq!(pair.deepen(depth, 0.01, Some(0.0), 0.0), 0.0);
+            assert_eq!(pair.update_penetration(depth, 0.01, Some(0.0), 0.0), 0.0);
             assert!((pair.depth - 0.4).abs() < 1e-15 && (pair.depth + pair.uncounted - depth).abs() < 1e-15);
         }
     }
@@ -200,7 +202,7 @@ mod tests {
         {
             let mut pair = pair(0.3, 0.5);
             let before = stored(&pair);
-            let lost = pair.deepen(depth, 0.3, Some(pair.depth * old_out), out);
+            let lost = pair.update_penetration(depth, 0.3, Some(pair.depth * old_out), out);
             let work = 0.5 * STIFFNESS * (0.3 * old_out + pair.depth * out);
             assert!(
                 (stored(&pair) - before + work + lost).abs() < 1e-15 && lost >= 0.0,
@@ -210,16 +212,16 @@ mod tests {
         }
         // It has gone farther out than it was deep.
         let mut pair = pair(0.01, 0.5);
-        assert_eq!((pair.deepen(0.9, 0.3, Some(0.01 * 0.1), 0.1), pair.depth), (0.0, 0.0));
+        assert_eq!((pair.update_penetration(0.9, 0.3, Some(0.01 * 0.1), 0.1), pair.depth), (0.0, 0.0));
     }
 
     /// As long as it is on one face, all that the motion allows counts.
     #[test]
     fn what_a_face_jumps_by_does_not_count() {
         let mut pair = pair(0.3, 0.0);
-        assert_eq!(pair.deepen(0.35, 0.1, None, -0.05), 0.0);
+        assert_eq!(pair.update_penetration(0.35, 0.1, None, -0.05), 0.0);
         assert_eq!((pair.depth, pair.uncounted), (0.35, 0.0));
-        pair.deepen(0.9, 0.1, None, 0.0);
+        pair.update_penetration(0.9, 0.1, None, 0.0);
         assert!((pair.depth - 0.45).abs() < 1e-15 && (pair.uncounted - 0.45).abs() < 1e-15);
     }
 }

@@ -1,6 +1,6 @@
 use super::*;
 use crate::body::Support;
-use crate::contact::{Contact, Rigid, Shape};
+use crate::contact::{Contact, RigidSurface, Shape};
 use crate::lanes::largest;
 use crate::medium::Control;
 use crate::mesh::{Section, Yarn};
@@ -95,30 +95,30 @@ fn a_collapsing_element_that_does_not_fail_shortens_the_step_until_there_is_none
     assert!(worst < 0.01 * external, "{worst} of {external}");
 }
 
-/// A projectile held at 10 m/s presses the cube for 10 µs in steps no longer than this: the change of the total energy
-/// over the projectile's work.
+/// A striker held at 10 m/s presses the cube for 10 µs in steps no longer than this: the change of the total energy
+/// over the striker's work.
 fn press(longest: f64) -> f64 {
     let free = Support { free: [true; 3], velocity: [0.0; 3] };
     let mut solver = cube(|[_, y, _]| if y > 0.0 { free } else { driven([0.0; 3]) });
-    let cylinder = Rigid { shape: Shape::Cylinder, radius: 0.01, stiffness: 1e13, friction: 0.0, aim: [0.0; 2] };
+    let cylinder = RigidSurface { shape: Shape::Cylinder, radius: 0.01, stiffness: 1e13, friction: 0.0, aim: [0.0; 2] };
     let contact = Contact::new(cylinder, &solver.bodies[0].mesh.surface, &solver.bodies[0].mass);
-    solver.projectile = Some(Projectile::new(1e-5, 0.5e-3 + cylinder.radius, -10.0, true, vec![contact]));
+    solver.striker = Some(Striker::new(1e-5, 0.5e-3 + cylinder.radius, -10.0, true, vec![contact]));
     let start = short_step(&mut solver, longest).total();
     let (mut force, mut work, mut now) = (0.0, 0.0, Energies::default());
     while solver.state.time < 1e-5 {
-        let moved = solver.projectile.as_ref().expect("it is there").moved;
+        let moved = solver.striker.as_ref().expect("it is there").moved;
         now = short_step(&mut solver, longest);
-        let after = solver.projectile.as_ref().expect("it is there").force;
+        let after = solver.striker.as_ref().expect("it is there").force;
         work -= 0.5 * (force + after) * moved;
         force = after;
     }
-    assert!(solver.projectile.is_some_and(|projectile| projectile.velocity == -10.0));
+    assert!(solver.striker.is_some_and(|striker| striker.velocity == -10.0));
     assert!(work > 0.0 && (now.external / work - 1.0).abs() < 1e-3, "{} is not {work}", now.external);
     (now.total() - start) / work
 }
 
 #[test]
-fn a_held_projectile_works_on_the_body() {
+fn a_held_striker_works_on_the_body() {
     // In stable steps, and in shorter ones.
     for (longest, bound) in [(1.0, 2e-3), (2e-8, 3e-4)] {
         let imbalance = press(longest);

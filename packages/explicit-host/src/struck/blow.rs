@@ -2,7 +2,7 @@
 
 use std::ops::RangeInclusive;
 
-use crate::contact::Rigid;
+use crate::contact::RigidSurface;
 use crate::judgement::Finding;
 use toron::host::units::UnitSystem;
 use toron_materials::units::{CONTACT_STIFFNESS, LENGTH, SPEED, unit};
@@ -67,7 +67,7 @@ pub fn rough(key: &str, friction: f64) -> Option<Finding> {
 }
 
 /// A striker that is larger than the target, which reaches so far from its middle.
-pub fn large(units: &UnitSystem, striker: &Rigid, target: &str, reach: f64) -> Option<Finding> {
+pub fn large(units: &UnitSystem, striker: &RigidSurface, target: &str, reach: f64) -> Option<Finding> {
     (striker.radius > reach).then(|| {
         let ([radius, reach], unit) = ([striker.radius, reach].map(number), unit(units, LENGTH));
         let text = format!(

@@ -41,7 +41,7 @@ pub fn columns<E>(own: Vec<Column<E>>) -> Vec<Column<E>> {
         Column::new("speed", SPEED, |sample| sample.speed),
         Column::new("travel", LENGTH, |sample| sample.travel),
         Column::new("force", FORCE, |sample| sample.force),
-        Column::new("projectile_energy", ENERGY, |sample| sample.energies.projectile),
+        Column::new("projectile_energy", ENERGY, |sample| sample.energies.striker),
         Column::new("kinetic_energy", ENERGY, |sample| sample.energies.kinetic),
         Column::new("internal_energy", ENERGY, |sample| sample.energies.internal),
         Column::new("hourglass_energy", ENERGY, |sample| sample.energies.hourglass),

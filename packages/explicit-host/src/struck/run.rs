@@ -244,7 +244,7 @@ struct Record<E, C> {
 
 impl<'a, S: Struck, T: Number> Run<'a, S, T> {
     fn new(struck: &'a S, solver: Solver<T>) -> Self {
-        let start = solver.projectile.as_ref().map_or(0.0, |projectile| projectile.position);
+        let start = solver.striker.as_ref().map_or(0.0, |striker| striker.position);
         let plan = struck.plan().clone();
         let mut pictures = plan.pictures.clone();
         pictures.sort_by(f64::total_cmp);
@@ -357,7 +357,7 @@ impl<'a, S: Struck, T: Number> Run<'a, S, T> {
             let left = if stopped { after_stop } else { stop.unwrap_or(self.plan.next_mark(time)) - time };
             let energies = measured || sampled || drawn || framed;
             self.solver.accelerate(energies, left).map_err(|error| self.error(&error.to_string()))?;
-            if self.solver.projectile.as_ref().is_some_and(|projectile| projectile.force != 0.0) {
+            if self.solver.striker.as_ref().is_some_and(|striker| striker.force != 0.0) {
                 self.record.last_contact = time;
             }
             self.struck
@@ -425,7 +425,7 @@ impl<'a, S: Struck, T: Number> Run<'a, S, T> {
     /// Whether the run is over.
     fn end(&self, at_end: bool) -> Option<End> {
         let time = self.solver.state.time;
-        if self.solver.projectile.as_ref().is_some_and(|projectile| projectile.velocity >= 0.0) {
+        if self.solver.striker.as_ref().is_some_and(|striker| striker.velocity >= 0.0) {
             let end = if self.plan.rebounds { End::Rebounded } else { End::Stopped };
             return (at_end || !self.plan.rebounds).then_some(end);
         }

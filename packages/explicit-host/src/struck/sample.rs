@@ -32,7 +32,7 @@ pub struct Sample<E> {
 }
 
 impl<E: Default> Sample<E> {
-    /// Measures a solver that computes one part in `whole`, and whose projectile was at `start`.
+    /// Measures a solver that computes one part in `whole`, and whose striker was at `start`.
     pub fn of<T: Number>(solver: &Solver<T>, whole: f64, start: f64) -> Sample<E> {
         // Collected, since the order of a parallel sum is not always the same.
         let bodies: Vec<Sample<()>> =
@@ -48,10 +48,10 @@ impl<E: Default> Sample<E> {
             sample.deleted += body.deleted;
             sample.collapsed += body.collapsed;
         }
-        if let Some(projectile) = &solver.projectile {
-            sample.speed = -projectile.velocity;
-            sample.travel = start - projectile.position;
-            sample.force = projectile.force * whole;
+        if let Some(striker) = &solver.striker {
+            sample.speed = -striker.velocity;
+            sample.travel = start - striker.position;
+            sample.force = striker.force * whole;
         }
         sample
     }

@@ -12,14 +12,14 @@ use toron_shared::text_table::or_dash;
 pub type Cells = Vec<(String, String)>;
 
 /// A line that is being built.
-pub struct Line<'a> {
+pub struct Row<'a> {
     units: &'a UnitSystem,
     pub cells: Cells,
 }
 
-impl Line<'_> {
-    pub fn new(units: &UnitSystem) -> Line<'_> {
-        Line { units, cells: Vec::new() }
+impl Row<'_> {
+    pub fn new(units: &UnitSystem) -> Row<'_> {
+        Row { units, cells: Vec::new() }
     }
 
     /// Adds what has no unit.

@@ -1,17 +1,18 @@
-//! What an entry, an output, a layout or a block's size costs beside another: ratios of calls in turn, since single times of different
-//! moments are not to be divided by one another where a processor's clock changes.
+//! What an entry, an output, a layout or a block's size costs beside another: ratios of calls in turn, since single
+//! times of different moments are not to be divided by one another where a processor's clock changes.
 
 use std::convert::Infallible;
 use std::time::Duration;
 
 use serde::Serialize;
 
-use super::command::{calls_that_last, properties, timed};
+use super::command::properties;
 use super::hosts::{Host, HostArrays, call, whole};
 use super::scene::{Scene, impacts};
+use super::timing::{calls_that_last, in_turn};
 use crate::entries::aligned::Aligned;
 use crate::entries::blocks::{SolverBlock, prepared};
-use crate::entries::hosts::{Given, Wanted};
+use crate::entries::hosts::{Given, PointOutputs};
 use toron::Hyperelastic;
 use toron::law::block::Arrays;
 use toron::law::parameters::{self, EPS_LIM, HYPERELASTIC_PROPERTIES};
@@ -63,13 +64,13 @@ pub fn measured() -> Result<Vec<Choice>, Error> {
     let mut choices = Vec::new();
     let mut add = |name: &str, n: [usize; 2], runs: [Result<Run, Error>; 2]| {
         let [above, below] = runs;
-        choices.push(in_turn(name, n, above?, below?));
+        choices.push(ratio(name, n, above?, below?));
         Ok(())
     };
-    let point = Host::Point(Wanted::State);
+    let point = Host::Point(PointOutputs::State);
     for (above, below) in [
-        (Host::Point(Wanted::Stress), point),
-        (Host::Point(Wanted::Tangent), point),
+        (Host::Point(PointOutputs::Stress), point),
+        (Host::Point(PointOutputs::Tangent), point),
         (Host::PointWithProperties, point),
         (Host::Umat { tangent: false }, point),
         (Host::Umat { tangent: true }, Host::Umat { tangent: false }),
@@ -116,7 +117,7 @@ pub fn measured() -> Result<Vec<Choice>, Error> {
         add("block / C points", [n; 2], [of_block(plain, n), of_host(point, n)])?;
     }
     let tangent = Calls { tangent: true, ..plain };
-    let runs = [of_block(tangent, 1), of_host(Host::Point(Wanted::Tangent), 1)];
+    let runs = [of_block(tangent, 1), of_host(Host::Point(PointOutputs::Tangent), 1)];
     add("block with dS/dE / C point with dS/dE", [1; 2], runs)?;
     for (n, full) in [(1, 4), (2, 4), (3, 4), (5, 8), (9, 16), (63, 64), (127, 128)] {
         add(&format!("block of {n} / of {full}"), [n, full], [n, full].map(|n| of_block(plain, n)))?;
@@ -124,17 +125,15 @@ pub fn measured() -> Result<Vec<Choice>, Error> {
     Ok(choices)
 }
 
-/// Both in turn: a clock that wanders slows both of a pair alike. A call that is not timed, before each timing, leaves the caches as the
-/// call itself leaves them.
-fn in_turn(name: &str, points: [usize; 2], mut above: Run, mut below: Run) -> Choice {
+/// The ratio of two runs that are timed in turn.
+fn ratio(name: &str, points: [usize; 2], mut above: Run, mut below: Run) -> Choice {
     let Ok(calls) = calls_that_last(BATCH, &mut above).and_then(|a| Ok([a, calls_that_last(BATCH, &mut below)?]));
-    let seconds = |run: &mut Run, calls: usize| {
-        let Ok(seconds) = timed(1, run).and_then(|_| timed(calls, run));
-        seconds
-    };
     let pairs = if calls[0] > 1 { PAIRS } else { PAIRS_OF_LONG };
-    let times: Vec<[f64; 2]> =
-        (0..pairs).map(|_| [seconds(&mut above, calls[0]), seconds(&mut below, calls[1])]).collect();
+    let mut runs = [above, below];
+    let run = |side: usize| {
+        let Ok(()) = runs[side]();
+    };
+    let times = in_turn(run, calls, pairs);
     let mut ratios: Vec<f64> = times.iter().map(|[above, below]| above / below).collect();
     ratios.sort_by(f64::total_cmp);
     let least = |side: usize| times.iter().map(|pair| pair[side]).fold(f64::INFINITY, f64::min);

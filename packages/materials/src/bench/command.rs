@@ -1,9 +1,8 @@
-//! `toron bench`: what a point costs here, by every way in and every set of instructions, beside what copying its numbers
-//! costs.
+//! `toron bench`: what a point costs here, by every way in and every set of instructions, beside what copying its
+//! numbers costs.
 
 use std::hint::black_box;
 use std::path::Path;
-use std::time::{Duration, Instant};
 
 use nalgebra::Scalar;
 use serde::Serialize;
@@ -12,6 +11,7 @@ use super::choices::{self, Choice};
 use super::entries::Entry;
 use super::hosts::{Host, HostArrays, call};
 use super::scene::Scene;
+use super::timing::Best;
 use crate::entries::precision::BlockPrecision;
 use toron::Hyperelastic;
 use toron::law::block::Precision;
@@ -28,13 +28,11 @@ const LARGEST_HOST: usize = 4096;
 /// The law that is measured.
 pub const PRESET: &str = "kevlar-km2-600";
 
-/// Every row is timed this often, in turn, and the fastest counts: what disturbs a measurement only makes it longer. Short and many,
-/// since a processor's clock changes within a second: each row is to meet it at its fastest.
+/// Every row is timed this often, in turn, and the fastest counts: what disturbs a measurement only makes it longer.
+/// Short and many, since a processor's clock changes within a second: each row is to meet it at its fastest.
 const ROUNDS: usize = 40;
 /// The same for more points than [`LARGEST_HOST`].
 const ROUNDS_OF_MANY: usize = 7;
-/// A timing repeats the call so often that it lasts about this long.
-const BATCH: Duration = Duration::from_millis(1);
 
 /// A line of the report.
 #[derive(Serialize)]
@@ -129,46 +127,6 @@ fn measured<T: Precision + BlockPrecision + Scalar>(precision: &str, hosts: &[Ho
         nanoseconds,
     };
     Ok(names.zip(times).map(row).collect())
-}
-
-/// The fastest of some timings of a call.
-#[derive(Clone, Default)]
-pub struct Best {
-    /// How often a timing repeats the call; 0 before the first one.
-    calls: usize,
-    /// Of one call.
-    pub seconds: Option<f64>,
-}
-
-impl Best {
-    /// One more timing, after a call that is not timed, so that the caches hold this call's data and not another's.
-    pub fn time(&mut self, mut run: impl FnMut() -> Result<(), toron::Error>) -> Result<(), toron::Error> {
-        run()?;
-        if self.calls == 0 {
-            self.calls = calls_that_last(BATCH, &mut run)?;
-        }
-        let seconds = timed(self.calls, &mut run)?;
-        self.seconds = Some(self.seconds.map_or(seconds, |best| best.min(seconds)));
-        Ok(())
-    }
-}
-
-/// Seconds of one call, of so many.
-pub fn timed<E>(calls: usize, run: &mut impl FnMut() -> Result<(), E>) -> Result<f64, E> {
-    let start = Instant::now();
-    for _ in 0..calls {
-        run()?;
-    }
-    Ok(start.elapsed().as_secs_f64() / calls as f64)
-}
-
-/// How many calls last about so long, at least one.
-pub fn calls_that_last<E>(duration: Duration, run: &mut impl FnMut() -> Result<(), E>) -> Result<usize, E> {
-    let mut calls = 1;
-    while timed(calls, run)? * (calls as f64) < duration.as_secs_f64() {
-        calls *= 2;
-    }
-    Ok(calls)
 }
 
 /// The processor's name, where the system tells it.

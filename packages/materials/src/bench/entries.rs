@@ -70,8 +70,9 @@ impl Entry {
 /// What a law answers for a point: stress, state and status.
 pub type Answer<T> = ([T; 6], [T; HYPERELASTIC_STATE], i32);
 
-/// Point by point, as a solver calls a scalar law: from the deformation gradient and the old state to the answer. Inlined, so that the
-/// law is too: a call of a closure, and copies of what it takes and gives, would cost as much as half of a law.
+/// Point by point, as a solver calls a scalar law: from the deformation gradient and the old state to the answer.
+/// Inlined, so that the law is too: a call of a closure, and copies of what it takes and gives, would cost as much as
+/// half of a law.
 #[inline(always)]
 pub fn each_point<T: Real + Scalar>(
     scene: &mut Scene<T>,
@@ -92,8 +93,8 @@ fn points<T: Precision + Scalar>(law: &Hyperelastic<T>, scene: &mut Scene<T>) {
     });
 }
 
-/// Reads the deformation gradient and the old state and writes stress, state and status, a few lines of every column at a
-/// time like a block: what any law must at least do. The state stays what it was.
+/// Reads the deformation gradient and the old state and writes stress, state and status, a few lines of every column at
+/// a time like a block: what any law must at least do. The state stays what it was.
 fn copy<T: Real>(scene: &mut Scene<T>) {
     /// Points of a column at a time.
     const TILE: usize = 64;

@@ -1,12 +1,12 @@
-//! What is measured of the hosts: their C entries, called on arrays as they keep them, in loops that do nothing else. What such a call
-//! takes in a C program is measured by `ffi-tests/speed`; `.ci/long bench` compares the two.
+//! What is measured of the hosts: their C entries, called on arrays as they keep them, in loops that do nothing else.
+//! What such a call takes in a C program is measured by `ffi-tests/speed`; `.ci/long bench` compares the two.
 
 use super::scene::Scene;
 use crate::entries::aligned::Aligned;
 use crate::entries::blocks::{SolverBlock, prepared};
 use crate::entries::hosts::{
-    CalculixPoint, Given, LsdynaElement, LsdynaVector, MgisPoint, MgisTangent, OnePoint, OpenradiossGroup, Umat,
-    VumatArrays, Wanted,
+    CalculixPoint, Given, LsdynaElement, LsdynaVector, MgisPoint, MgisTangent, OnePoint, OpenradiossGroup,
+    PointOutputs, Umat, VumatArrays,
 };
 use crate::entries::precision::BlockPrecision;
 use toron::law::block::Precision;
@@ -14,12 +14,12 @@ use toron::law::parameters::HYPERELASTIC_PROPERTIES;
 use toron::law::state::HYPERELASTIC_STATE;
 use toron_c::HyperelasticLaw;
 
-/// A C entry as its host calls it. Those for one point are called for one point after the other; but for `Point` they prepare the law
-/// at every call.
+/// A C entry as its host calls it. Those for one point are called for one point after the other; but for `Point` they
+/// prepare the law at every call.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Host {
     /// `toron_hyperelastic_point`, with a law that has been prepared.
-    Point(Wanted),
+    Point(PointOutputs),
     /// `toron_hyperelastic_point_with_properties`.
     PointWithProperties,
     /// `toron_hyperelastic_block`.
@@ -45,9 +45,9 @@ pub enum Host {
 impl Host {
     /// Those in either precision.
     pub const BOTH: [Host; 10] = [
-        Host::Point(Wanted::State),
-        Host::Point(Wanted::Stress),
-        Host::Point(Wanted::Tangent),
+        Host::Point(PointOutputs::State),
+        Host::Point(PointOutputs::Stress),
+        Host::Point(PointOutputs::Tangent),
         Host::PointWithProperties,
         Host::Block,
         Host::Vumat,
@@ -67,9 +67,9 @@ impl Host {
 
     pub fn name(self) -> &'static str {
         match self {
-            Host::Point(Wanted::State) => "C point",
-            Host::Point(Wanted::Stress) => "C point, stress only",
-            Host::Point(Wanted::Tangent) => "C point with dS/dE",
+            Host::Point(PointOutputs::State) => "C point",
+            Host::Point(PointOutputs::Stress) => "C point, stress only",
+            Host::Point(PointOutputs::Tangent) => "C point with dS/dE",
             Host::PointWithProperties => "C point with properties",
             Host::Block => "C block",
             Host::Umat { tangent: false } => "UMAT",
@@ -168,9 +168,9 @@ pub fn call<T: Precision + BlockPrecision>(host: Host, scene: &mut Scene<T>, arr
     let (law, properties) = (Given::Prepared(&arrays.law), &arrays.properties);
     let tangent = &mut arrays.tangent;
     match host {
-        Host::Point(wanted) => OnePoint::call_each(&mut scene.points, law, wanted, tangent),
+        Host::Point(outputs) => OnePoint::call_each(&mut scene.points, law, outputs, tangent),
         Host::PointWithProperties => {
-            OnePoint::call_each(&mut scene.points, Given::Properties(properties), Wanted::State, tangent);
+            OnePoint::call_each(&mut scene.points, Given::Properties(properties), PointOutputs::State, tangent);
         }
         Host::Block => drop(whole(scene, &mut arrays.state).arrays().call(law)),
         Host::Vumat => {

@@ -7,3 +7,4 @@ pub mod hosts;
 pub mod own_law;
 pub mod parallel;
 pub mod scene;
+pub mod timing;

@@ -1,12 +1,13 @@
-//! `bench` of a law of one's own: what a point of a block costs with each set of instructions, and whether the law's `constants`
-//! and `respond` are in the kernels.
+//! `bench` of a law of one's own: what a point of a block costs with each set of instructions, and whether the law's
+//! `constants` and `respond` are in the kernels.
 
 use std::hint::black_box;
 use std::path::Path;
 
 use clap::Args;
 
-use super::command::{Best, processor};
+use super::command::processor;
+use super::timing::Best;
 use crate::material::laws::Laws;
 use crate::material::own_law::{Own, OwnLaw};
 use crate::material::preset::Preset;
@@ -26,8 +27,8 @@ const POINTS: usize = 1000;
 const LEADING_DIMENSION: usize = 1037;
 const ROUNDS: usize = 40;
 
-/// With four points in a register in place of two, a point takes about half of the time; of a law whose functions are called, the
-/// calls remain, and what they call has been compiled for two.
+/// With four points in a register in place of two, a point takes about half of the time; of a law whose functions are
+/// called, the calls remain, and what they call has been compiled for two.
 const SHARE: f64 = 0.75;
 
 /// Prints nanoseconds a point, and to the standard error a warning where the formulas cannot have been inlined.

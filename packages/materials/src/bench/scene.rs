@@ -13,8 +13,8 @@ use toron::law::block::{Arrays, Precision};
 /// A leading dimension that is a multiple of this (4096 bytes) would put all columns in the same lines of the cache.
 const PAGE: usize = 512;
 
-/// Points twice: in component-major arrays, laid out as [`block`](toron::law::block) says, and one after the other, for what is called
-/// point by point. The fibre is the first axis.
+/// Points twice: in component-major arrays, laid out as [`block`](toron::law::block) says, and one after the other, for
+/// what is called point by point. The fibre is the first axis.
 #[derive(Debug)]
 pub struct Scene<T> {
     pub n: usize,

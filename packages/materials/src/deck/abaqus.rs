@@ -1,5 +1,6 @@
-//! Abaqus: `*MATERIAL` with `*USER MATERIAL` and `*DEPVAR`, the state variables named. Which of the library's laws runs follows from the
-//! numbers of properties and of state variables; the name of a material of another law begins with the law's.
+//! Abaqus: `*MATERIAL` with `*USER MATERIAL` and `*DEPVAR`, the state variables named. Which of the library's laws runs
+//! follows from the numbers of properties and of state variables; the name of a material of another law begins with the
+//! law's.
 
 use std::fmt::Write;
 
@@ -9,7 +10,7 @@ use crate::material::preset::LONGEST_NAME;
 use toron_shared::error::Error;
 use toron_shared::short_number::short;
 
-/// What nobody but its author knows of a law.
+/// A comment of the card: only the law's author knows whether its tangent is symmetric.
 const UNSYMMETRIC: &str =
     "** Abaqus/Standard: *USER MATERIAL, CONSTANTS=..., UNSYMM where the tangent of the law is not symmetric.\n";
 

@@ -48,7 +48,8 @@ pub struct Arguments {
     /// The deck's units, for instance mm-tonne-s; may be left out for a file, which has its own.
     #[arg(long)]
     units: Option<String>,
-    /// A property, or the density, other than the yarn has it, in the deck's units; for each one an option, as --set k_ld=126.
+    /// A property, or the density, other than the yarn has it, in the deck's units; for each one an option, as --set
+    /// k_ld=126.
     #[arg(long = "set", value_name = "NAME=VALUE")]
     changes: Vec<String>,
     /// The fibre direction X,Y,Z instead of the yarn's own.
@@ -57,8 +58,8 @@ pub struct Arguments {
     /// LS-DYNA, OpenRadioss: the material's number in the deck, and that of OpenRadioss's property; 1 without it.
     #[arg(long)]
     id: Option<u64>,
-    /// LS-DYNA: the fibre is the first material axis, element by element (IHYPER -1, IORTHO 1, AOPT 2), and not one direction for
-    /// the material (IHYPER 1, IORTHO 0).
+    /// LS-DYNA: the fibre is the first material axis, element by element (IHYPER -1, IORTHO 1, AOPT 2), and not one
+    /// direction for the material (IHYPER 1, IORTHO 0).
     #[arg(long)]
     axes: bool,
     /// LS-DYNA: the number of the material, and of the routine umatMT.
@@ -70,7 +71,8 @@ pub struct Arguments {
     /// OpenRadioss, linear elastic law: what the material axes follow; the fibre without it.
     #[arg(long, value_enum)]
     frame: Option<Frame>,
-    /// OpenRadioss, linear elastic law: failure by the largest principal stress, as without it, or by that along the fibre.
+    /// OpenRadioss, linear elastic law: failure by the largest principal stress, as without it, or by that along the
+    /// fibre.
     #[arg(long, value_enum)]
     criterion: Option<Limit>,
 }

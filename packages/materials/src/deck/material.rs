@@ -130,7 +130,7 @@ impl Material {
         self.bulk_and_shear
     }
 
-    /// What is to be said of a wave along the fibre that no fibre has: a density or a stiffness is in other units.
+    /// A warning where no fibre has such a wave along it: a density or a stiffness is in other units.
     pub fn unit_warning(&self) -> Option<String> {
         let stiffness = self.values.first().copied()?;
         FibreWave::along(self.law, stiffness, self.density?, &self.units)?.unit_warning(&self.units)

@@ -1,4 +1,5 @@
-//! OpenRadioss: `/MAT/USERnn` and the property that its elements need, fields of 20 columns, or of 10 for whole numbers.
+//! OpenRadioss: `/MAT/USERnn` and the property that its elements need, fields of 20 columns, or of 10 for whole
+//! numbers.
 
 use std::fmt::Write;
 

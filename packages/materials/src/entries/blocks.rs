@@ -123,11 +123,12 @@ pub struct BlockArrays<'a, T> {
 }
 
 impl<T: BlockPrecision> BlockArrays<'_, T> {
-    /// The hyperelastic law at the points through `toron_hyperelastic_block_f64` or `_f32`, or their namesakes with properties, as an
-    /// explicit solver calls it; returns the entry's code.
+    /// The hyperelastic law at the points through `toron_hyperelastic_block_f64` or `_f32`, or their namesakes with
+    /// properties, as an explicit solver calls it; returns the entry's code.
     #[inline]
     pub fn call(&mut self, law: Given<'_, T>) -> i32 {
-        // SAFETY: the arrays have the sizes that the structure tells; the new state replaces the old one exactly, or is elsewhere.
+        // SAFETY: the arrays have the sizes that the structure tells; the new state replaces the old one exactly, or is
+        // elsewhere.
         unsafe {
             match law {
                 Given::Properties(values) => {
@@ -158,8 +159,8 @@ pub struct LinearSolverBlock<'a, T> {
     pub status: &'a mut [i32],
 }
 
-/// The linear elastic law over a step at a block of points through `toron_linear_elastic_block_f64` or `_f32`; returns the
-/// entry's code.
+/// The linear elastic law over a step at a block of points through `toron_linear_elastic_block_f64` or `_f32`; returns
+/// the entry's code.
 ///
 /// # Panics
 /// An array is shorter than its components need.
@@ -191,8 +192,8 @@ pub fn linear_elastic_block<T: BlockPrecision>(
     };
     (arrays.f_old[0], arrays.f_new[0]) = (f_old.as_ptr(), f_new.as_ptr());
     arrays.stress[0] = stress.as_mut_ptr();
-    // SAFETY: the arrays have the sizes that the structure tells; the new state replaces the old one exactly, and neither frame
-    // needs axes.
+    // SAFETY: the arrays have the sizes that the structure tells; the new state replaces the old one exactly, and
+    // neither frame needs axes.
     unsafe { T::LINEAR_BLOCK(law, &arrays, null_mut(), 0) }
 }
 

@@ -1,11 +1,12 @@
-//! One point through a C entry as its host would call it, from a fresh state to an answer in the library's order: for `eval`.
+//! One point through a C entry as its host would call it, from a fresh state to an answer in the library's order: for
+//! `eval`.
 
 use std::f64::consts::SQRT_2;
 use std::ptr::null_mut;
 
 use super::blocks::{message_in, prepared};
 use super::hosts::{
-    CalculixPoint, Given, MgisPoint, MgisTangent, OnePoint, OpenradiossGroup, Umat, Wanted, call_point,
+    CalculixPoint, Given, MgisPoint, MgisTangent, OnePoint, OpenradiossGroup, PointOutputs, Umat, call_point,
 };
 use super::precision::{BlockPrecision, VumatEntry};
 use toron::Hyperelastic;
@@ -25,7 +26,8 @@ pub struct Answer {
     pub stress: [f64; 6],
     pub state: [f64; HYPERELASTIC_STATE],
     pub modes: Option<[[f64; 6]; 4]>,
-    /// The Jaumann modulus of the Kirchhoff stress over J, in the library's order, where it is wanted and the entry has it.
+    /// The Jaumann modulus of the Kirchhoff stress over J, in the library's order, where it is wanted and the entry has
+    /// it.
     pub ddsdde: Option<[[f64; 6]; 6]>,
 }
 
@@ -40,8 +42,8 @@ pub fn message(code: i32, properties: &[f64; HYPERELASTIC_PROPERTIES]) -> String
     message
 }
 
-/// One point in either precision, from its properties: stress and state as a solver asks for them, the modes by a call of their own,
-/// DDSDDE by a third.
+/// One point in either precision, from its properties: stress and state as a solver asks for them, the modes by a call
+/// of their own, DDSDDE by a third.
 pub fn point<T: BlockPrecision>(properties: &[T; HYPERELASTIC_PROPERTIES], f: &[T; 9], tangent: bool) -> Answer {
     evaluate_point(Given::Properties(properties), f, tangent)
 }
@@ -60,7 +62,7 @@ pub fn prepared_point<T: BlockPrecision>(
 
 fn evaluate_point<T: BlockPrecision>(law: Given<'_, T>, f: &[T; 9], tangent: bool) -> Answer {
     let mut single = OnePoint::new(*f);
-    OnePoint::call_each(std::slice::from_mut(&mut single), law, Wanted::State, &mut Default::default());
+    OnePoint::call_each(std::slice::from_mut(&mut single), law, PointOutputs::State, &mut Default::default());
     let mut modes = [[T::default(); 6]; 4];
     let point = Point { deformation_gradient: f.as_ptr(), ..Point::empty() };
     // SAFETY: the arrays have the sizes that the entry asks for.
@@ -88,8 +90,8 @@ fn evaluate_point<T: BlockPrecision>(law: Given<'_, T>, f: &[T; 9], tangent: boo
     answer
 }
 
-/// The deformations that stand beside the point in a block: rest, a stretched, a compacted and sheared one, and two that
-/// cannot be evaluated, none of which may disturb it.
+/// The deformations that stand beside the point in a block: rest, a stretched, a compacted and sheared one, and two
+/// that cannot be evaluated, none of which may disturb it.
 pub const NEIGHBOURS: [[f64; 9]; 5] = [
     [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0],
     [1.2, 0.0, 0.0, 0.1, 0.9, 0.0, 0.0, 0.2, 1.1],
@@ -191,8 +193,8 @@ pub fn mgis(
     }
     let [s11, s22, s33, s12, s13, s23] = host.stress;
     let stress = [s11, s22, s33, s12 / SQRT_2, s23 / SQRT_2, s13 / SQRT_2];
-    // MGIS gets √2 times the components 12, 13 and 23, on both sides. The quotient, rounded, is mostly the number that has been
-    // multiplied.
+    // MGIS gets √2 times the components 12, 13 and 23, on both sides. The quotient, rounded, is mostly the number that
+    // has been multiplied.
     let without_factors = |i: usize, j: usize| {
         let entry = host.k[6 * i + j];
         match (i < 3, j < 3) {
@@ -205,10 +207,11 @@ pub fn mgis(
     (Answer { stress, state: host.state, ..Answer::default() }, material)
 }
 
-/// The second Piola–Kirchhoff stress through CalculiX, in place of the Cauchy stress, and dS/dE, tensor components; both
-/// 11 22 33 12 13 23.
+/// The second Piola–Kirchhoff stress through CalculiX, in place of the Cauchy stress, and dS/dE, tensor components;
+/// both 11 22 33 12 13 23.
 pub fn calculix(properties: &[f64; HYPERELASTIC_PROPERTIES], f: &[f64; 9]) -> (Answer, [[f64; 6]; 6]) {
-    // CalculiX gets a smaller increment and no code: it is the point entry's. For wrong properties the entry would end the process.
+    // CalculiX gets a smaller increment and no code: it is the point entry's. For wrong properties the entry would end
+    // the process.
     let status = point(properties, f, true).status;
     let mut host = CalculixPoint::new(*f);
     if status == status::OK || status <= status::INVERTED {

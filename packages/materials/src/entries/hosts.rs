@@ -35,7 +35,7 @@ pub struct OnePoint<T> {
 
 /// What is asked of the C entry for one point: the stress alone, with the state, with the state and dS/dE.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Wanted {
+pub enum PointOutputs {
     Stress,
     State,
     Tangent,
@@ -50,18 +50,18 @@ impl<T: Real> OnePoint<T> {
 }
 
 impl<T: BlockPrecision> OnePoint<T> {
-    /// Calls the entry for each of the points; a tangent goes to `tangent`, and the next one there too. The structure is filled as in
-    /// a solver's loop: what does not change, once.
+    /// Calls the entry for each of the points; a tangent goes to `tangent`, and the next one there too. The structure
+    /// is filled as in a solver's loop: what does not change, once.
     #[inline]
-    pub fn call_each(points: &mut [Self], law: Given<'_, T>, wanted: Wanted, tangent: &mut [[T; 6]; 6]) {
+    pub fn call_each(points: &mut [Self], law: Given<'_, T>, outputs: PointOutputs, tangent: &mut [[T; 6]; 6]) {
         let mut call = Point { measure: toron_c::TORON_TANGENT_MATERIAL, ..Point::empty() };
-        if wanted == Wanted::Tangent {
+        if outputs == PointOutputs::Tangent {
             call.tangent = tangent.as_mut_ptr().cast();
         }
         for point in points {
             call.deformation_gradient = point.deformation_gradient.as_ptr();
             call.stress = point.stress.as_mut_ptr();
-            if wanted != Wanted::Stress {
+            if outputs != PointOutputs::Stress {
                 call.state_new = point.state.as_mut_ptr();
                 call.state_old = call.state_new;
             }
@@ -112,8 +112,8 @@ impl<T: BlockPrecision> LsdynaElement<T> {
     }
 }
 
-/// A vector of elements as LS-DYNA keeps it, component-major: stress, and the history of eleven state variables and the nine entries
-/// of F. They lie behind each other, so that how they share the cache is the same in every program.
+/// A vector of elements as LS-DYNA keeps it, component-major: stress, and the history of eleven state variables and the
+/// nine entries of F. They lie behind each other, so that how they share the cache is the same in every program.
 #[derive(Debug)]
 pub struct LsdynaVector<T> {
     n: usize,
@@ -212,7 +212,8 @@ impl<T: BlockPrecision> VumatArrays<T> {
     }
 }
 
-/// One integration point as CalculiX hands it over: F and E, the old and the new state, second Piola–Kirchhoff stress and dS/dE.
+/// One integration point as CalculiX hands it over: F and E, the old and the new state, second Piola–Kirchhoff stress
+/// and dS/dE.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct CalculixPoint {
     pub deformation_gradient: [f64; 9],
@@ -350,7 +351,8 @@ impl MgisPoint {
     /// Calls the behaviour; returns what it returns: 1, or −1 if the point is not integrated.
     #[inline]
     pub fn call(&mut self, properties: &[f64; HYPERELASTIC_PROPERTIES], tangent: MgisTangent) -> i32 {
-        /// Neither the old stress nor the external state variables are read, nor the first gradients for these tangents.
+        /// Neither the old stress nor the external state variables are read, nor the first gradients for these
+        /// tangents.
         const AT_REST: &[f64; 9] = &MgisPoint::FRESH.gradients;
         (self.k[0], self.k[1], self.k[2]) = match tangent {
             MgisTangent::None => (0.0, 0.0, 0.0),
@@ -390,8 +392,8 @@ impl MgisPoint {
     }
 }
 
-/// A group of elements as OpenRadioss keeps it: F, by columns, and the stress in arrays of the solver's vector length, the others of
-/// the group's.
+/// A group of elements as OpenRadioss keeps it: F, by columns, and the stress in arrays of the solver's vector length,
+/// the others of the group's.
 #[derive(Debug)]
 pub struct OpenradiossGroup<T> {
     pub n: usize,
@@ -408,7 +410,8 @@ impl<T: BlockPrecision> OpenradiossGroup<T> {
     /// The solver's vector length: no group has more elements.
     pub const LENGTH: usize = 129;
 
-    /// `n` elements at the start, of the hyperelastic law. Their fibre direction is that of the properties, or that of UVAR.
+    /// `n` elements at the start, of the hyperelastic law. Their fibre direction is that of the properties, or that of
+    /// UVAR.
     ///
     /// # Errors
     /// The properties are wrong: the status code.
@@ -433,7 +436,8 @@ impl<T: BlockPrecision> OpenradiossGroup<T> {
 
     /// Calls the entry, as in a later cycle than the first; returns its status.
     pub fn call(&mut self) -> i32 {
-        // Addresses by steps from the first, without a check of each, which would take a tenth of a call for few elements.
+        // Addresses by steps from the first, without a check of each, which would take a tenth of a call for few
+        // elements.
         let (first, stress) = (self.gradient.as_ptr(), self.stress.as_mut_ptr());
         let f = |row: usize, column: usize| first.wrapping_add((3 * column + row) * Self::LENGTH);
         let stress = |c: usize| stress.wrapping_add(c * Self::LENGTH);

@@ -42,7 +42,8 @@ pub trait BlockPrecision: openradioss::MyReal + Default + FromF64 + Send + Sync 
     const OPENRADIOSS: OpenradiossEntry<Self>;
 }
 
-/// An entry that prepares a law, one that takes it, and one that takes the properties; the last two arguments are for a message.
+/// An entry that prepares a law, one that takes it, and one that takes the properties; the last two arguments are for a
+/// message.
 pub type PrepareEntry<L, T> = unsafe extern "C" fn(*mut L, usize, *const T, usize, *mut c_char, usize) -> i32;
 pub type PreparedEntry<L, S> = unsafe extern "C" fn(*const L, *const S, *mut c_char, usize) -> i32;
 pub type PropertiesEntry<T, S> = unsafe extern "C" fn(*const T, usize, *const S, *mut c_char, usize) -> i32;

@@ -139,7 +139,8 @@ struct Output {
 
 /// A key that a line has in the wrong place or that nothing reads, in words.
 ///
-/// A record may have keys of its own beside F, m and params, but no parameter there; "params" has only what the law knows.
+/// A record may have keys of its own beside F, m and params, but no parameter there; "params" has only what the law
+/// knows.
 fn wrong_key(line: &[u8]) -> Option<String> {
     let object: BTreeMap<String, IgnoredAny> = serde_json::from_slice(line).ok()?;
     if let Some(key) = OPTIONAL_PARAMS.into_iter().find(|&key| object.contains_key(key)) {
@@ -245,8 +246,8 @@ fn via_mgis(f: &Matrix3<f64>, (answer, material): (Answer, Option<[[f64; 6]; 6]>
     Answer { ddsdde: material.map(|material| pushed_forward(&material, f, &answer.stress)), ..answer }
 }
 
-/// The answer of CalculiX, with S and dS/dE pushed forward. Where there is no stress, CalculiX gets a stiffness that is none of the
-/// law's.
+/// The answer of CalculiX, with S and dS/dE pushed forward. Where there is no stress, CalculiX gets a stiffness that is
+/// none of the law's.
 fn via_calculix(f: &Matrix3<f64>, (answer, material): (Answer, [[f64; 6]; 6]), tangent: bool) -> Answer {
     let intact = answer.status == status::OK;
     let stress = if intact { order(cauchy_of_second(&answer.stress, f)) } else { [0.0; 6] };

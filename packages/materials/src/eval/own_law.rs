@@ -36,7 +36,8 @@ struct Input {
     params: BTreeMap<String, f64>,
 }
 
-/// A line of output: the state by the names of its table, without the flag for element deletion. Stresses are 11 22 33 12 13 23.
+/// A line of output: the state by the names of its table, without the flag for element deletion. Stresses are 11 22 33
+/// 12 13 23.
 struct Output {
     law: &'static OwnLaw,
     sigma: [f64; 6],

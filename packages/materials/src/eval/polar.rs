@@ -1,7 +1,8 @@
 //! The polar decomposition F = R U as a host forms it, in extended precision and rounded once.
 //!
-//! A comparison of the VUMAT with the other entries then shows the VUMAT's own rounding, not this decomposition's. Extended
-//! precision is [`TwoFloat`]'s: it costs some seconds of a clean build, and saves error-free sums and products written out here.
+//! A comparison of the VUMAT with the other entries then shows the VUMAT's own rounding, not this decomposition's.
+//! Extended precision is [`TwoFloat`]'s: it costs some seconds of a clean build, and saves error-free sums and products
+//! written out here.
 
 use nalgebra::Matrix3;
 use twofloat::TwoFloat;

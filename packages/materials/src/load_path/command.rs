@@ -31,7 +31,8 @@ pub struct Arguments {
     pub output: PathBuf,
 }
 
-/// Runs the load path of a file with materials of these laws, or the demonstration of the library's, and writes what came of it to a directory.
+/// Runs the load path of a file with materials of these laws, or the demonstration of the library's, and writes what
+/// came of it to a directory.
 ///
 /// # Errors
 /// The input, a file that cannot be written, or the evaluation of a point; what was computed before is written all the

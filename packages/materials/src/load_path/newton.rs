@@ -32,7 +32,8 @@ const LARGEST_SLACK: f64 = 0.5;
 const ITERATIONS: usize = 60;
 const HALVINGS: usize = 30;
 
-// Sized at run time: with static sizes the compiler unrolls the singular value decomposition, and spends half a minute on it.
+// Sized at run time: with static sizes the compiler unrolls the singular value decomposition, and spends half a minute
+// on it.
 type Vector = DVector<f64>;
 type Jacobian = DMatrix<f64>;
 

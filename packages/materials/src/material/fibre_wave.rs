@@ -1,4 +1,5 @@
-//! The speed of the wave along the fibre at rest: what shows a density or a stiffness that is in other units than the rest.
+//! The speed of the wave along the fibre at rest: what shows a density or a stiffness that is in other units than the
+//! rest.
 
 use std::ops::RangeInclusive;
 
@@ -23,8 +24,8 @@ pub struct FibreWave {
 }
 
 impl FibreWave {
-    /// The wave of a material in these units; none without a density or without stiffness, and none of a law of one's own, of which it
-    /// is not known what resists it.
+    /// The wave of a material in these units; none without a density or without stiffness, and none of a law of one's
+    /// own, of which it is not known what resists it.
     pub fn of(material: &Material, units: &UnitSystem) -> Option<FibreWave> {
         let (law, stiffness) = match material.law {
             Law::Hyperelastic { properties, .. } => (LawName::Hyperelastic, properties.k_el),

@@ -1,4 +1,5 @@
-//! A material as files describe it: a preset, a law, and what is other than they have it. `docs/guides/load-paths.md` has the keys.
+//! A material as files describe it: a preset, a law, and what is other than they have it. `docs/guides/load-paths.md`
+//! has the keys.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -104,7 +105,8 @@ impl MaterialFile {
     }
 }
 
-/// The values of all properties of a law, and the places that errors name for them: none where the preset gives the value.
+/// The values of all properties of a law, and the places that errors name for them: none where the preset gives the
+/// value.
 struct Values {
     values: Vec<f64>,
     places: Vec<Option<Range<usize>>>,

@@ -1,4 +1,5 @@
-//! The laws' materials: their evaluation behind one interface, how files describe them, presets, and whether their units can be right.
+//! The laws' materials: their evaluation behind one interface, how files describe them, presets, and whether their
+//! units can be right.
 
 pub mod fibre_wave;
 pub mod file;

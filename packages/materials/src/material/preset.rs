@@ -1,4 +1,5 @@
-//! Presets: those of the library and those of a user's own files, which are used alike. `docs/guides/load-paths.md` has the keys.
+//! Presets: those of the library and those of a user's own files, which are used alike. `docs/guides/load-paths.md` has
+//! the keys.
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -117,8 +118,8 @@ impl Preset {
         Preset { name, source, law, units, values, density: None, guesses, file: None }
     }
 
-    /// The preset of this name among those of the laws, or the file, where the name ends in `.toml`; a relative one is in `folder`.
-    /// `error` makes the error at the place that names the preset.
+    /// The preset of this name among those of the laws, or the file, where the name ends in `.toml`; a relative one is
+    /// in `folder`. `error` makes the error at the place that names the preset.
     ///
     /// # Errors
     /// There is no such preset, the file cannot be read, or something is wrong in it.
@@ -242,8 +243,8 @@ impl Preset {
         lines[index].map(|line| Error::Input(format!("{name}:{line}: {message}")))
     }
 
-    /// The text of a file that reads back as this preset, bit for bit. `comments` stand behind the properties (or the density)
-    /// that they name; a property without a value is left out, and its comment has a line of its own.
+    /// The text of a file that reads back as this preset, bit for bit. `comments` stand behind the properties (or the
+    /// density) that they name; a property without a value is left out, and its comment has a line of its own.
     ///
     /// The values must be allowed and the name must be one, as in [`Preset::parse`]: nothing is checked here.
     pub fn to_toml(&self, comments: &BTreeMap<&str, String>) -> String {

@@ -1,9 +1,9 @@
 //! Smith's theory of a yarn struck at a point (thesis, Eq. 2.1–2.9), with a tension that need not be linear.
 //!
-//! A wave of elongation runs outwards at c(λ) = √(dP/dλ / ρ0), in reference lengths, and leaves the yarn moving inwards at
-//! w = ∫ c dλ (its Riemann invariant). The kink follows at √(P/(ρ0 λ)). In space, per unit time, the length λ√(P/(ρ0 λ)) of
-//! yarn stands between mid-span and the kink; w of it has come from outside, so that the kink is at U = √(Pλ/ρ0) − w, and
-//! Pythagoras gives V² = Pλ/ρ0 − U². With P = E ε that is V = c √(ε(2√(ε(1+ε)) − ε)) and U = c(√(ε(1+ε)) − ε).
+//! A wave of elongation runs outwards at c(λ) = √(dP/dλ / ρ0), in reference lengths, and leaves the yarn moving inwards
+//! at w = ∫ c dλ (its Riemann invariant). The kink follows at √(P/(ρ0 λ)). In space, per unit time, the length λ√(P/(ρ0
+//! λ)) of yarn stands between mid-span and the kink; w of it has come from outside, so that the kink is at U = √(Pλ/ρ0)
+//! − w, and Pythagoras gives V² = Pλ/ρ0 − U². With P = E ε that is V = c √(ε(2√(ε(1+ε)) − ε)) and U = c(√(ε(1+ε)) − ε).
 
 use std::ops::Range;
 
@@ -103,7 +103,8 @@ impl Tension {
 }
 
 impl Material {
-    /// That a strike of this speed stretches a yarn of this material by no more than any fibre bears; `key` is what gives the speed.
+    /// That a strike of this speed stretches a yarn of this material by no more than any fibre bears; `key` is what
+    /// gives the speed.
     ///
     /// # Errors
     /// It is faster: what is allowed, with a hint if the units cannot be right.

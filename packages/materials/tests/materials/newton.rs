@@ -32,8 +32,8 @@ fn way(material: &Material, start: &Matrix3<f64>, target: &Matrix3<f64>) -> Solu
     newton::solve(&stress, start, &prescribed, material.stress_scale()).expect("a solution")
 }
 
-/// Every residual small enough to be in the quadratic regime is followed by one below a multiple of its square: over the
-/// largest stiffness, a residual of the softest mode counts for some hundred times as much.
+/// Every residual small enough to be in the quadratic regime is followed by one below a multiple of its square: over
+/// the largest stiffness, a residual of the softest mode counts for some hundred times as much.
 fn assert_quadratic(name: &str, solution: &Solution, scale: f64) {
     let relative: Vec<_> = solution.residuals.iter().map(|r| r / scale).collect();
     println!("{name}: {relative:?}");

@@ -34,8 +34,8 @@ const TICKS: f64 = 1000.0;
 /// Lines for each load where there is no terminal for the bar.
 const LINES: f64 = 10.0;
 
-/// Runs the loads of a section and writes what came of them to the directory `output`; returns the path of the file that the
-/// identification reads.
+/// Runs the loads of a section and writes what came of them to the directory `output`; returns the path of the file
+/// that the identification reads.
 ///
 /// A load that does not get to its end keeps its increments, and no other from having its own; there is no file for the
 /// identification then. With `restart`, loads in the explicit host go on from their checkpoints.
@@ -123,7 +123,8 @@ impl Run<'_> {
         self.interrupt.as_ref().is_some_and(Interrupt::is_asked)
     }
 
-    /// The loads side by side where that is faster: CalculiX spends most of a small cell's time on what no second thread shortens.
+    /// The loads side by side where that is faster: CalculiX spends most of a small cell's time on what no second
+    /// thread shortens.
     fn loads(&self) -> Vec<Result<Outcome, Error>> {
         let scene = self.scene;
         let length = (TICKS * scene.loads.len() as f64) as u64;
@@ -176,8 +177,8 @@ impl Run<'_> {
         Ok(outcome)
     }
 
-    /// Runs a load in the explicit host, from its checkpoint on if it has one and goes on at all. One that has come to its end leaves its
-    /// outcome, so that a restart of others takes it as it is.
+    /// Runs a load in the explicit host, from its checkpoint on if it has one and goes on at all. One that has come to
+    /// its end leaves its outcome, so that a restart of others takes it as it is.
     fn explicit_load(&self, load: Load, progress: &mut (dyn FnMut(f64) + Send)) -> Result<Outcome, Error> {
         let place = Checkpoint::of(load.name(), self.output);
         let found = place.read()?;

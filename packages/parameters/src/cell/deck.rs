@@ -7,22 +7,23 @@ use super::scene::{Fibre, Load};
 
 /// The unit of stress inside CalculiX, over the fibre's e_2.
 pub const STRESS_UNIT: f64 = 1e-3;
-/// Stiffness of the contact, as pressure over depth: this many times e_2 a diameter, in a cell and in a box. The fibres of a box
-/// slide along each other's facets, and where contact is stiff CalculiX does not find the equilibrium.
+/// Stiffness of the contact, as pressure over depth: this many times e_2 a diameter, in a cell and in a box. The fibres
+/// of a box slide along each other's facets, and where contact is stiff CalculiX does not find the equilibrium.
 const NORMAL: [f64; 2] = [4000.0, 300.0];
 /// The slope of sticking, over the normal stiffness, in a cell and in a box.
 const STICK: [f64; 2] = [0.1, 0.01];
 /// Stiffness of a grounding spring over e_2 times the thickness.
 pub const SPRING: f64 = 1e-4;
-/// The first increment over the others, in a box: its fibres are free to turn until they touch, and CalculiX finds out in
-/// small steps only which do. It lengthens the increments by itself then.
+/// The first increment over the others, in a box: its fibres are free to turn until they touch, and CalculiX finds out
+/// in small steps only which do. It lengthens the increments by itself then.
 const FIRST_OF_BOX: f64 = 0.1;
 /// Iterations after which CalculiX takes a smaller increment: faces that open and close in turn do so for ever.
 const ITERATIONS: usize = 20;
-/// The part of the contact that CalculiX opens at random when it takes an increment again: none, so that a deck has one result.
+/// The part of the contact that CalculiX opens at random when it takes an increment again: none, so that a deck has one
+/// result.
 const OPENED: f64 = 0.0;
-/// By what CalculiX divides the contact's stiffness when it takes an increment again. Its own 100 lets the fibres run into each
-/// other so far that they do not come back.
+/// By what CalculiX divides the contact's stiffness when it takes an increment again. Its own 100 lets the fibres run
+/// into each other so far that they do not come back.
 const RELAXATION: usize = 1;
 /// Increments in all, with those that CalculiX takes again; and the smallest, as a part of the load.
 const MOST_INCREMENTS: usize = 2000;
@@ -117,7 +118,8 @@ impl Deck<'_> {
         }
     }
 
-    /// Plane strain: what lies behind moves as the front does, and not along the fibres. Half the unknowns. A support holds both.
+    /// Plane strain: what lies behind moves as the front does, and not along the fibres. Half the unknowns. A support
+    /// holds both.
     fn layers(&mut self) {
         let model = self.task.model;
         let mut supported = vec![[false; 2]; model.nodes.len()];
@@ -219,9 +221,9 @@ impl Deck<'_> {
         }
     }
 
-    /// Nothing moves. In its first step CalculiX takes what overlaps at the start of an increment for an initial overlap, which
-    /// it lets go as the step goes on: contact would have its stiffness at the end of the load only. TIMERESET: the load's time
-    /// starts from 0.
+    /// Nothing moves. In its first step CalculiX takes what overlaps at the start of an increment for an initial
+    /// overlap, which it lets go as the step goes on: contact would have its stiffness at the end of the load only.
+    /// TIMERESET: the load's time starts from 0.
     fn first_step(&mut self) {
         self.line("*STEP, NLGEOM\n*STATIC, TIMERESET\n1., 1.");
         self.boundary([1.0, 1.0]);

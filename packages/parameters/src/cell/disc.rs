@@ -81,8 +81,8 @@ impl Disc {
     }
 }
 
-/// The radius of the polygon's corners over the circle's: a polygon of the circle's area. With corners on the circle the
-/// sides would lie inside it everywhere, and the fibres would touch too late.
+/// The radius of the polygon's corners over the circle's: a polygon of the circle's area. With corners on the circle
+/// the sides would lie inside it everywhere, and the fibres would touch too late.
 fn polygon_radius(elements: usize) -> f64 {
     let half_side = PI / (8 * elements) as f64;
     (2.0 * half_side / (2.0 * half_side).sin()).sqrt()

@@ -1,8 +1,9 @@
-//! A load on the section in the explicit host: what rearranges on the way is carried over by inertia, which statics has not.
+//! A load on the section in the explicit host: what rearranges on the way is carried over by inertia, which statics has
+//! not.
 //!
-//! The walls move so slowly that the fibres are near equilibrium all the time. The density is chosen for the number of steps alone:
-//! lengths are counted in diameters, stresses in e_2, masses so that the density is 1. A wave across a fibre then takes a time of
-//! about 1.
+//! The walls move so slowly that the fibres are near equilibrium all the time. The density is chosen for the number of
+//! steps alone: lengths are counted in diameters, stresses in e_2, masses so that the density is 1. A wave across a
+//! fibre then takes a time of about 1.
 
 use serde::{Deserialize, Serialize};
 
@@ -26,7 +27,8 @@ use toron_shared::error::Error;
 
 /// Pressure by depth of penetration over e_2 a diameter.
 const STIFFNESS: f64 = 200.0;
-/// In diameters: nodes nearer to faces than this are looked at in every step, deeper ones have come through from the other side.
+/// In diameters: nodes nearer to faces than this are looked at in every step, deeper ones have come through from the
+/// other side.
 const MARGIN: f64 = 0.05;
 const DEEPEST: f64 = 0.1;
 /// The longest step over the time √(m/k) of a node with the whole stiffness of contact.

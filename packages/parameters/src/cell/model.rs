@@ -72,7 +72,8 @@ impl Side {
     }
 }
 
-/// A wall's thickness, and what it is longer at each end than the model: it also stands where others move in or bulge out.
+/// A wall's thickness, and what it is longer at each end than the model: it also stands where others move in or bulge
+/// out.
 const WALL: f64 = 0.2;
 const OVERHANG: f64 = 0.5;
 /// Coordinates closer than this are the same.

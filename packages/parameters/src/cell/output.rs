@@ -20,7 +20,8 @@ pub fn write(file: &Path, text: &str) -> Result<(), Error> {
     std::fs::write(file, text).map_err(|error| Error::Input(format!("{}: {error}", file.display())))
 }
 
-/// The table of a load. A box of rows has columns for what lies outside its middle, a random one for where the work has gone.
+/// The table of a load. A box of rows has columns for what lies outside its middle, a random one for where the work has
+/// gone.
 pub fn table(scene: &Scene, outcome: &Outcome) -> String {
     let stress = unit(&scene.units, STRESS);
     let boxed = matches!(scene.arrangement, Arrangement::Box(_)) && !scene.arrangement.is_random();

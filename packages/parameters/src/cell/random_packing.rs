@@ -40,8 +40,8 @@ pub fn pack(discs: usize, aspect: f64, seed: u64) -> Packing {
     Packing { centres: centres.iter().map(scaled).collect(), size: scaled(&size) }
 }
 
-/// Moves discs in a box of area 1 to where they overlap least, by the method FIRE (Bitzek and others, 2006): they roll down the energy
-/// of their overlaps and are stopped when they roll up. Returns whether none overlaps.
+/// Moves discs in a box of area 1 to where they overlap least, by the method FIRE (Bitzek and others, 2006): they roll
+/// down the energy of their overlaps and are stopped when they roll up. Returns whether none overlaps.
 fn relax(centres: &mut [[f64; 2]], size: [f64; 2], diameter: f64) -> bool {
     let zero = vec![[0.0; 2]; centres.len()];
     let mut velocities = zero.clone();

@@ -145,7 +145,8 @@ fn energies(scene: &Scene, outcomes: &[Outcome]) -> String {
     table(columns, WIDTH)
 }
 
-/// The largest part of the fibres' energy that the springs have, from the load's middle on: before, there is hardly any.
+/// The largest part of the fibres' energy that the springs have, from the load's middle on: before, there is hardly
+/// any.
 pub fn largest_spring_share(outcome: &Outcome) -> f64 {
     let later = &outcome.increments[outcome.increments.len() / 2..];
     later.iter().map(|increment| increment.springs / increment.whole).fold(0.0, f64::max)

@@ -13,8 +13,9 @@ use toron_shared::error::Error;
 /// The stretch is known to the seven digits that CalculiX prints of the time.
 const ROUNDING: f64 = 1e-6;
 
-/// The fibres' energy over the supports' work, from the load's middle on; before, what the polygons' corners store counts. Where it
-/// is more, CalculiX has taken for equilibrium what is none. The trapezoidal rule over the increments is within a percent.
+/// The fibres' energy over the supports' work, from the load's middle on; before, what the polygons' corners store
+/// counts. Where it is more, CalculiX has taken for equilibrium what is none. The trapezoidal rule over the increments
+/// is within a percent.
 const MOST_ENERGY: f64 = 1.02;
 
 /// How often a load is taken again with twice as many increments where that happens: to eight times as many. In larger
@@ -56,7 +57,8 @@ pub struct Outcome {
     pub shape: Shape,
     /// Where the walls' work has gone; of the explicit host.
     pub shares: Option<Shares>,
-    /// The increments with which it was taken again, where the fibres stored more than the walls' work with those of the scene.
+    /// The increments with which it was taken again, where the fibres stored more than the walls' work with those of
+    /// the scene.
     pub refined: Option<usize>,
     /// Why the load was not taken to its end.
     pub failure: Option<String>,
@@ -167,8 +169,8 @@ fn von_mises([xx, yy, zz, xy, yz, zx]: &[f64; 6]) -> f64 {
 mod tests {
     use super::*;
 
-    /// 25 increments to a stretch of 0.9 whose work is in the fibres but for what friction took, 3 %; the energy is multiplied by
-    /// `factor` from increment `from` on.
+    /// 25 increments to a stretch of 0.9 whose work is in the fibres but for what friction took, 3 %; the energy is
+    /// multiplied by `factor` from increment `from` on.
     fn series(factor: f64, from: usize) -> Vec<Increment> {
         let increment = |number: usize| {
             let stretch = 1.0 - 0.1 * number as f64 / 25.0;

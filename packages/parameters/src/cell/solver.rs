@@ -18,7 +18,7 @@ const PROGRAM: &str = "ccx";
 const JOB: &str = "job";
 /// How often a run is looked at.
 const LOOK: Duration = Duration::from_millis(50);
-/// What is told of a run's own words when it fails.
+/// How much of a run's own output its error has.
 const LAST_LINES: usize = 6;
 
 /// The program: the one given, that of the variable, or the one in PATH.
@@ -92,8 +92,9 @@ pub struct Job<'a> {
 }
 
 impl Job<'_> {
-    /// Runs a deck, which it leaves as `NAME.inp`, to whatever end it comes, in the folder `NAME.ccx`, which is then removed. What
-    /// CalculiX says goes to `NAME.log`, which stays where the run fails. `progress` is told the part of the load that has been taken.
+    /// Runs a deck, which it leaves as `NAME.inp`, to whatever end it comes, in the folder `NAME.ccx`, which is then
+    /// removed. What CalculiX says goes to `NAME.log`, which stays where the run fails. `progress` is told the part of
+    /// the load that has been taken.
     ///
     /// # Errors
     /// The program cannot be started, or its files cannot be written or read.

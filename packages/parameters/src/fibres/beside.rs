@@ -35,7 +35,8 @@ impl Beside {
         Ok(Beside { times, columns: COLUMNS.into_iter().zip(columns).collect() })
     }
 
-    /// The value of one of the columns at a time, between two lines by a straight line; at the ends, the last one there is.
+    /// The value of one of the columns at a time, between two lines by a straight line; at the ends, the last one there
+    /// is.
     pub fn at(&self, name: &str, time: f64) -> f64 {
         self.columns.get(name).map_or(f64::NAN, |values| between(&self.times, values, time))
     }
@@ -51,8 +52,8 @@ fn between(abscissa: &[f64], values: &[f64], place: f64) -> f64 {
     values[before] + part * (values[after] - values[before])
 }
 
-/// The law's mean strains in % at these places along the yarn, out of the table of this number beside its history; none where its
-/// run was over before.
+/// The law's mean strains in % at these places along the yarn, out of the table of this number beside its history; none
+/// where its run was over before.
 ///
 /// # Errors
 /// The table cannot be read, or is none of `toron impact`.

@@ -52,8 +52,8 @@ pub struct Arguments {
 
 /// Runs the cases of a scene and writes what came of them.
 ///
-/// A case that has no result keeps no other from having one. Returns the path of the file that the identification reads, if
-/// sections were pressed that tell its parameters.
+/// A case that has no result keeps no other from having one. Returns the path of the file that the identification
+/// reads, if sections were pressed that tell its parameters.
 ///
 /// # Errors
 /// The input, no LAMMPS, a file that cannot be written, or the cases that have no result.
@@ -92,37 +92,16 @@ pub fn run(arguments: &Arguments) -> Result<Option<PathBuf>, Error> {
     for case in &scene.cases {
         directory.remove_files_of(&case.name, 0)?;
     }
-    let bar = progress::bar(
-        TICKS as u64 * scene.cases.len() as u64,
-        "{wide_bar} {percent} %, {eta} left",
-        ProgressDrawTarget::stderr(),
+    let Results { outcomes: results, pressed, errors } = run_cases(
+        &scene,
+        &models,
+        &folders,
+        |folder, progress| match &lammps {
+            Some(lammps) if !folder.is_done() => Ok(Some(folder.run(lammps, arguments.ranks.into(), progress)?)),
+            _ => Ok(None),
+        },
+        output,
     );
-    let (mut results, mut pressed, mut errors) = (Vec::new(), Vec::new(), Vec::new());
-    for (number, ((case, model), folder)) in scene.cases.iter().zip(&models).zip(&folders).enumerate() {
-        let mut observer = Observer { bar: &bar, number, case, lines: Lines::from(0.0) };
-        let mut run = || -> Result<(), Error> {
-            let seconds = match &lammps {
-                Some(lammps) if !folder.is_done() => {
-                    Some(folder.run(lammps, arguments.ranks.into(), &mut |part| observer.progress(part))?)
-                }
-                _ => None,
-            };
-            let raw = folder.read(seconds)?;
-            if let Some(result) = Pressed::new(&scene.units, model.clone(), &raw) {
-                write_pressed(&scene, case, &result, output)?;
-                pressed.push((case, result));
-            } else {
-                let result = Outcome::new(&scene.units, case, model.clone(), raw);
-                write_case(&scene, case, &result, output)?;
-                results.push((case, result));
-            }
-            Ok(())
-        };
-        if let Err(error) = run() {
-            errors.push((case, error));
-        }
-    }
-    bar.finish_and_clear();
     if !results.is_empty() {
         summary::write(&output.join(SUMMARY), &scene, &results)?;
     }
@@ -133,6 +112,52 @@ pub fn run(arguments: &Arguments) -> Result<Option<PathBuf>, Error> {
     let Some(text) = pressed::output::fit_file(&scene, &pressed) else { return Ok(None) };
     kept_file::write(&fit, |file| file.write_all(text.as_bytes()))?;
     Ok(Some(fit))
+}
+
+/// What came of the cases: of those that are struck, of those that are pressed, and of those without a result.
+#[derive(Default)]
+struct Results<'a> {
+    outcomes: Vec<(&'a Case, Outcome)>,
+    pressed: Vec<(&'a Case, Pressed)>,
+    errors: Vec<(&'a Case, Error)>,
+}
+
+/// Runs the cases, by a function that returns the seconds that a run took, or none where its results are there already;
+/// and writes the files of each.
+fn run_cases<'a>(
+    scene: &'a Scene,
+    models: &[Model],
+    folders: &[Folder],
+    compute: impl Fn(&Folder, &mut dyn FnMut(f64)) -> Result<Option<f64>, Error>,
+    output: &Path,
+) -> Results<'a> {
+    let bar = progress::bar(
+        TICKS as u64 * scene.cases.len() as u64,
+        "{wide_bar} {percent} %, {eta} left",
+        ProgressDrawTarget::stderr(),
+    );
+    let mut results = Results::default();
+    for (number, ((case, model), folder)) in scene.cases.iter().zip(models).zip(folders).enumerate() {
+        let mut observer = Observer { bar: &bar, number, case, lines: Lines::from(0.0) };
+        let mut run = || -> Result<(), Error> {
+            let seconds = compute(folder, &mut |part| observer.progress(part))?;
+            let raw = folder.read(seconds)?;
+            if let Some(result) = Pressed::new(&scene.units, model.clone(), &raw) {
+                write_pressed(scene, case, &result, output)?;
+                results.pressed.push((case, result));
+            } else {
+                let result = Outcome::new(&scene.units, case, model.clone(), raw);
+                write_case(scene, case, &result, output)?;
+                results.outcomes.push((case, result));
+            }
+            Ok(())
+        };
+        if let Err(error) = run() {
+            results.errors.push((case, error));
+        }
+    }
+    bar.finish_and_clear();
+    results
 }
 
 /// That no case has results of another scene, or of an input that was changed by hand, which would go.

@@ -16,8 +16,8 @@ pub struct Line {
     /// Of the projectile or of the driven section, against the blow; and how far it has come.
     pub speed: f64,
     pub way: f64,
-    /// Since the line before, in the mean: the force on the fibres along the blow, and what friction at the projectile and the
-    /// contact there take (or, of what is driven, the power that comes from outside).
+    /// Since the line before, in the mean: the force on the fibres along the blow, and what friction at the projectile
+    /// and the contact there take (or, of what is driven, the power that comes from outside).
     pub force: f64,
     pub power: f64,
     pub kinetic: f64,
@@ -54,7 +54,8 @@ pub fn read(file: &Path, model: &Model) -> Result<Vec<Vec<f64>>, Error> {
     Ok(rows(&text, columns, model.steps as f64))
 }
 
-/// The numbers of each line, the first of which is its step. What cannot be read is the end of a line that was being written.
+/// The numbers of each line, the first of which is its step. What cannot be read is the end of a line that was being
+/// written.
 fn rows(text: &str, columns: usize, last: f64) -> Vec<Vec<f64>> {
     let mut rows: Vec<Vec<f64>> = Vec::new();
     for line in text.lines() {

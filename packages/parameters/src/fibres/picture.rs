@@ -1,4 +1,5 @@
-//! The fibres at an instant, coloured by their strain: from the side, from above, and in section at mid-span and at the stations.
+//! The fibres at an instant, coloured by their strain: from the side, from above, and in section at mid-span and at the
+//! stations.
 
 use std::path::Path;
 

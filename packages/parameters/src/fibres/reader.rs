@@ -22,8 +22,8 @@ const MOST_BEADS: f64 = 1e9;
 const SAMPLES: f64 = 200.0;
 /// The step as a part of the largest that is stable, where the file does not say otherwise.
 const STEP: f64 = 0.4;
-/// How the speed of a driven section comes in, in the time that the wave of elongation takes from bead to bead: at once, it would
-/// be overshot by a quarter.
+/// How the speed of a driven section comes in, in the time that the wave of elongation takes from bead to bead: at
+/// once, it would be overshot by a quarter.
 const RAMP: f64 = 64.0;
 /// How beads that walls press are braked, where the file does not say otherwise.
 const DAMPING: f64 = 0.05;
@@ -128,7 +128,8 @@ impl Reader<'_> {
         Ok(case)
     }
 
-    /// The half length and the spacing. Between walls no bead moves along the fibres: one of a diameter's length stands for each.
+    /// The half length and the spacing. Between walls no bead moves along the fibres: one of a diameter's length stands
+    /// for each.
     fn lengths(&self, fibre: &Fibre) -> Result<[f64; 2], Error> {
         let file = self.file;
         if file.striker() == StrikerName::Walls {

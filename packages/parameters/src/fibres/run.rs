@@ -54,8 +54,8 @@ impl<'a> Folder<'a> {
         Ok(!self.is_written() && !self.left()?.is_empty())
     }
 
-    /// Writes what LAMMPS reads, unless it is there: then what a run has left stays, which goes otherwise. Returns how many
-    /// files have gone.
+    /// Writes what LAMMPS reads, unless it is there: then what a run has left stays, which goes otherwise. Returns how
+    /// many files have gone.
     ///
     /// # Errors
     /// A file cannot be written or removed.
@@ -103,7 +103,8 @@ impl<'a> Folder<'a> {
         self.file(DONE).is_file()
     }
 
-    /// Runs the case, from the last restart file that can be read if there is one. `progress` is told the part that is done.
+    /// Runs the case, from the last restart file that can be read if there is one. `progress` is told the part that is
+    /// done.
     ///
     /// # Errors
     /// LAMMPS cannot be started, or ends with an error.

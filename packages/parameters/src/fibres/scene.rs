@@ -1,4 +1,5 @@
-//! A scene: fibres, how they lie, what strikes them, and the cases that differ from one another. All in the scene's units.
+//! A scene: fibres, how they lie, what strikes them, and the cases that differ from one another. All in the scene's
+//! units.
 
 use std::path::PathBuf;
 
@@ -107,8 +108,8 @@ pub enum Striker {
     },
     /// The middle of every fibre is moved; the speed comes in as half a cosine of this duration.
     Driven { ramp: f64 },
-    /// Walls without friction press the section, from rest to rest as half a cosine, until this part of the way between two that
-    /// close is gone. Beads are braked at this rate, over the frequency √(a₁/m) of a bead on a contact.
+    /// Walls without friction press the section, from rest to rest as half a cosine, until this part of the way between
+    /// two that close is gone. Beads are braked at this rate, over the frequency √(a₁/m) of a bead on a contact.
     Walls { walls: Walls, closing: f64, damping: f64, law: Option<SectionLaw> },
 }
 

@@ -1,5 +1,5 @@
-//! Where the fibres of a section lie. Lengths are in diameters of a fibre; the first axis is across the yarn, the second along the
-//! blow.
+//! Where the fibres of a section lie. Lengths are in diameters of a fibre; the first axis is across the yarn, the
+//! second along the blow.
 
 use std::f64::consts::FRAC_PI_4;
 
@@ -73,8 +73,8 @@ impl Section {
     }
 }
 
-/// A box whose walls the fibres touch. In hexagonal packing it has whole rows, each half a diameter beside the next, and of their
-/// possible numbers that which comes nearest to the aspect.
+/// A box whose walls the fibres touch. In hexagonal packing it has whole rows, each half a diameter beside the next,
+/// and of their possible numbers that which comes nearest to the aspect.
 fn boxed(fibres: usize, aspect: f64, packing: Packing) -> Section {
     let (centres, size) = match packing {
         Packing::Hexagonal => {
@@ -103,8 +103,8 @@ fn boxed(fibres: usize, aspect: f64, packing: Packing) -> Section {
     section
 }
 
-/// The width of the least ellipse that holds a fibre there: one whose half axes are longer by a radius than those of the ellipse
-/// on which its centre lies.
+/// The width of the least ellipse that holds a fibre there: one whose half axes are longer by a radius than those of
+/// the ellipse on which its centre lies.
 fn width_around([x, y]: [f64; 2], aspect: f64) -> f64 {
     let least = f64::max(1.0, aspect);
     let inside = |width: f64| {

@@ -1,4 +1,5 @@
-//! The files of figures: a line for every case, a case's history, and the strain along its fibres at the instants of its pictures.
+//! The files of figures: a line for every case, a case's history, and the strain along its fibres at the instants of
+//! its pictures.
 
 use std::path::Path;
 

@@ -73,8 +73,8 @@ fn of_order(distances: &[f64], values: &[f64], noise: Option<f64>) -> Option<Fla
     (values.len() > 2 && slope(distances, values) < 0.0).then_some(Flaw::Falls(last, first))
 }
 
-/// Where a file that goes out and comes back, in its own order, comes back beside the way it went: by more than a share of the
-/// largest value, in the mean. Points in any other order are no path.
+/// Where a file that goes out and comes back, in its own order, comes back beside the way it went: by more than a share
+/// of the largest value, in the mean. Points in any other order are no path.
 fn unloading(distances: &[f64], values: &[f64]) -> Option<usize> {
     let turn = turn(distances)?;
     let falls = distances[turn..].windows(2).take_while(|pair| pair[1] <= pair[0]).count();

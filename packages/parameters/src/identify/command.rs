@@ -5,15 +5,15 @@ use std::path::{Path, PathBuf};
 
 use super::file::Job;
 use super::strength::file::StrengthJob;
-use super::{output, plot, region, report, strength, worth};
+use super::{output, plot, region, report, sensitivity, strength};
 use toron_shared::console::print;
 use toron_shared::error::Error;
 use toron_shared::kept_file;
 use toron_shared::run_directory::{Locked, RunDirectory, Writes};
 use toron_strikes::impact::scene::Scene;
 
-/// Fits the parameters to the data of a file and writes what came of it to the directory `output`; with a scene, also what it
-/// makes of them.
+/// Fits the parameters to the data of a file and writes what came of it to the directory `output`; with a scene, also
+/// what it makes of them.
 ///
 /// # Errors
 /// The input, data that do not suffice, a file that cannot be written, or a scene that cannot be run.
@@ -28,7 +28,7 @@ pub fn run(path: &Path, output: &Path, scene: Option<&Path>) -> Result<(), Error
     require_new(&job.inputs, output, &files)?;
     let directory = lock(path, output, &files, scene.is_some())?.claim()?;
     // Of an earlier run; those of this one come at the end.
-    PLOTS.into_iter().chain([WORTH]).try_for_each(|name| directory.remove(name).map(drop))?;
+    PLOTS.into_iter().chain([SENSITIVITY]).try_for_each(|name| directory.remove(name).map(drop))?;
     let file = output.join(&files[0]);
     kept_file::write(&file, |file| file.write_all(output::preset(&job, &fit).as_bytes()))?;
     output::write_parameters(&output.join(PARAMETERS), &job, &fit)?;
@@ -44,17 +44,17 @@ pub fn run(path: &Path, output: &Path, scene: Option<&Path>) -> Result<(), Error
     }
     print(&report::line("written", &format!("{} in {}", files.join(", "), output.display())));
     if let Some(scene) = scene {
-        let trials = worth::trials(&job, &fit, &scene)?;
-        worth::write(&output.join(WORTH), &scene, &trials)?;
-        print(&worth::report(&job, &fit, &scene, &trials));
-        print(&report::line("written", WORTH));
+        let trials = sensitivity::trials(&job, &fit, &scene)?;
+        sensitivity::write(&output.join(SENSITIVITY), &scene, &trials)?;
+        print(&sensitivity::report(&job, &fit, &scene, &trials));
+        print(&report::line("written", SENSITIVITY));
     }
     Ok(())
 }
 
 const PARAMETERS: &str = "parameters.csv";
 const PLOTS: [&str; 2] = ["fit.svg", "fit.png"];
-const WORTH: &str = "worth.csv";
+const SENSITIVITY: &str = "worth.csv";
 
 fn of_set(name: &str) -> String {
     format!("fit-{name}.csv")
@@ -72,16 +72,16 @@ fn names(job: &Job) -> Vec<String> {
 
 /// The directory of the files, where those of another command or of other data are not overwritten.
 pub(super) fn lock(data: &Path, output: &Path, files: &[String], is_struck: bool) -> Result<Locked, Error> {
-    let worth = is_struck.then_some(WORTH);
+    let sensitivity = is_struck.then_some(SENSITIVITY);
     let stem = |file: &str| file.rsplit_once('.').map_or(file, |(stem, _)| stem).to_string();
-    let names = files.iter().map(String::as_str).chain(worth).map(stem).collect();
+    let names = files.iter().map(String::as_str).chain(sensitivity).map(stem).collect();
     RunDirectory::lock(output, Writes { command: "fit", files: vec![data], names, ..Writes::default() })
 }
 
 /// No file that was read is overwritten.
 pub(super) fn require_new(inputs: &[PathBuf], output: &Path, files: &[String]) -> Result<(), Error> {
     let real = |path: &Path| std::fs::canonicalize(path).ok();
-    for file in files.iter().map(String::as_str).chain([WORTH]).map(|name| output.join(name)) {
+    for file in files.iter().map(String::as_str).chain([SENSITIVITY]).map(|name| output.join(name)) {
         if real(&file).is_some_and(|file| inputs.iter().any(|input| real(input).as_ref() == Some(&file))) {
             let message =
                 format!("{} would be overwritten, and is read; allowed: another -o, or other names", file.display());

@@ -1,5 +1,5 @@
-//! k_el from the fibre alone (section 4.5.1): the energy ½ k_el I² is fitted to that of a linear yarn, ½ E ν (e^I − 1)², by
-//! least squares over even I from 0 to the failure of the fibre (Eq. 4.21–4.23).
+//! k_el from the fibre alone (section 4.5.1): the energy ½ k_el I² is fitted to that of a linear yarn, ½ E ν (e^I −
+//! 1)², by least squares over even I from 0 to the failure of the fibre (Eq. 4.21–4.23).
 
 use super::parameter::{PARAMETERS, Parameter, Values};
 

@@ -1,4 +1,5 @@
-//! A fit from its TOML file: the yarn, what is known of its fibre, and the data sets. `docs/guides/identification.md` has the keys.
+//! A fit from its TOML file: the yarn, what is known of its fibre, and the data sets. `docs/guides/identification.md`
+//! has the keys.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -204,8 +205,8 @@ impl Job {
     }
 }
 
-/// Where the search starts: what is known, the preset that the file names, the material of a path, else anything: the answer is
-/// linear in the stiffnesses, and the exponent is sought from several starts.
+/// Where the search starts: what is known, the preset that the file names, the material of a path, else anything: the
+/// answer is linear in the stiffnesses, and the exponent is sought from several starts.
 fn start(known: &[Option<f64>; PARAMETERS], base: Option<&Preset>, units: &UnitSystem, sets: &[DataSet]) -> Values {
     const ANY: Values = [1.0, 1.0, 2.0, 1.0, 0.0, 0.05, 0.0, 0.0];
     let of_path = sets.iter().find_map(|set| match &set.loading {

@@ -1,7 +1,9 @@
-//! The fit of all data sets: what is fitted with what, in which order, and the weights of sets whose noise is not known.
+//! The fit of all data sets: what is fitted with what, in which order, and the weights of sets whose noise is not
+//! known.
 //!
-//! Sets that tell a common parameter are fitted together, and after those that tell what else they depend on: k_td from transverse compression after W_tc is subtracted (Eq. 4.29). What comes first carries its uncertainty
-//! into what comes after.
+//! Sets that tell a common parameter are fitted together, and after those that tell what else they depend on: k_td from
+//! transverse compression after W_tc is subtracted (Eq. 4.29). What comes first carries its uncertainty into what comes
+//! after.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -88,7 +90,8 @@ const REWEIGHTINGS: usize = 200;
 const AGREED: f64 = 1e-6;
 /// No set is surer than this, over its largest ordinate: exact data would have no noise.
 const LEAST_NOISE: f64 = 1e-10;
-/// A set that is weighed against others has so many more points than it tells parameters: with fewer its noise is anybody's guess.
+/// A set that is weighed against others has so many more points than it tells parameters: with fewer its noise is
+/// anybody's guess.
 const LEAST_FREEDOM: f64 = 2.0;
 /// Columns of derivatives, each of length 1, are dependent where a combination is shorter than this.
 const DEPENDENT: f64 = 1e-6;
@@ -108,7 +111,8 @@ impl Problem {
         Ok(state.finish())
     }
 
-    /// Sets that share a parameter, in the order in which they are fitted: each after those that tell what it depends on.
+    /// Sets that share a parameter, in the order in which they are fitted: each after those that tell what it depends
+    /// on.
     fn groups(&self) -> Result<Vec<Together>, Error> {
         let mut groups: Vec<Together> = Vec::new();
         for (index, set) in self.sets.iter().enumerate() {
@@ -314,8 +318,8 @@ fn require_independent(
     )))
 }
 
-/// Least squares whose weights are the inverse variances: the known ones, and for other sets what the residuals show, estimated
-/// anew until they agree.
+/// Least squares whose weights are the inverse variances: the known ones, and for other sets what the residuals show,
+/// estimated anew until they agree.
 fn reweighted(
     sets: &[&DataSet],
     parameters: &[Parameter],

@@ -1,14 +1,12 @@
-//! Weighted least squares over several data sets: by Levenberg and Marquardt's method, with analytic derivatives, scaled
-//! parameters and the bounds of the property table.
+//! Weighted least squares over several data sets: by Levenberg and Marquardt's method, with analytic derivatives,
+//! scaled parameters and the bounds of the property table.
 //!
-//! The method itself knows no bounds. A trial beyond one is evaluated on it; what ends there is fixed, the rest is sought again,
-//! and a parameter is let go of where the squares would fall on the allowed side.
+//! The method itself knows no bounds. A trial beyond one is evaluated on it; what ends there is fixed, the rest is
+//! sought again, and a parameter is let go of where the squares would fall on the allowed side.
 
 use levenberg_marquardt::TerminationReason::{LostPatience, Numerical};
 use levenberg_marquardt::{LeastSquaresProblem, LevenbergMarquardt};
-use nalgebra::{DMatrix, DVector};
-use nalgebra_of_least_squares as algebra;
-use nalgebra_of_least_squares::{Dyn, U1, VecStorage};
+use nalgebra::{DMatrix, DVector, Dyn, U1, VecStorage};
 
 use super::data::DataSet;
 use super::parameter::{PARAMETERS, Parameter, Values};
@@ -27,7 +25,8 @@ pub struct Weighted<'a> {
     pub weights: &'a [f64],
 }
 
-/// The parameters of the least squares, and there the residuals and their derivatives: not weighted, all sets' data in a row.
+/// The parameters of the least squares, and there the residuals and their derivatives: not weighted, all sets' data in
+/// a row.
 #[derive(Clone, Debug)]
 pub struct Solution {
     pub values: Values,
@@ -165,7 +164,7 @@ fn evaluate(sets: &[&DataSet], values: &Values) -> Result<(DVector<f64>, DMatrix
     Ok((DVector::from_vec(residuals), gradients))
 }
 
-/// The least squares as the crate wants them: parameters over their scales, residuals times the roots of the weights.
+/// The least squares as the crate takes them: parameters over their scales, residuals times the roots of the weights.
 struct Problem<'a> {
     data: Weighted<'a>,
     free: &'a [Parameter],
@@ -183,7 +182,7 @@ impl LeastSquaresProblem<f64, Dyn, Dyn> for Problem<'_> {
     type JacobianStorage = VecStorage<f64, Dyn, Dyn>;
     type ParameterStorage = VecStorage<f64, Dyn, U1>;
 
-    fn set_params(&mut self, scaled: &algebra::DVector<f64>) {
+    fn set_params(&mut self, scaled: &DVector<f64>) {
         for ((parameter, scale), value) in self.free.iter().zip(&self.scales).zip(scaled) {
             self.unknown[parameter.index()] = value * scale;
         }
@@ -201,22 +200,22 @@ impl LeastSquaresProblem<f64, Dyn, Dyn> for Problem<'_> {
         }
     }
 
-    fn params(&self) -> algebra::DVector<f64> {
+    fn params(&self) -> DVector<f64> {
         let scaled =
             self.free.iter().zip(&self.scales).map(|(parameter, scale)| self.unknown[parameter.index()] / scale);
-        algebra::DVector::from_iterator(self.free.len(), scaled)
+        DVector::from_iterator(self.free.len(), scaled)
     }
 
-    fn residuals(&self) -> Option<algebra::DVector<f64>> {
+    fn residuals(&self) -> Option<DVector<f64>> {
         let weighted = self.residuals.iter().zip(self.data.weights).map(|(r, weight)| weight.sqrt() * r);
-        Some(algebra::DVector::from_iterator(self.residuals.len(), weighted))
+        Some(DVector::from_iterator(self.residuals.len(), weighted))
     }
 
-    fn jacobian(&self) -> Option<algebra::DMatrix<f64>> {
+    fn jacobian(&self) -> Option<DMatrix<f64>> {
         let entry = |row: usize, column: usize| {
             let gradient = self.gradients[(row, self.free[column].index())];
             self.data.weights[row].sqrt() * gradient * self.scales[column]
         };
-        self.refused.is_none().then(|| algebra::DMatrix::from_fn(self.residuals.len(), self.free.len(), entry))
+        self.refused.is_none().then(|| DMatrix::from_fn(self.residuals.len(), self.free.len(), entry))
     }
 }

@@ -15,7 +15,7 @@ const WIDE: f64 = 0.5;
 pub const STRONG: f64 = 0.9;
 /// Durbin and Watson's statistic of residuals without a pattern is near 2; below this it hardly ever is by chance.
 const PATTERN: f64 = 1.0;
-/// With fewer points it says nothing.
+/// With fewer points it is no evidence.
 const ENOUGH: usize = 10;
 /// Residuals below this fraction of the largest ordinate are rounding.
 const EXACT: f64 = 1e-6;

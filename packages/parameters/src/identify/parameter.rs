@@ -79,8 +79,8 @@ impl Parameter {
         }
     }
 
-    /// Whether its estimate is distributed evenly on a logarithmic scale: ln W_tc = ln k_tc + p ln|I_tc| is linear in ln k_tc
-    /// and p, and k_tc is an extrapolation to |I_tc| = 1.
+    /// Whether its estimate is distributed evenly on a logarithmic scale: ln W_tc = ln k_tc + p ln|I_tc| is linear in
+    /// ln k_tc and p, and k_tc is an extrapolation to |I_tc| = 1.
     pub fn logarithmic(self) -> bool {
         self == KTc
     }

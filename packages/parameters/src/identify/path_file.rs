@@ -1,4 +1,5 @@
-//! Data along a load path: which column of the data drives which component of the path's last step, and what the law predicts.
+//! Data along a load path: which column of the data drives which component of the path's last step, and what the law
+//! predicts.
 
 use toml::Spanned;
 

@@ -1,7 +1,7 @@
 //! What a load path of `toron run` answers as a function of the law's parameters, free components in equilibrium.
 //!
-//! Where a component of P is prescribed, its component of F depends on the parameters θ: with S the prescribed components,
-//! dF_S/dθ = −(∂P_S/∂F_S)⁻¹ ∂P_S/∂θ, and a measured y changes by ∂y/∂θ + ∂y/∂F_S dF_S/dθ.
+//! Where a component of P is prescribed, its component of F depends on the parameters θ: with S the prescribed
+//! components, dF_S/dθ = −(∂P_S/∂F_S)⁻¹ ∂P_S/∂θ, and a measured y changes by ∂y/∂θ + ∂y/∂F_S dF_S/dθ.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -43,8 +43,8 @@ impl PathResponse {
         &self.path.points[0].material
     }
 
-    /// The parameters of the path's own material, near which the answer is sought. A stiffness of 0 that compaction or distortion
-    /// may have is replaced by a small one: with 0 nothing would depend on p, nor on what holds against it.
+    /// The parameters of the path's own material, near which the answer is sought. A stiffness of 0 that compaction or
+    /// distortion may have is replaced by a small one: with 0 nothing would depend on p, nor on what holds against it.
     pub fn trial(&self) -> Values {
         let own = self.material().values();
         let mut values: Values = std::array::from_fn(|i| own[i]);

@@ -101,8 +101,8 @@ fn named(axis: &Axis) -> String {
     if axis.unit == "-" { axis.name.clone() } else { format!("{} ({})", axis.name, axis.unit) }
 }
 
-/// What a set is drawn over: its abscissa; of failure points at compactions and distortions that both vary, what the fit makes of
-/// the two, since over one of them alone the fit is no line.
+/// What a set is drawn over: its abscissa; of failure points at compactions and distortions that both vary, what the
+/// fit makes of the two, since over one of them alone the fit is no line.
 fn abscissa(set: &DataSet, fit: &Fit) -> Axis {
     let varies = |values: &[f64]| values.iter().any(|&value| value != values[0]);
     match &set.loading {

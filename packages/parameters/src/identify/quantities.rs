@@ -1,5 +1,5 @@
-//! The quantities that columns of data may hold, for each loading: how they prescribe the deformation, and what the law predicts
-//! them from.
+//! The quantities that columns of data may hold, for each loading: how they prescribe the deformation, and what the law
+//! predicts them from.
 
 use nalgebra::Matrix3;
 

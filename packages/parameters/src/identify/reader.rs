@@ -1,5 +1,5 @@
-//! Data sets from their files: columns with units, the range that is fitted, and what is wrong with the data, by file, line and
-//! column.
+//! Data sets from their files: columns with units, the range that is fitted, and what is wrong with the data, by file,
+//! line and column.
 
 use std::ops::RangeInclusive;
 

@@ -1,7 +1,7 @@
 //! The joint 95 % region of k_tc and p: where no pair of the two meets the data much worse than the best.
 //!
-//! Its border is where the weighted squares, least over the other parameters, exceed their least value by 2 F(0.95; 2, ν); it is
-//! bent like the data's own dependence, which an ellipse is not.
+//! Its border is where the weighted squares, least over the other parameters, exceed their least value by 2 F(0.95; 2,
+//! ν); it is bent like the data's own dependence, which an ellipse is not.
 
 use nalgebra::{Matrix2, Vector2};
 use rayon::prelude::*;

@@ -1,7 +1,9 @@
-//! What the law answers at a deformation gradient, as a function of its parameters: an energy or a stress, and its derivatives.
+//! What the law answers at a deformation gradient, as a function of its parameters: an energy or a stress, and its
+//! derivatives.
 //!
-//! Energies and stresses are linear in the stiffnesses, so the law is evaluated once with all stiffnesses 1: the contribution
-//! of each mode is the derivative by its stiffness. The exponent p occurs in compaction only, where W_tc = k_tc i^p (Eq. 4.12).
+//! Energies and stresses are linear in the stiffnesses, so the law is evaluated once with all stiffnesses 1: the
+//! contribution of each mode is the derivative by its stiffness. The exponent p occurs in compaction only, where W_tc =
+//! k_tc i^p (Eq. 4.12).
 
 use nalgebra::Matrix3;
 

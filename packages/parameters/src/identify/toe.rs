@@ -1,9 +1,9 @@
-//! Where a tensile test begins to bear: the toe in which the yarn's slack and the fibres' waviness are taken up (the slack
-//! compensation of ASTM D885), by a change point.
+//! Where a tensile test begins to bear: the toe in which the yarn's slack and the fibres' waviness are taken up (the
+//! slack compensation of ASTM D885), by a change point.
 //!
-//! Up to a place c the curve is a parabola that starts without slope, beyond it the law's own curve from a zero z: the force of
-//! fibres whose slack is spread evenly from 2z − c to c. Of all c that one is taken whose squares are least; z and the stiffness
-//! are then those of the points beyond c alone, so that the toe's own shape does not count.
+//! Up to a place c the curve is a parabola that starts without slope, beyond it the law's own curve from a zero z: the
+//! force of fibres whose slack is spread evenly from 2z − c to c. Of all c that one is taken whose squares are least; z
+//! and the stiffness are then those of the points beyond c alone, so that the toe's own shape does not count.
 
 use nalgebra::{Matrix2, Vector2};
 
@@ -16,8 +16,8 @@ const LEAST_LINE: usize = 6;
 const LEAST_BEYOND: f64 = 0.3;
 /// In a toe the yarn bears less than this part of what it would without slack.
 const SLACK: f64 = 0.7;
-/// A toe has to explain so much: the F statistic of its two parameters. By chance it stays below 10 in all but one of a thousand curves,
-/// and the change point is the best of many.
+/// A toe has to explain so much: the F statistic of its two parameters. By chance it stays below 10 in all but one of a
+/// thousand curves, and the change point is the best of many.
 const CERTAIN: f64 = 25.0;
 /// Iterations of Gauss and Newton: the law's curve is nearly straight.
 const ITERATIONS: usize = 5;
@@ -33,7 +33,8 @@ pub struct Found {
     pub end: f64,
 }
 
-/// A curve: distances from the file's own rest, what is measured there and its standard deviations where they are known.
+/// A curve: distances from the file's own rest, what is measured there and its standard deviations where they are
+/// known.
 pub struct Curve<'a, S: Fn(f64) -> f64> {
     pub x: &'a [f64],
     pub y: &'a [f64],

@@ -1,9 +1,10 @@
 //! How sure the parameters are: 95 % intervals and correlations.
 //!
-//! The error of every parameter is, to first order, a sum of the errors of all data: with J the derivatives and W the weights of
-//! the data that it is fitted to, (JᵀWJ)⁻¹JᵀW times their errors, and for what was fitted before, −(JᵀWJ)⁻¹JᵀW J' times the
-//! errors of those parameters. From the row of these factors follow variances and covariances whatever the weights are. Where
-//! the noise of a set is estimated, Student's t has the degrees of freedom that Welch and Satterthwaite's formula gives.
+//! The error of every parameter is, to first order, a sum of the errors of all data: with J the derivatives and W the
+//! weights of the data that it is fitted to, (JᵀWJ)⁻¹JᵀW times their errors, and for what was fitted before,
+//! −(JᵀWJ)⁻¹JᵀW J' times the errors of those parameters. From the row of these factors follow variances and covariances
+//! whatever the weights are. Where the noise of a set is estimated, Student's t has the degrees of freedom that Welch
+//! and Satterthwaite's formula gives.
 
 use std::ops::Range;
 
@@ -28,7 +29,8 @@ pub struct Estimate {
     pub bounded: bool,
 }
 
-/// A source of errors: a data set, a constant that was given with its deviation, or the zero that a data set counts from.
+/// A source of errors: a data set, a constant that was given with its deviation, or the zero that a data set counts
+/// from.
 #[derive(Clone, Copy, Debug)]
 pub struct Source {
     /// Degrees of freedom of the estimate of its noise; infinite where the noise is known.
@@ -85,8 +87,8 @@ impl Uncertainty {
     /// Adds the parameters that were fitted to some sets.
     pub fn add(&mut self, sets: &[usize], solution: &Solution, weights: &[f64], parameters: &[Parameter]) {
         let columns: Vec<usize> = sets.iter().flat_map(|&set| self.sources[set].0.clone()).collect();
-        // What lies on a bound is let go of here: where it might be makes the others less sure, and its interval ends where the
-        // data alone would have it.
+        // What lies on a bound is let go of here: where it might be makes the others less sure, and its interval ends
+        // where the data alone would have it.
         self.add_rows(&columns, solution, weights, parameters, parameters);
         for &parameter in &solution.bounded {
             let row = self.factors.row(parameter.index());
@@ -95,9 +97,9 @@ impl Uncertainty {
         }
     }
 
-    /// Adds to the errors of parameters that were just fitted what the zero of one of their sets adds: by one standard deviation of
-    /// it the predictions change by `shift`. Given the zero, the parameters have the error that they have already; the two make
-    /// the error of a fit in which the zero is sought as well.
+    /// Adds to the errors of parameters that were just fitted what the zero of one of their sets adds: by one standard
+    /// deviation of it the predictions change by `shift`. Given the zero, the parameters have the error that they have
+    /// already; the two make the error of a fit in which the zero is sought as well.
     pub fn add_zero(
         &mut self,
         set: usize,

@@ -4,8 +4,8 @@ use std::fmt::Write;
 
 use toron::host::units::UnitSystem;
 
-/// The energies' standard deviation, over the largest of a load: computed, they have no noise that could be estimated, and where
-/// the law follows one load better than another this one would count for nothing.
+/// The energies' standard deviation, over the largest of a load: computed, they have no noise that could be estimated,
+/// and where the law follows one load better than another this one would count for nothing.
 pub const DEVIATION: f64 = 0.01;
 /// Few fibres at random are one sample of many, and energy falls where some of them snap to another place.
 pub const RANDOM_DEVIATION: f64 = 0.05;

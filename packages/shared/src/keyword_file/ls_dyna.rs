@@ -134,7 +134,7 @@ pub fn read(file: &str, text: &str, reader: &mut impl Reader) -> Result<(), Erro
 enum Next {
     /// Before the first keyword of a file.
     Nothing,
-    /// The reader's, or nobody's.
+    /// A keyword's cards: whether the reader takes them, or they are skipped.
     Data(bool),
     /// A name of a file: what stands before a sign that it goes on, and whether cards of a transformation follow.
     File {

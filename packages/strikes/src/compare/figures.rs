@@ -1,4 +1,4 @@
-//! What is said of each history, and of how far it is from the first one.
+//! The figures of each history, and how far it is from the first one.
 
 use super::history::{Curve, History, Quantity};
 

@@ -1,4 +1,4 @@
-//! What a host tells of a strike, in the same quantities and units whatever host it is.
+//! A host's results of a strike, in the same quantities and units whatever host it is.
 
 use toron::host::units::UnitSystem;
 use toron::law::parameters::Dimension;

@@ -4,7 +4,7 @@ use toron::host::units::UnitSystem;
 
 use super::figures::Figures;
 use super::history::{Curve, History, QUANTITIES};
-use toron_explicit_host::struck::summary::{Cells, Line};
+use toron_explicit_host::struck::summary::{Cells, Row};
 use toron_materials::units::{ENERGY, LENGTH, SPEED, TIME, unit};
 use toron_shared::numbers::number;
 use toron_shared::text_table::{Column, NONE, or_dash, shortened, table};
@@ -42,20 +42,20 @@ pub fn report(histories: &[(&History, Figures)], units: &UnitSystem) -> String {
 
 /// A line of the table's CSV file.
 pub fn line(history: &History, figures: &Figures, units: &UnitSystem) -> Cells {
-    let mut line = Line::new(units);
-    line.add("history", &history.name);
-    line.add("host", history.host);
-    line.quantity("end", TIME, figures.end);
-    line.quantity("speed_at_start", SPEED, figures.speed[0]);
-    line.quantity("speed_at_end", SPEED, figures.speed[1]);
-    line.quantity("residual_speed", SPEED, figures.residual);
-    line.quantity("failed", TIME, history.failed);
-    line.quantity("speeds_apart", SPEED, figures.apart);
-    line.quantity("deflection", LENGTH, figures.deflection);
-    for row in QUANTITIES.iter().filter(|row| row.dimension == ENERGY) {
-        line.quantity(row.name, row.dimension, history.curve(row.quantity).and_then(Curve::last));
+    let mut row = Row::new(units);
+    row.add("history", &history.name);
+    row.add("host", history.host);
+    row.quantity("end", TIME, figures.end);
+    row.quantity("speed_at_start", SPEED, figures.speed[0]);
+    row.quantity("speed_at_end", SPEED, figures.speed[1]);
+    row.quantity("residual_speed", SPEED, figures.residual);
+    row.quantity("failed", TIME, history.failed);
+    row.quantity("speeds_apart", SPEED, figures.apart);
+    row.quantity("deflection", LENGTH, figures.deflection);
+    for energy in QUANTITIES.iter().filter(|quantity| quantity.dimension == ENERGY) {
+        row.quantity(energy.name, energy.dimension, history.curve(energy.quantity).and_then(Curve::last));
     }
-    line.cells
+    row.cells
 }
 
 /// What is not there of a history, as the report says it.

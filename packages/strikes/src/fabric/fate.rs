@@ -11,10 +11,10 @@ use serde::{Deserialize, Serialize};
 use crate::weave::model::{Model, Yarn};
 use crate::weave::torn;
 use toron_explicit_host::body::Body;
-use toron_explicit_host::contact::Rigid;
+use toron_explicit_host::contact::RigidSurface;
 use toron_explicit_host::lanes::Number;
-use toron_explicit_host::projectile::Projectile;
 use toron_explicit_host::solver::Solver;
+use toron_explicit_host::striker::Striker;
 
 /// How many times it is looked at on the way of one radius; the force is that since the last look.
 const LOOKS: f64 = 48.0;
@@ -40,8 +40,8 @@ impl Fate {
     }
 
     /// Takes a step's end; `struck_at` is the speed of the strike.
-    pub fn follow<T: Number>(&mut self, panel: &Model, solver: &Solver<T>, rigid: &Rigid, struck_at: f64) {
-        let Some(striker) = &solver.projectile else { return };
+    pub fn follow<T: Number>(&mut self, panel: &Model, solver: &Solver<T>, rigid: &RigidSurface, struck_at: f64) {
+        let Some(striker) = &solver.striker else { return };
         let (place, square, radius) = (striker.position, striker.velocity * striker.velocity, rigid.radius);
         if self.last.is_some_and(|[_, last]| last - place < radius / LOOKS) {
             return;
@@ -56,7 +56,7 @@ impl Fate {
 
 /// What yarns ahead might take, over all that has been taken; infinity where of some kind more are ahead than torn, or
 /// nothing is torn.
-fn may_take<T: Number>(panel: &Model, solver: &Solver<T>, striker: &Projectile, rigid: &Rigid) -> f64 {
+fn may_take<T: Number>(panel: &Model, solver: &Solver<T>, striker: &Striker, rigid: &RigidSurface) -> f64 {
     let kind = |yarn: &Yarn| 2 * yarn.ply + yarn.family as usize;
     let kinds = panel.yarns.iter().map(kind).max().map_or(0, |last| last + 1);
     // Of each kind the yarns that are torn, and those ahead; a half counts as one half.
@@ -81,14 +81,14 @@ fn may_take<T: Number>(panel: &Model, solver: &Solver<T>, striker: &Projectile, 
 }
 
 /// Whether some yarn that is not torn where it strikes is in the striker's way.
-pub fn anything_ahead<T: Number>(panel: &Model, solver: &Solver<T>, rigid: &Rigid) -> bool {
-    let Some(striker) = &solver.projectile else { return false };
+pub fn anything_ahead<T: Number>(panel: &Model, solver: &Solver<T>, rigid: &RigidSurface) -> bool {
+    let Some(striker) = &solver.striker else { return false };
     let ahead =
         |(yarn, body): (&Yarn, &Body<T>)| is_ahead(body, striker.position, rigid) && !is_torn(yarn, body, rigid);
     panel.yarns.iter().zip(&solver.bodies).any(ahead)
 }
 
-fn is_torn<T: Number>(yarn: &Yarn, body: &Body<T>, rigid: &Rigid) -> bool {
+fn is_torn<T: Number>(yarn: &Yarn, body: &Body<T>, rigid: &RigidSurface) -> bool {
     if body.state.deleted.is_empty() {
         return false;
     }
@@ -101,13 +101,13 @@ fn is_torn<T: Number>(yarn: &Yarn, body: &Body<T>, rigid: &Rigid) -> bool {
 }
 
 /// Whether a node of a yarn is within the radius and below the striker's centre.
-fn is_ahead<T: Number>(body: &Body<T>, centre: f64, rigid: &Rigid) -> bool {
+fn is_ahead<T: Number>(body: &Body<T>, centre: f64, rigid: &RigidSurface) -> bool {
     let inside = |place: [f64; 3]| place[2] < centre && beside(place, rigid) < rigid.radius;
     (0..body.mesh.nodes.len()).any(|node| inside(body.position(node)) && !body.is_loose(node))
 }
 
 /// How far a place is from the striker's axis.
-fn beside([x, y, _]: [f64; 3], rigid: &Rigid) -> f64 {
+fn beside([x, y, _]: [f64; 3], rigid: &RigidSurface) -> f64 {
     (x - rigid.aim[0]).hypot(y - rigid.aim[1])
 }
 
@@ -135,7 +135,7 @@ mod tests {
             let scene = Scene::parse("patch.toml", &text).expect("a scene");
             let panel = scene.cases[0].cloth.model();
             let mut solver = model::solver::<f64>(&scene.cases[0], &panel).expect("a panel");
-            solver.projectile.as_mut().expect("it strikes").velocity = -50.0;
+            solver.striker.as_mut().expect("it strikes").velocity = -50.0;
             Shot { scene, panel, solver }
         }
 
@@ -152,10 +152,10 @@ mod tests {
         /// Whether it is decided when it was struck at this speed, loses so much from look to look, and has been looked
         /// at so many times.
         fn decided(mut self, struck_at: f64, slower: f64, looks: u32) -> bool {
-            let (mut fate, sphere) = (Fate::default(), &self.scene.cases[0].sphere);
+            let (mut fate, sphere) = (Fate::default(), &self.scene.cases[0].striker);
             fate.follow(&self.panel, &self.solver, sphere, struck_at);
             for _ in 0..looks {
-                let striker = self.solver.projectile.as_mut().expect("it strikes");
+                let striker = self.solver.striker.as_mut().expect("it strikes");
                 striker.position -= 1.01 / LOOKS;
                 striker.velocity += slower;
                 fate.follow(&self.panel, &self.solver, sphere, struck_at);
@@ -202,7 +202,7 @@ mod tests {
         let plies = "[[ply]]\n[[ply]]\ndistance = 5.0\n";
         let first = || Shot::new(plies).tear(|yarn| yarn.ply == 0, false);
         assert!(!first().decided(50.1, 0.0, IN_A_ROW));
-        let ahead = |shot: Shot| anything_ahead(&shot.panel, &shot.solver, &shot.scene.cases[0].sphere);
+        let ahead = |shot: Shot| anything_ahead(&shot.panel, &shot.solver, &shot.scene.cases[0].striker);
         assert!(ahead(first()) && !ahead(first().tear(|yarn| yarn.ply == 1, false)));
     }
 }

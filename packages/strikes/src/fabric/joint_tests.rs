@@ -28,7 +28,7 @@ fn yarn(is_coarse: bool) -> (Yarn, Solver<f64>) {
     let scene = Scene::parse("yarn.toml", &text).expect("a scene");
     let panel = scene.cases[0].cloth.model();
     let mut solver = model::solver(&scene.cases[0], &panel).expect("a panel");
-    (solver.projectile, solver.mutual) = (None, None);
+    (solver.striker, solver.mutual) = (None, None);
     solver.bodies.truncate(1);
     (panel.yarns[0].clone(), solver)
 }

@@ -99,7 +99,7 @@ fn of_mesh(units: &UnitSystem, case: &Case) -> Vec<Finding> {
     let mut findings: Vec<Finding> =
         case.cloth.crimp().iter().map(|text| Finding::new("crimp", text.clone())).collect();
     if let Cloth::Foreign(foreign) = &*case.cloth {
-        let beside = foreign.off_middle(case.sphere.aim, &unit(units, LENGTH));
+        let beside = foreign.off_middle(case.striker.aim, &unit(units, LENGTH));
         findings.extend(beside.map(|text| Finding::new("aim", text)));
     }
     findings
@@ -121,7 +121,7 @@ pub fn judge(
         return findings;
     }
     let ended = outcome.failed.unwrap_or(f64::INFINITY);
-    let spread = measures.travel >= case.sphere.radius || front_at_rim.is_some_and(|time| time <= ended);
+    let spread = measures.travel >= case.striker.radius || front_at_rim.is_some_and(|time| time <= ended);
     if spread {
         findings.extend(hourglass(case, measures));
         findings.extend(shear(case, measures));
@@ -135,7 +135,7 @@ pub fn judge(
     ));
     let remedy = format!("a finer mesh, a larger k_ld, or another hourglass than {}", case.control.hourglass);
     findings.extend(judgement::collapsed(measures.collapsed, &remedy));
-    findings.extend(judgement::contact(measures.contact, case.sphere.stiffness));
+    findings.extend(judgement::contact(measures.contact, case.striker.stiffness));
     findings.extend(sunk(units, case, measures));
     findings.extend(judgement::balance(outcome.balance.imbalance()));
     let error = judgement::error(outcome.failure.as_deref());
@@ -155,7 +155,7 @@ pub fn judge(
 fn after_failure(case: &Case, whole: &Measures) -> Vec<Finding> {
     let folded = distorted(whole, "a finer mesh: shreds of torn yarns fold, and carry what they should not");
     let findings = [viscosity(whole), hourglass(case, whole), folded];
-    let contact = judgement::contact(whole.contact, case.sphere.stiffness);
+    let contact = judgement::contact(whole.contact, case.striker.stiffness);
     findings.into_iter().chain([contact]).flatten().collect()
 }
 
@@ -198,7 +198,7 @@ fn coarse(units: &UnitSystem, case: &Case, panel: &Model) -> Option<Finding> {
         .iter()
         .flat_map(|face| (0..4).map(|i| (node(face.nodes[i]) - node(face.nodes[(i + 1) % 4])).norm()));
     let longest = edges.fold(0.0, largest);
-    let radius = case.sphere.radius;
+    let radius = case.striker.radius;
     (EDGES * longest > radius).then(|| {
         let unit = unit(units, LENGTH);
         let text = format!(
@@ -268,7 +268,7 @@ fn sunk(units: &UnitSystem, case: &Case, measures: &Measures) -> Option<Finding>
         let text = format!(
             "the sphere is up to {ahead} {unit} ahead of the panel, more than {DEEPEST} of a yarn's height, before a yarn fails:\n\
              take a larger contact-stiffness than {:e}, or a finer mesh",
-            case.sphere.stiffness
+            case.striker.stiffness
         );
         Finding::new("penetration", text)
     })
@@ -312,8 +312,8 @@ mod tests {
     /// A run whose energy is off by so much.
     fn outcome(off: f64) -> Outcome {
         let mut balance = Balance::default();
-        for projectile in [1.0, 1.0 - off] {
-            balance.add(&Energies { projectile, ..Energies::default() });
+        for striker in [1.0, 1.0 - off] {
+            balance.add(&Energies { striker, ..Energies::default() });
         }
         Outcome {
             measured: Vec::new(),

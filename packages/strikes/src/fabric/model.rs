@@ -7,13 +7,13 @@ use super::strength::PanelStrength;
 use crate::weave::model::{LOWER, Model, UPPER, Yarn};
 use crate::weave::panel::Part;
 use toron_explicit_host::body::{Body, Support};
-use toron_explicit_host::contact::{Contact, Rigid, Shape};
+use toron_explicit_host::contact::{Contact, RigidSurface, Shape};
 use toron_explicit_host::lanes::Number;
 use toron_explicit_host::medium::Medium;
 use toron_explicit_host::mesh::Mesh;
 use toron_explicit_host::mutual_contact::{MutualContact, Surface};
-use toron_explicit_host::projectile::Projectile;
 use toron_explicit_host::solver::Solver;
+use toron_explicit_host::striker::Striker;
 use toron_explicit_host::tie::masses_of_springs;
 use toron_materials::material::model::Material;
 use toron_shared::error::Error;
@@ -41,12 +41,12 @@ pub fn check(case: &Case, panel: &Model) -> Result<(), Error> {
 
 /// Refuses what strikes where the mesh is coarse.
 fn check_coarse_radius(case: &Case) -> Result<(), Error> {
-    let (Some(coarse), radius) = (case.cloth.coarse_radius(), case.sphere.radius) else { return Ok(()) };
+    let (Some(coarse), radius) = (case.cloth.coarse_radius(), case.striker.radius) else { return Ok(()) };
     if coarse > radius {
         return Ok(());
     }
     let [coarse, radius] = [coarse, radius].map(number);
-    let name = case.sphere.shape.name();
+    let name = case.striker.shape.name();
     let message = format!("coarse-radius is {coarse} in case {}, where the {name} strikes", case.name);
     Err(Error::Input(format!("{message}; allowed: more than the {name}'s radius, {radius}")))
 }
@@ -59,10 +59,10 @@ fn media<T: Number>(case: &Case) -> Result<Vec<Medium<T>>, Error> {
 
 /// The height at which the sphere touches the panel.
 pub fn start(case: &Case, panel: &Model) -> Result<f64, Error> {
-    let start = first_touch(panel, &case.sphere);
+    let start = first_touch(panel, &case.striker);
     if !start.is_finite() {
-        let (name, radius) = (case.sphere.shape.name(), number(case.sphere.radius));
-        let [x, y] = case.sphere.aim.map(number);
+        let (name, radius) = (case.striker.shape.name(), number(case.striker.radius));
+        let [x, y] = case.striker.aim.map(number);
         let allowed = format!("allowed: one under which some node of the panel lies, with aim = [{x}, {y}]");
         return Err(Error::Input(format!("the {name}'s radius is {radius} in case {}; {allowed}", case.name)));
     }
@@ -95,7 +95,7 @@ pub fn solver<T: Number>(case: &Case, panel: &Model) -> Result<Solver<T>, Error>
         }
         body.tie(yarn.ties.clone());
         let masses = masses_of_springs(&yarn.ties, &body.mass, &body.mesh.surface);
-        contacts.push(Contact::new(case.sphere, &body.mesh.surface, &masses));
+        contacts.push(Contact::new(case.striker, &body.mesh.surface, &masses));
         surfaces.push(surface);
         bodies.push(body);
     }
@@ -103,7 +103,7 @@ pub fn solver<T: Number>(case: &Case, panel: &Model) -> Result<Solver<T>, Error>
     let mut solver = Solver::new(bodies, media);
     let mass = case.mass * share(case);
     let start = start(case, panel)?;
-    solver.projectile = Some(Projectile::new(mass, start, -case.speed, false, contacts));
+    solver.striker = Some(Striker::new(mass, start, -case.speed, false, contacts));
     solver.mutual = Some(MutualContact::new(case.mutual, surfaces));
     Ok(solver)
 }
@@ -168,8 +168,8 @@ fn hold<T: Number>(panel: &Model, rim: bool, bodies: &mut [Body<T>]) {
 }
 
 /// The height of a striker's centre at which it touches the panel from above.
-fn first_touch(panel: &Model, striker: &Rigid) -> f64 {
-    let Rigid { radius, aim, .. } = *striker;
+fn first_touch(panel: &Model, striker: &RigidSurface) -> f64 {
+    let RigidSurface { radius, aim, .. } = *striker;
     let height = |[x, y, z]: [f64; 3]| {
         let under = radius * radius - (x - aim[0]).powi(2) - (y - aim[1]).powi(2);
         match striker.shape {

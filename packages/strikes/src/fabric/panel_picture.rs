@@ -128,15 +128,15 @@ impl<'a> Drawing<'a> {
     fn new(scene: &'a Scene, case: &'a Case, panel: &Model, snapshot: &'a Snapshot, unit: &'a str) -> Self {
         let modes = modes(case);
         // From where the panel is struck.
-        let aim = case.sphere.aim;
+        let aim = case.striker.aim;
         let from_aim = |[x, y]: [f64; 2]| [x - aim[0], y - aim[1]];
         let middles: Vec<[f64; 2]> = (0..panel.elements.len()).map(|i| from_aim(middle(panel, i))).collect();
         let quarter = !panel.on_x.is_empty();
         let size = middles.iter().map(farthest).fold(0.0, f64::max);
         let reach = reach(&middles, size, case, snapshot, modes.len());
-        let blow = BLOW_RADII.map(|radii| radii * case.sphere.radius);
+        let blow = BLOW_RADII.map(|radii| radii * case.striker.radius);
         // What flies ahead of the sphere is out of the views.
-        let lowest = snapshot.projectile.map_or(f64::NEG_INFINITY, |(height, radius)| height - FLYING * radius);
+        let lowest = snapshot.striker.map_or(f64::NEG_INFINITY, |(height, radius)| height - FLYING * radius);
         let seen = |mode: usize, name: &str, [turned, raised]: [f64; 2], reach: [f64; 2], cut: bool| {
             let near = |at: [f64; 2]| within(at, reach) && (!cut || quarter || at[1] >= 0.0);
             let shown: Vec<bool> = middles.iter().zip(&snapshot.intact).map(|(&at, &is)| is && near(at)).collect();
@@ -148,10 +148,10 @@ impl<'a> Drawing<'a> {
                 (true, false) => &[[1.0, 1.0], [-1.0, 1.0], [1.0, -1.0], [-1.0, -1.0]],
             };
             // The whole sphere is shown where it is small beside the panel.
-            let top = if reach == blow || size < LEAST_RADII * case.sphere.radius { SPHERE_SHOWN } else { 2.0 };
-            let sphere = snapshot.projectile.filter(|_| cut);
+            let top = if reach == blow || size < LEAST_RADII * case.striker.radius { SPHERE_SHOWN } else { 2.0 };
+            let sphere = snapshot.striker.filter(|_| cut);
             let mut sphere =
-                sphere.map_or(Vec::new(), |(height, radius)| half_of(case.sphere.shape, height, radius, top));
+                sphere.map_or(Vec::new(), |(height, radius)| half_of(case.striker.shape, height, radius, top));
             for corner in sphere.iter_mut().flat_map(|face| &mut face.0) {
                 (corner[0], corner[1]) = (corner[0] + aim[0], corner[1] + aim[1]);
             }
@@ -300,7 +300,7 @@ fn farthest([x, y]: &[f64; 2]) -> f64 {
 /// How far from where it is struck the panel has an energy to show, or the sphere is; infinite where that is nearly the
 /// whole panel.
 fn reach(middles: &[[f64; 2]], size: f64, case: &Case, snapshot: &Snapshot, modes: usize) -> f64 {
-    let least = LEAST_RADII * case.sphere.radius;
+    let least = LEAST_RADII * case.striker.radius;
     let most: Vec<f64> = (0..modes).map(|mode| snapshot.largest(|densities| density(mode, densities))).collect();
     let shows = |element: usize| {
         let densities = &snapshot.densities[element];

@@ -38,7 +38,7 @@ fn panels(samples: &Samples<Sample>, units: &UnitSystem) -> [Panel; 11] {
     let line = |colour: usize, name: &str, of: &dyn Fn(&Sample) -> f64| samples.line(colour, name, of);
     let panel = |title, dimension, series: Vec<Series>| Panel::new(title, &unit(units, dimension), tidy(series));
     let energies = vec![
-        line(0, "sphere", &|s| s.energies.projectile),
+        line(0, "sphere", &|s| s.energies.striker),
         line(1, "kinetic", &|s| s.energies.kinetic),
         line(2, "internal", &|s| s.energies.internal),
         line(3, "all other", &|s| s.energies.other()),

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use toml::Spanned;
 
 use super::file::{PanelKeys, Rim, SceneFile, ShapeName};
-use super::scene::{Case, Scene, Striker};
+use super::scene::{Case, Scene, StrikerDensity};
 use crate::layers::{self, Case as CaseTables};
 use crate::scene_keys::keys::{Reader, Table, read_cases};
 use crate::scene_keys::shots::read_shots;
@@ -17,7 +17,7 @@ use crate::weave::file::{PlyTables, plies};
 use crate::weave::layup::Ply;
 use crate::weave::panel::Part;
 use toron::law::parameters::DENSITY;
-use toron_explicit_host::contact::{Rigid, Shape};
+use toron_explicit_host::contact::{RigidSurface, Shape};
 use toron_explicit_host::medium::Control;
 use toron_explicit_host::mutual_contact::Parameters;
 use toron_explicit_host::struck::blow::DENSITIES;
@@ -100,9 +100,9 @@ impl Reader<'_> {
         let material = |own: &Option<Box<Material>>| own.as_deref().unwrap_or(zones.inner()).name();
         let materials: Vec<[String; 2]> = threads.iter().map(|ply| ply.each_ref().map(material)).collect();
         let strength = self.panel_strength(&cloth, &materials)?;
-        let (mass, striker) = self.mass_and_striker(file)?;
+        let (mass, striker_density) = self.mass_and_density(file)?;
         Ok(Case {
-            sphere: Rigid {
+            striker: RigidSurface {
                 shape: shape(file),
                 radius: self.needed("radius", &keys.radius)?,
                 stiffness,
@@ -115,7 +115,7 @@ impl Reader<'_> {
             threads,
             strength,
             mass,
-            striker,
+            striker_density,
             held: file.rim != Some(Rim::Free),
             mutual: Parameters {
                 stiffness,
@@ -174,7 +174,7 @@ impl Reader<'_> {
 
     /// The mass of what strikes, and its density: from the file's mass, which must be one that its volume can have, or
     /// from the file's density.
-    fn mass_and_striker(&self, file: &PanelKeys) -> Result<(f64, Striker), Error> {
+    fn mass_and_density(&self, file: &PanelKeys) -> Result<(f64, StrikerDensity), Error> {
         let keys = self.keys;
         let volume = self.volume(file)?;
         let in_si = |density: f64| density / self.units.from_si(1.0, DENSITY);
@@ -184,7 +184,7 @@ impl Reader<'_> {
             if let (Some(given), Some(volume), Some(density)) = (&keys.mass, volume, density) {
                 self.check_density(file, density, volume, given)?;
             }
-            return Ok((mass, Striker { density, is_told: false }));
+            return Ok((mass, StrikerDensity { density, is_told: false }));
         };
         let density = given.value();
         if !DENSITIES.contains(&in_si(density)) {
@@ -193,19 +193,19 @@ impl Reader<'_> {
             let message = format!("striker-density is {density}; allowed: what solids have, {least} to {most}");
             return Err(self.source.error(given.span(), &message));
         }
-        let striker = Striker { density: Some(in_si(density)), is_told: true };
+        let told = StrikerDensity { density: Some(in_si(density)), is_told: true };
         let of_volume = volume.map(|volume| density * volume);
         match (&keys.mass, of_volume) {
-            (None, Some(mass)) => Ok((mass, striker)),
+            (None, Some(mass)) => Ok((mass, told)),
             (None, None) => {
                 let wanted = "mass is missing; allowed: a finite number > 0, or length beside striker-density";
                 Err(self.source.error(self.span.clone(), wanted))
             }
-            (Some(mass), None) => Ok((mass.value(), striker)),
+            (Some(mass), None) => Ok((mass.value(), told)),
             (Some(place), Some(of_volume)) => {
                 let mass = place.value();
                 if (mass - of_volume).abs() <= SAME_MASS * of_volume {
-                    return Ok((mass, striker));
+                    return Ok((mass, told));
                 }
                 let message = format!(
                     "mass is {mass}, and striker-density {} with the sizes of the {} makes {}; allowed: one of the two, or both the same",

@@ -59,7 +59,7 @@ impl Struck for StruckPanel<'_> {
     }
 
     fn radius(&self) -> f64 {
-        self.case.sphere.radius
+        self.case.striker.radius
     }
 
     fn sample<T: Number>(&self, solver: &Solver<T>, start: f64) -> Sample {
@@ -70,7 +70,7 @@ impl Struck for StruckPanel<'_> {
 
     fn follow<T: Number>(&self, solver: &Solver<T>, course: &mut Fate) -> Result<(), Error> {
         if self.case.plan.decides {
-            course.follow(&self.panel, solver, &self.case.sphere, self.case.speed);
+            course.follow(&self.panel, solver, &self.case.striker, self.case.speed);
         }
         Ok(())
     }
@@ -82,8 +82,8 @@ impl Struck for StruckPanel<'_> {
     /// The sphere has gone its own radius since something touched it last, or since the beginning, where it stands at
     /// the panel; and no yarn is left ahead, as the next ply may be.
     fn has_left<T: Number>(&self, solver: &Solver<T>, _course: &Fate, free: f64) -> bool {
-        let sphere = &self.case.sphere;
-        solver.projectile.as_ref().is_some_and(|striker| free * -striker.velocity > sphere.radius)
-            && !fate::anything_ahead(&self.panel, solver, sphere)
+        let striker = &self.case.striker;
+        solver.striker.as_ref().is_some_and(|moving| free * -moving.velocity > striker.radius)
+            && !fate::anything_ahead(&self.panel, solver, striker)
     }
 }

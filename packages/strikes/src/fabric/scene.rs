@@ -9,7 +9,7 @@ use crate::weave::cloth::Cloth;
 use crate::weave::geometry::Family;
 use crate::weave::panel::Part;
 use toron::host::units::UnitSystem;
-use toron_explicit_host::contact::Rigid;
+use toron_explicit_host::contact::RigidSurface;
 use toron_explicit_host::medium::Control;
 use toron_explicit_host::mutual_contact::Parameters;
 use toron_explicit_host::struck::plan::Plan;
@@ -34,10 +34,10 @@ pub struct Case {
     pub zones: Zones,
     /// What the yarns of warp and weft of each ply are made of, where they have materials of their own.
     pub threads: Vec<[Option<Box<Material>>; 2]>,
-    /// The sphere, and the whole of its mass.
-    pub sphere: Rigid,
+    /// What strikes, and the whole of its mass.
+    pub striker: RigidSurface,
     pub mass: f64,
-    pub striker: Striker,
+    pub striker_density: StrikerDensity,
     pub speed: f64,
     /// Where it scatters, in place of the materials'.
     pub strength: Option<Strength>,
@@ -52,7 +52,7 @@ pub struct Case {
 
 /// What is known of the material of what strikes.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Striker {
+pub struct StrikerDensity {
     /// In kg/m³; none of a cylinder whose length is not given.
     pub density: Option<f64>,
     /// Whether the file gives it, and not only a mass and sizes.

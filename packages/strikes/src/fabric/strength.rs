@@ -34,7 +34,7 @@ impl<'a> PanelStrength<'a> {
         let of = field::Yarn { ply: yarn.ply, family: own_family(woven.exchanged, yarn.family), number: yarn.number };
         let cells = self.strength.cells(of, lines.ends(&woven.panel, yarn.number, yarn.coordinate));
         let back = woven.panel.turn.back();
-        let along = |[x, y, _]: [f64; 3]| back.of([x, y])[yarn.family as usize];
+        let along = |[x, y, _]: [f64; 3]| back.rotate([x, y])[yarn.family as usize];
         // Those of a section follow one another.
         let mut last = ([f64::NAN; 2], 0.0);
         let strength = |element: &[u32; 8]| {

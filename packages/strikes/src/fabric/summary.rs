@@ -15,7 +15,7 @@ use toron::law::parameters::{Dimension, ENERGY_DENSITY, NUMBER};
 use toron_explicit_host::judgement::{Finding, verdict};
 use toron_explicit_host::lanes::{largest, smallest};
 use toron_explicit_host::struck::history::{Column, title};
-use toron_explicit_host::struck::summary::{Cells, Line};
+use toron_explicit_host::struck::summary::{Cells, Row};
 use toron_materials::units::{LENGTH, SPEED, TIME};
 use toron_shared::numbers::number;
 use toron_shared::text_table::NONE;
@@ -82,7 +82,7 @@ fn rim(panel: &Model) -> f64 {
 
 /// How a case ended, in words.
 pub fn ending(case: &Case, outcome: &Outcome) -> String {
-    let strikes = case.sphere.shape.name();
+    let strikes = case.striker.shape.name();
     match outcome.end {
         End::Time => "time is over".to_string(),
         End::Stopped => format!("{strikes} stopped"),
@@ -115,52 +115,52 @@ pub fn line(units: &UnitSystem, case: &Case, outcome: &Outcome, figures: &Figure
     let Figures { last, deflection: (deflection, deepest_at), measures, whole, .. } = figures;
     let seconds = |time: Duration| time.as_secs_f64();
     let total = seconds(outcome.cost.total()).max(f64::MIN_POSITIVE);
-    let mut line = Line::new(units);
-    line.add("case", &case.name);
-    line.add("law", law(case));
-    line.add("precision", if case.single_precision { "f32" } else { "f64" });
-    line.add("elements", outcome.elements);
-    line.quantity("speed", SPEED, case.speed);
-    line.add("ending", ending(case, outcome));
-    line.quantity("end", TIME, last.time);
-    line.quantity("residual_speed", SPEED, residual_speed(outcome, figures));
-    line.quantity("speed_at_end", SPEED, last.speed);
-    line.add("verdict", verdict(&figures.findings));
-    line.add("material", case.material_names());
+    let mut row = Row::new(units);
+    row.add("case", &case.name);
+    row.add("law", law(case));
+    row.add("precision", if case.single_precision { "f32" } else { "f64" });
+    row.add("elements", outcome.elements);
+    row.quantity("speed", SPEED, case.speed);
+    row.add("ending", ending(case, outcome));
+    row.quantity("end", TIME, last.time);
+    row.quantity("residual_speed", SPEED, residual_speed(outcome, figures));
+    row.quantity("speed_at_end", SPEED, last.speed);
+    row.add("verdict", verdict(&figures.findings));
+    row.add("material", case.material_names());
     let seed = case.strength.map(|strength| strength.field.seed.to_string());
-    line.add("strength_seed", seed.as_deref().unwrap_or(NONE));
-    line.add("strength_least", figures.weakest.as_deref().unwrap_or(NONE));
-    line.quantity("deflection_max", LENGTH, *deflection);
-    line.quantity("deflection_max_at", TIME, *deepest_at);
-    line.quantity("front_at_rim", TIME, figures.front_at_rim);
-    line.quantity("first_failure_at", TIME, outcome.failed);
-    line.add("torn_yarns", last.own.torn);
-    line.add("deleted", last.deleted);
-    line.add("collapsed", last.collapsed);
-    line.add("imbalance", format_args!("{:.1e}", outcome.balance.imbalance()));
-    line.decimals("hourglass_share", whole.hourglass, 4);
-    line.decimals("viscosity_share", whole.viscosity, 4);
-    line.add(&title("tilt_at_end", DEGREES, units), format_args!("{:.1}", last.own.tilt));
-    line.quantity("slip_at_end", LENGTH, last.own.slip);
-    line.add("least_volume_ratio", number(figures.least_volume_ratio));
-    line.add("least_scaled_jacobian", number(whole.least_scaled_jacobian));
-    line.decimals("hourglass_to_failure", measures.hourglass, 4);
-    line.decimals("w_ld_to_failure", measures.shear, 4);
-    line.add("scaled_jacobian_to_failure", number(measures.least_scaled_jacobian));
-    line.decimals("contact_to_failure", measures.contact, 4);
-    line.decimals("viscosity_to_failure", measures.viscosity, 4);
+    row.add("strength_seed", seed.as_deref().unwrap_or(NONE));
+    row.add("strength_least", figures.weakest.as_deref().unwrap_or(NONE));
+    row.quantity("deflection_max", LENGTH, *deflection);
+    row.quantity("deflection_max_at", TIME, *deepest_at);
+    row.quantity("front_at_rim", TIME, figures.front_at_rim);
+    row.quantity("first_failure_at", TIME, outcome.failed);
+    row.add("torn_yarns", last.own.torn);
+    row.add("deleted", last.deleted);
+    row.add("collapsed", last.collapsed);
+    row.add("imbalance", format_args!("{:.1e}", outcome.balance.imbalance()));
+    row.decimals("hourglass_share", whole.hourglass, 4);
+    row.decimals("viscosity_share", whole.viscosity, 4);
+    row.add(&title("tilt_at_end", DEGREES, units), format_args!("{:.1}", last.own.tilt));
+    row.quantity("slip_at_end", LENGTH, last.own.slip);
+    row.add("least_volume_ratio", number(figures.least_volume_ratio));
+    row.add("least_scaled_jacobian", number(whole.least_scaled_jacobian));
+    row.decimals("hourglass_to_failure", measures.hourglass, 4);
+    row.decimals("w_ld_to_failure", measures.shear, 4);
+    row.add("scaled_jacobian_to_failure", number(measures.least_scaled_jacobian));
+    row.decimals("contact_to_failure", measures.contact, 4);
+    row.decimals("viscosity_to_failure", measures.viscosity, 4);
     for (name, density) in
         ["w_el_max", "w_tc_max", "w_td_max", "w_ld_max", "work_max"].into_iter().zip(figures.densities)
     {
-        line.quantity(name, ENERGY_DENSITY, density);
+        row.quantity(name, ENERGY_DENSITY, density);
     }
-    line.add("steps", outcome.cost.steps);
-    line.add("searches", outcome.searches);
-    line.decimals("ns_per_zone_cycle", outcome.ns_per_zone_cycle(), 1);
-    line.decimals("contact_time_share", seconds(outcome.cost.contact) / total, 2);
-    line.decimals("law_time_share", seconds(outcome.cost.law) / total, 2);
-    line.decimals("seconds", seconds(outcome.wall), 2);
-    line.cells
+    row.add("steps", outcome.cost.steps);
+    row.add("searches", outcome.searches);
+    row.decimals("ns_per_zone_cycle", outcome.ns_per_zone_cycle(), 1);
+    row.decimals("contact_time_share", seconds(outcome.cost.contact) / total, 2);
+    row.decimals("law_time_share", seconds(outcome.cost.law) / total, 2);
+    row.decimals("seconds", seconds(outcome.wall), 2);
+    row.cells
 }
 
 /// The columns of the history that a panel has besides those of all scenes.

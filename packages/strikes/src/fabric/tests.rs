@@ -21,7 +21,7 @@ fn patch(friction: f64) -> (Vec<Yarn>, Solver<f64>) {
     let scene = Scene::parse("patch.toml", &text).expect("a scene");
     let panel = scene.cases[0].cloth.model();
     let mut solver = model::solver(&scene.cases[0], &panel).expect("a panel");
-    solver.projectile = None;
+    solver.striker = None;
     assert_eq!((panel.crossings.len(), solver.bodies.len()), (5, 6));
     (panel.yarns, solver)
 }
@@ -141,7 +141,7 @@ fn the_sphere_meets_what_stands_inside_a_yarn() {
     let scene = Scene::parse("patch.toml", text).expect("a scene");
     let panel = scene.cases[0].cloth.model();
     let mut solver = model::solver::<f64>(&scene.cases[0], &panel).expect("a panel");
-    let sphere = solver.projectile.as_mut().expect("it is there");
+    let sphere = solver.striker.as_mut().expect("it is there");
     // The heights of the nodes on the axis, three of each of the two yarns that cross there.
     let mut heights: Vec<f64> = panel.nodes.iter().filter(|[x, y, _]| x.hypot(*y) < 1e-9).map(|node| node[2]).collect();
     heights.sort_by(f64::total_cmp);
@@ -181,7 +181,7 @@ fn speeds(tables: &str, times: &[f64]) -> Vec<f64> {
             solver.accelerate(false, 1.0).expect("stable");
             solver.displace();
         }
-        speeds.push(-solver.projectile.as_ref().expect("a sphere").velocity);
+        speeds.push(-solver.striker.as_ref().expect("a sphere").velocity);
     }
     speeds
 }
@@ -220,7 +220,7 @@ fn a_panel_is_struck_where_it_is_aimed_at() {
             solver.accelerate(false, 1.0).expect("stable");
             solver.displace();
         }
-        let sphere = solver.projectile.as_ref().expect("a sphere");
+        let sphere = solver.striker.as_ref().expect("a sphere");
         (-sphere.velocity, sphere.position)
     };
     let [one, mirrored, centre] = ["[0.2, 0.3]", "[-0.2, 0.3]", "[0, 0]"].map(speed);
@@ -237,7 +237,7 @@ fn a_panel_is_struck_where_it_is_aimed_at() {
         assert!(error.contains(message), "{message}: {error}");
     }
     let mut scene = struck("[1.6, 1.6]", "whole").expect("a corner of the outline");
-    scene.cases[0].sphere.aim = [9.0, 0.0];
+    scene.cases[0].striker.aim = [9.0, 0.0];
     let outside = model::check(&scene.cases[0], &scene.cases[0].cloth.model()).expect_err("nothing lies there");
     assert!(outside.to_string().contains("aim"), "{outside}");
 }

@@ -18,12 +18,12 @@ const STEEL: RangeInclusive<f64> = 7.6e3..=8.2e3;
 /// By how much a sphere is too light whose diameter was taken for its radius.
 const DIAMETER_FOR_RADIUS: f64 = 8.0;
 
-/// What is said of the weights of a case.
+/// The weights of a case, in words for the report.
 pub fn text(units: &UnitSystem, case: &Case, panel: &Model) -> String {
     let striker = case
-        .striker
+        .striker_density
         .density
-        .map_or(String::new(), |density| format!("{} {} kg/m³; ", case.sphere.shape.name(), number(density)));
+        .map_or(String::new(), |density| format!("{} {} kg/m³; ", case.striker.shape.name(), number(density)));
     striker + &PlyWeight::text(&plies(units, case, panel))
 }
 
@@ -45,13 +45,13 @@ pub fn findings(units: &UnitSystem, case: &Case, panel: &Model) -> Vec<Finding> 
             findings.push(finding);
         }
     }
-    let Case { sphere, speed, .. } = case;
+    let Case { striker, speed, .. } = case;
     findings.extend(blow::slow_or_fast(units, *speed));
-    findings.extend(blow::soft_or_hard(units, sphere.stiffness));
-    findings.extend(blow::rough("friction", sphere.friction));
+    findings.extend(blow::soft_or_hard(units, striker.stiffness));
+    findings.extend(blow::rough("friction", striker.friction));
     findings.extend(blow::rough("yarn-friction", case.mutual.friction));
-    findings.extend(blow::large(units, sphere, "panel", reach(panel)));
-    findings.extend(striker(case));
+    findings.extend(blow::large(units, striker, "panel", reach(panel)));
+    findings.extend(striker_density(case));
     findings
 }
 
@@ -61,10 +61,11 @@ fn reach(panel: &Model) -> f64 {
 }
 
 /// A density that is not steel's, where nothing says that it is meant.
-fn striker(case: &Case) -> Option<Finding> {
-    let density = case.striker.density.filter(|density| !case.striker.is_told && !STEEL.contains(density))?;
-    let name = case.sphere.shape.name();
-    let hint = if case.sphere.shape == Shape::Sphere && STEEL.contains(&(DIAMETER_FOR_RADIUS * density)) {
+fn striker_density(case: &Case) -> Option<Finding> {
+    let density =
+        case.striker_density.density.filter(|density| !case.striker_density.is_told && !STEEL.contains(density))?;
+    let name = case.striker.shape.name();
+    let hint = if case.striker.shape == Shape::Sphere && STEEL.contains(&(DIAMETER_FOR_RADIUS * density)) {
         "is radius the diameter? With half of it that is steel"
     } else {
         "of another material give striker-density, and no warning is said"

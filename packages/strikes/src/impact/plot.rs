@@ -47,7 +47,7 @@ fn panels(samples: &Samples<Sample>, units: &UnitSystem, case: &Case) -> [Panel;
     ];
     // What is held or driven has its energy from outside.
     if let Striker::Cylinder { held: false, .. } = case.striker {
-        energies.insert(0, line(0, "projectile", &|s| s.energies.projectile));
+        energies.insert(0, line(0, "projectile", &|s| s.energies.striker));
         energies.push(Series { colour: INK, ..line(0, "total", &|s| s.energies.total()) });
     } else {
         energies.push(Series { colour: INK, ..line(0, "external work", &|s| s.energies.external) });

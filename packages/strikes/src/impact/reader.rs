@@ -10,7 +10,7 @@ use crate::layers;
 use crate::scene_keys::keys::{Reader, Table, read_cases};
 use crate::scene_keys::shots::read_shots;
 use crate::strength::scatter::Strength;
-use toron_explicit_host::contact::{Rigid, Shape};
+use toron_explicit_host::contact::{RigidSurface, Shape};
 use toron_explicit_host::mesh::{Section, Yarn};
 use toron_materials::units;
 use toron_shared::checked::{Checked, Whole, value};
@@ -132,7 +132,7 @@ impl Reader<'_> {
         if file.striker() == StrikerName::Driven {
             return Ok(Striker::Driven);
         }
-        let cylinder = Rigid {
+        let cylinder = RigidSurface {
             shape: Shape::Cylinder,
             radius: self.needed("radius", &keys.radius)?,
             stiffness: self.needed("contact-stiffness", &keys.contact_stiffness)?,

@@ -6,8 +6,8 @@ use toron_explicit_host::body::{Body, Support};
 use toron_explicit_host::contact::Contact;
 use toron_explicit_host::lanes::{Number, largest};
 use toron_explicit_host::medium::Medium;
-use toron_explicit_host::projectile::Projectile;
 use toron_explicit_host::solver::Solver;
+use toron_explicit_host::striker;
 use toron_explicit_host::struck::plan::Plan;
 use toron_explicit_host::struck::run::{self, Observer, Struck};
 use toron_materials::material::model::Material;
@@ -136,7 +136,7 @@ impl Struck for StruckYarn<'_> {
         }
         course.deleted = yarn.state.deleted.len();
         if course.broken.is_none() && course.torn.iter().all(|&torn| torn) {
-            let speed = solver.projectile.as_ref().map_or(self.case.speed, |projectile| -projectile.velocity);
+            let speed = solver.striker.as_ref().map_or(self.case.speed, |striker| -striker.velocity);
             course.broken = Some((solver.state.time, speed));
         }
         Ok(())
@@ -255,5 +255,5 @@ fn set_up<T: Number>(case: &Case, solver: &mut Solver<T>) {
     let start = top + cylinder.radius;
     let contact = Contact::new(cylinder, &yarn.mesh.surface, &yarn.mass);
     // Half of it strikes the half model.
-    solver.projectile = Some(Projectile::new(0.5 * mass, start, -case.speed, held, vec![contact]));
+    solver.striker = Some(striker::Striker::new(0.5 * mass, start, -case.speed, held, vec![contact]));
 }

@@ -6,7 +6,7 @@ use crate::scene_keys::shots::Shots;
 pub use crate::scene_keys::zones::Zones;
 use crate::strength::scatter::Strength;
 use toron::host::units::UnitSystem;
-use toron_explicit_host::contact::Rigid;
+use toron_explicit_host::contact::RigidSurface;
 use toron_explicit_host::medium::Control;
 use toron_explicit_host::mesh::Yarn;
 use toron_explicit_host::struck::plan::Plan;
@@ -55,7 +55,7 @@ pub struct Case {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Striker {
     /// A rigid cylinder: its whole mass, which has no influence where its speed is held.
-    Cylinder { cylinder: Rigid, mass: f64, held: bool },
+    Cylinder { cylinder: RigidSurface, mass: f64, held: bool },
     /// The section at mid-span is driven itself.
     Driven,
 }

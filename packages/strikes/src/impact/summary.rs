@@ -9,7 +9,7 @@ use toron::host::units::UnitSystem;
 use toron::law::parameters::{ENERGY_DENSITY, NUMBER};
 use toron_explicit_host::judgement::verdict;
 use toron_explicit_host::struck::history::Column;
-use toron_explicit_host::struck::summary::{Cells, Line};
+use toron_explicit_host::struck::summary::{Cells, Row};
 use toron_materials::material::smith::Smith;
 use toron_materials::units::{CONTACT_STIFFNESS, LENGTH, SPEED, TIME};
 use toron_shared::error::Error;
@@ -63,67 +63,67 @@ fn law(case: &Case) -> String {
 /// A case's line in the summary.
 pub fn line(units: &UnitSystem, case: &Case, result: &Outcome) -> Cells {
     let length = case.yarn.length;
-    let mut line = Line::new(units);
-    line.add("case", &case.name);
-    line.add("law", law(case));
-    line.add("material", case.zones.names());
-    line.add("verdict", verdict(&judge(units, case, result)));
+    let mut row = Row::new(units);
+    row.add("case", &case.name);
+    row.add("law", law(case));
+    row.add("material", case.zones.names());
+    row.add("verdict", verdict(&judge(units, case, result)));
     let seed = case.strength.map(|strength| strength.field.seed.to_string());
-    line.add("strength_seed", seed.as_deref().unwrap_or(NONE));
-    line.add("strength_least", case.weakest(units, &result.mesh).as_deref().unwrap_or(NONE));
-    line.add("elements", result.elements);
-    line.quantity("speed", SPEED, case.speed);
-    line.quantity("longitudinal_speed", SPEED, result.front_speed(length, |sample| sample.own.longitudinal));
+    row.add("strength_seed", seed.as_deref().unwrap_or(NONE));
+    row.add("strength_least", case.weakest(units, &result.mesh).as_deref().unwrap_or(NONE));
+    row.add("elements", result.elements);
+    row.quantity("speed", SPEED, case.speed);
+    row.quantity("longitudinal_speed", SPEED, result.front_speed(length, |sample| sample.own.longitudinal));
     match case.striker {
-        Striker::Cylinder { cylinder, .. } => add_strike(&mut line, case, result, cylinder.stiffness),
-        Striker::Driven => add_smith(&mut line, length, result),
+        Striker::Cylinder { cylinder, .. } => add_strike(&mut row, case, result, cylinder.stiffness),
+        Striker::Driven => add_smith(&mut row, length, result),
     }
     let cost = result.cost;
-    line.add("imbalance", one_digit(result.balance.imbalance()));
-    line.add("steps", cost.steps);
-    line.decimals("seconds", cost.total().as_secs_f64(), 2);
-    line.decimals("ns_per_zone_cycle", result.ns_per_zone_cycle(), 1);
-    line.decimals("law_time_share", cost.law.as_secs_f64() / cost.total().as_secs_f64(), 2);
-    line.cells
+    row.add("imbalance", one_digit(result.balance.imbalance()));
+    row.add("steps", cost.steps);
+    row.decimals("seconds", cost.total().as_secs_f64(), 2);
+    row.decimals("ns_per_zone_cycle", result.ns_per_zone_cycle(), 1);
+    row.decimals("law_time_share", cost.law.as_secs_f64() / cost.total().as_secs_f64(), 2);
+    row.cells
 }
 
 /// How a case ended, and when it broke.
-fn add_ending(line: &mut Line, result: &Outcome) {
-    line.add("ending", outcome(result));
-    line.quantity("first_failure_at", TIME, result.failed);
-    line.quantity("broken_at", TIME, result.course.broken.map(|(time, _)| time));
-    line.add("deleted", result.last().deleted);
-    line.add("collapsed", result.last().collapsed);
-    line.quantity("end", TIME, result.last().time);
+fn add_ending(row: &mut Row, result: &Outcome) {
+    row.add("ending", outcome(result));
+    row.quantity("first_failure_at", TIME, result.failed);
+    row.quantity("broken_at", TIME, result.course.broken.map(|(time, _)| time));
+    row.add("deleted", result.last().deleted);
+    row.add("collapsed", result.last().collapsed);
+    row.quantity("end", TIME, result.last().time);
 }
 
 /// The entries of a case with a projectile.
-fn add_strike(line: &mut Line, case: &Case, result: &Outcome, stiffness: f64) {
+fn add_strike(row: &mut Row, case: &Case, result: &Outcome, stiffness: f64) {
     let last = result.last();
-    line.quantity("contact_stiffness", CONTACT_STIFFNESS, stiffness);
-    line.quantity("transverse_at_clamp", TIME, result.transverse_at_clamp(case.yarn.length));
-    add_ending(line, result);
-    line.quantity("residual_speed", SPEED, result.residual_speed());
-    line.quantity("speed_at_end", SPEED, last.speed);
-    line.quantity("speed_at_break", SPEED, result.course.broken.map(|(_, speed)| speed));
-    line.decimals("hourglass_share", result.hourglass_share(), 3);
-    line.decimals("contact_share", result.contact_share(), 3);
-    line.decimals("viscosity_share", result.viscosity_share(), 3);
-    line.decimals("failure_index_max", result.largest_index(), 3);
+    row.quantity("contact_stiffness", CONTACT_STIFFNESS, stiffness);
+    row.quantity("transverse_at_clamp", TIME, result.transverse_at_clamp(case.yarn.length));
+    add_ending(row, result);
+    row.quantity("residual_speed", SPEED, result.residual_speed());
+    row.quantity("speed_at_end", SPEED, last.speed);
+    row.quantity("speed_at_break", SPEED, result.course.broken.map(|(_, speed)| speed));
+    row.decimals("hourglass_share", result.hourglass_share(), 3);
+    row.decimals("contact_share", result.contact_share(), 3);
+    row.decimals("viscosity_share", result.viscosity_share(), 3);
+    row.decimals("failure_index_max", result.largest_index(), 3);
     for (name, mode) in [("w_el_at_end", 0), ("w_tc_at_end", 1), ("w_td_at_end", 2), ("work_at_end", 4)] {
-        line.quantity(name, ENERGY_DENSITY, last.largest[mode]);
+        row.quantity(name, ENERGY_DENSITY, last.largest[mode]);
     }
 }
 
 /// The entries that Smith's theory is compared with.
-fn add_smith(line: &mut Line, length: f64, result: &Outcome) {
+fn add_smith(row: &mut Row, length: f64, result: &Outcome) {
     let Smith { strain, fastest, slowest, transverse } = result.smith;
-    line.add("longitudinal_theory", format_args!("{}-{}", number(fastest), number(slowest)));
-    line.add("strain_percent", or_dash(result.plateau(length), |strain| number(100.0 * strain)));
-    line.add("strain_theory", number(100.0 * strain));
-    line.quantity("transverse_speed", SPEED, result.front_speed(length, |sample| sample.own.transverse));
-    line.quantity("transverse_theory", SPEED, transverse);
-    add_ending(line, result);
+    row.add("longitudinal_theory", format_args!("{}-{}", number(fastest), number(slowest)));
+    row.add("strain_percent", or_dash(result.plateau(length), |strain| number(100.0 * strain)));
+    row.add("strain_theory", number(100.0 * strain));
+    row.quantity("transverse_speed", SPEED, result.front_speed(length, |sample| sample.own.transverse));
+    row.quantity("transverse_theory", SPEED, transverse);
+    add_ending(row, result);
 }
 
 /// The columns of the history that a yarn has besides those of all scenes.

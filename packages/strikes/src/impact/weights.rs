@@ -15,7 +15,7 @@ use toron_shared::numbers::number;
 /// A cylinder lies across the yarn, and may be longer than the yarn is wide: its length over that width, at most.
 const LONGEST: f64 = 20.0;
 
-/// What is said of the weights of a case.
+/// The weights of a case, in words for the report.
 pub fn text(units: &UnitSystem, case: &Case) -> String {
     let cylinder = cylinder(units, case)
         .map(|density| format!("cylinder {} kg/m³ if it is as long as the yarn is wide", number(density)));

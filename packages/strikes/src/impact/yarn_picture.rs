@@ -134,7 +134,7 @@ impl<'a> Drawing<'a> {
                 include(x[1]);
             }
         }
-        if let Some((height, radius)) = snapshot.projectile {
+        if let Some((height, radius)) = snapshot.striker {
             include(height - radius);
             include(height + radius);
         }
@@ -178,7 +178,7 @@ impl<'a> Drawing<'a> {
     fn draw_side(&self, area: &Area, shade: &dyn Fn(usize) -> RGBColor) -> Drawn<()> {
         let top = f64::from(HEAD) + self.scale * self.heights[1];
         let view = View { scale: self.scale, origin: [f64::from(LEFT + LONGEST / 2), top] };
-        if let Some((height, radius)) = self.snapshot.projectile {
+        if let Some((height, radius)) = self.snapshot.striker {
             let (centre, radius) = (view.place([0.0, height]), (self.scale * radius * f64::from(fine(1))) as i32);
             area.draw(&Circle::new(centre, radius, PROJECTILE.filled()))?;
             area.draw(&Circle::new(centre, radius, stroke(GREY, 1)))?;
@@ -198,7 +198,7 @@ impl<'a> Drawing<'a> {
         let top = HEAD + self.side_height() + BETWEEN;
         let middle = f64::from(top) + 0.5 * f64::from(self.above_height());
         let view = View { scale: self.scale, origin: [f64::from(LEFT + LONGEST / 2), middle] };
-        if let Some((_, radius)) = self.snapshot.projectile {
+        if let Some((_, radius)) = self.snapshot.striker {
             let [left, right] = [-radius, radius].map(|x| view.place([x, 0.0]).0);
             let [top, bottom] = [top, top + self.above_height()].map(fine);
             area.draw(&Rectangle::new([(left, top), (right, bottom)], PROJECTILE.filled()))?;

@@ -28,7 +28,7 @@ struct Names<'a> {
 }
 
 impl Names<'_> {
-    fn of(&self, name: &str) -> String {
+    fn prefixed(&self, name: &str) -> String {
         format!("{}{}", self.prefix, name.to_uppercase())
     }
 }
@@ -135,9 +135,9 @@ fn cards(names: &Names<'_>) -> Result<String, Error> {
          ** keeps it from that (the cutoff of the deformation speed check is not for user materials)\n\
          ** hourglass control is viscous, with a factor of {3}: assumed to be {4} where the scale, here in the line of data, is 1\n\
          *SECTION CONTROLS, NAME={2}, ELEMENT DELETION=YES, HOURGLASS=VISCOUS, DISTORTION CONTROL=YES, LENGTH RATIO={5}\n{6},\n",
-        names.of("FIBRE-AXES"),
-        names.of("FIBRES"),
-        names.of("CONTROLS"),
+        names.prefixed("FIBRE-AXES"),
+        names.prefixed("FIBRES"),
+        names.prefixed("CONTROLS"),
         wide(HOURGLASS),
         wide(HOURGLASS_OF_SCALE_1),
         wide(COLLAPSED),
@@ -146,10 +146,10 @@ fn cards(names: &Names<'_>) -> Result<String, Error> {
     for part in &model.parts {
         text += &format!(
             "*SOLID SECTION, ELSET={}, MATERIAL={}, ORIENTATION={}, CONTROLS={}\n",
-            names.of(&part.name),
+            names.prefixed(&part.name),
             abaqus::name(&model.materials[part.material]),
-            names.of("FIBRE-AXES"),
-            names.of("CONTROLS")
+            names.prefixed("FIBRE-AXES"),
+            names.prefixed("CONTROLS")
         );
     }
     Ok(text)
@@ -158,13 +158,18 @@ fn cards(names: &Names<'_>) -> Result<String, Error> {
 fn write_mesh(names: &Names<'_>, first: u32, out: &mut impl Write) -> io::Result<()> {
     let model = names.model;
     let mesh = &model.mesh;
-    writeln!(out, "** Included by {}.inp. Nodes of the yarns.\n*NODE, NSET={}", model.name, names.of("YARN-NODES"))?;
+    writeln!(
+        out,
+        "** Included by {}.inp. Nodes of the yarns.\n*NODE, NSET={}",
+        model.name,
+        names.prefixed("YARN-NODES")
+    )?;
     // The shortest digits that are this number and no other.
     for (number, [x, y, z]) in (first..).zip(&mesh.nodes) {
         writeln!(out, "{number}, {x:?}, {y:?}, {z:?}")?;
     }
     for part in &model.parts {
-        let set = names.of(&part.name);
+        let set = names.prefixed(&part.name);
         for wedge in [false, true] {
             let mut of_kind =
                 part.elements.iter().filter(|&&element| mesh.is_wedge(element as usize) == wedge).peekable();
@@ -181,11 +186,11 @@ fn write_mesh(names: &Names<'_>, first: u32, out: &mut impl Write) -> io::Result
             }
         }
     }
-    writeln!(out, "*ELSET, ELSET={}", names.of("YARNS"))?;
+    writeln!(out, "*ELSET, ELSET={}", names.prefixed("YARNS"))?;
     for part in &model.parts {
-        writeln!(out, "{}", names.of(&part.name))?;
+        writeln!(out, "{}", names.prefixed(&part.name))?;
     }
-    let (table, fibres) = (names.of("FIBRE-TABLE"), names.of("FIBRES"));
+    let (table, fibres) = (names.prefixed("FIBRE-TABLE"), names.prefixed("FIBRES"));
     writeln!(
         out,
         "** The fibre in the undeformed mesh, and a direction that spans the plane of the first two axes with it."
@@ -197,15 +202,20 @@ fn write_mesh(names: &Names<'_>, first: u32, out: &mut impl Write) -> io::Result
         writeln!(out, "{element}, {a:?}, {b:?}, {c:?}, {d:?}, {e:?}, {f:?}")?;
     }
     for support in &model.supports {
-        writeln!(out, "*NSET, NSET={}", names.of(support.name))?;
+        writeln!(out, "*NSET, NSET={}", names.prefixed(support.name))?;
         numbers(support.nodes.iter().map(|&node| first + node), out)?;
     }
     writeln!(out, "** all faces, those inside too: they come into contact when a deletion bares them")?;
-    writeln!(out, "*SURFACE, NAME={0}, TYPE=ELEMENT\n{1},\n{1}, INTERIOR", names.of("YARN-FACES"), names.of("YARNS"))?;
+    writeln!(
+        out,
+        "*SURFACE, NAME={0}, TYPE=ELEMENT\n{1},\n{1}, INTERIOR",
+        names.prefixed("YARN-FACES"),
+        names.prefixed("YARNS")
+    )?;
     let Some(strike) = &model.strike else { return Ok(()) };
-    writeln!(out, "*NSET, NSET={}\n{},", names.of("DEFLECTION"), first + strike.deflection)?;
+    writeln!(out, "*NSET, NSET={}\n{},", names.prefixed("DEFLECTION"), first + strike.deflection)?;
     if strike.fails {
-        writeln!(out, "*ELSET, ELSET={}", names.of("WATCHED"))?;
+        writeln!(out, "*ELSET, ELSET={}", names.prefixed("WATCHED"))?;
         numbers(strike.watched.iter().map(|&element| first + element), out)?;
     }
     Ok(())
@@ -225,14 +235,14 @@ fn write_striker_mesh(
         out,
         "** Included by {}.inp. The striker, its centre last.\n*NODE, NSET={}",
         names.model.name,
-        names.of("STRIKER-NODES")
+        names.prefixed("STRIKER-NODES")
     )?;
     for (i, [x, y, z]) in shells.nodes.iter().enumerate() {
         writeln!(out, "{}, {x:?}, {y:?}, {z:?}", node(i))?;
     }
     let [x, y, z] = striker.centre;
-    writeln!(out, "*NODE, NSET={}\n{}, {x:?}, {y:?}, {z:?}", names.of("STRIKER"), node(shells.nodes.len()))?;
-    writeln!(out, "*ELEMENT, TYPE=R3D4, ELSET={}", names.of("STRIKER-FACES"))?;
+    writeln!(out, "*NODE, NSET={}\n{}, {x:?}, {y:?}, {z:?}", names.prefixed("STRIKER"), node(shells.nodes.len()))?;
+    writeln!(out, "*ELEMENT, TYPE=R3D4, ELSET={}", names.prefixed("STRIKER-FACES"))?;
     for (element, face) in (first as usize + mesh.elements.len()..).zip(&shells.faces) {
         let [a, b, c, d] = face.map(|index| node(index as usize));
         writeln!(out, "{element}, {a}, {b}, {c}, {d}")?;
@@ -276,7 +286,7 @@ fn write_striker(
     out: &mut impl Write,
 ) -> io::Result<()> {
     let mesh = &names.model.mesh;
-    let [reference, faces, point] = ["STRIKER", "STRIKER-FACES", "STRIKER-MASS"].map(|name| names.of(name));
+    let [reference, faces, point] = ["STRIKER", "STRIKER-FACES", "STRIKER-MASS"].map(|name| names.prefixed(name));
     let centre = first as usize + mesh.nodes.len() + shells.nodes.len();
     let element = first as usize + mesh.elements.len() + shells.faces.len();
     writeln!(
@@ -291,7 +301,7 @@ fn write_striker(
         "*ELEMENT, TYPE=MASS, ELSET={point}\n{element}, {centre}\n*MASS, ELSET={point}\n{},",
         wide(striker.mass)
     )?;
-    writeln!(out, "*SURFACE, NAME={}, TYPE=ELEMENT\n{faces}, SPOS", names.of("STRIKER-SURFACE"))?;
+    writeln!(out, "*SURFACE, NAME={}, TYPE=ELEMENT\n{faces}, SPOS", names.prefixed("STRIKER-SURFACE"))?;
     let axis = striker.axis();
     writeln!(out, "*BOUNDARY")?;
     for dof in (1..=6).filter(|&dof| dof != axis + 1) {
@@ -301,9 +311,9 @@ fn write_striker(
 }
 
 fn contacts(strike: &Strike, names: &Names<'_>, out: &mut impl Write) -> io::Result<()> {
-    let [yarns, striker] = ["YARN-FACES", "STRIKER-SURFACE"].map(|name| names.of(name));
+    let [yarns, striker] = ["YARN-FACES", "STRIKER-SURFACE"].map(|name| names.prefixed(name));
     let pair = |interaction: &str, friction: f64| {
-        format!("*SURFACE INTERACTION, NAME={}\n*FRICTION\n{},\n", names.of(interaction), wide(friction))
+        format!("*SURFACE INTERACTION, NAME={}\n*FRICTION\n{},\n", names.prefixed(interaction), wide(friction))
     };
     write!(out, "** friction: of the striker\n{}", pair("ON-STRIKER", strike.striker.friction))?;
     if let Some(Contact { friction, .. }) = strike.contact {
@@ -313,9 +323,9 @@ fn contacts(strike: &Strike, names: &Names<'_>, out: &mut impl Write) -> io::Res
     if strike.contact.is_some() {
         writeln!(out, "{yarns}, {yarns}")?;
     }
-    writeln!(out, "*CONTACT PROPERTY ASSIGNMENT\n{yarns}, {striker}, {}", names.of("ON-STRIKER"))?;
+    writeln!(out, "*CONTACT PROPERTY ASSIGNMENT\n{yarns}, {striker}, {}", names.prefixed("ON-STRIKER"))?;
     if strike.contact.is_some() {
-        writeln!(out, "{yarns}, {yarns}, {}", names.of("ON-YARNS"))?;
+        writeln!(out, "{yarns}, {yarns}, {}", names.prefixed("ON-YARNS"))?;
     }
     writeln!(out, "** nodes of no element leave the contact\n*CONTACT CONTROLS ASSIGNMENT, NODAL EROSION=YES")
 }
@@ -324,14 +334,14 @@ fn supports(names: &Names<'_>, out: &mut impl Write) -> io::Result<()> {
     for support in names.model.supports.iter().filter(|support| support.fixed.contains(&true)) {
         writeln!(out, "** {}: {}\n*BOUNDARY", support.name, support.key)?;
         for (i, _) in support.fixed.iter().enumerate().filter(|(_, fixed)| **fixed) {
-            writeln!(out, "{}, {1}, {1}", names.of(support.name), i + 1)?;
+            writeln!(out, "{}, {1}, {1}", names.prefixed(support.name), i + 1)?;
         }
     }
     Ok(())
 }
 
 fn step(strike: &Strike, names: &Names<'_>, out: &mut impl Write) -> io::Result<()> {
-    let [reference, deflection] = ["STRIKER", "DEFLECTION"].map(|name| names.of(name));
+    let [reference, deflection] = ["STRIKER", "DEFLECTION"].map(|name| names.prefixed(name));
     // The solver squares the quadratic coefficient.
     let viscosity = [strike.control.linear, strike.control.quadratic.sqrt()].map(wide).join(", ");
     writeln!(
@@ -362,7 +372,7 @@ fn step(strike: &Strike, names: &Names<'_>, out: &mut impl Write) -> io::Result<
         writeln!(
             out,
             "** elements that may fail first: their latch\n*ELEMENT OUTPUT, ELSET={}\n{}",
-            names.of("WATCHED"),
+            names.prefixed("WATCHED"),
             names_of.join(", ")
         )?;
     }

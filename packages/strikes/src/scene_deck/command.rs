@@ -43,7 +43,8 @@ pub struct Arguments {
     /// What names of files, parts and sets begin with.
     #[arg(long, requires = "host", default_value = "")]
     prefix: String,
-    /// OpenRadioss: where each element's fibre direction comes from; without it, from its nodes, or of a straight yarn from the card.
+    /// OpenRadioss: where each element's fibre direction comes from; without it, from its nodes, or of a straight yarn
+    /// from the card.
     #[arg(long, requires = "host", value_enum)]
     fibre_from: Option<FibreFrom>,
 }

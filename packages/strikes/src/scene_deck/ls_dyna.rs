@@ -16,8 +16,8 @@ use toron_shared::error::Error;
 const LARGEST: u64 = 99_999_999;
 /// Whole numbers a line.
 const PER_LINE: usize = 8;
-/// Soft-constraint contact, whose stiffness follows from nodal masses and the step: that by the material's bulk modulus, a fibre's,
-/// would be far too stiff across it. Its factor is the solver's own.
+/// Soft-constraint contact, whose stiffness follows from nodal masses and the step: that by the material's bulk
+/// modulus, a fibre's, would be far too stiff across it. Its factor is the solver's own.
 const SOFT: &str = "1";
 const SOFT_FACTOR: f64 = 0.1;
 /// Hourglass control by stiffness, with the exact volume.

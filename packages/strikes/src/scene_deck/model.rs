@@ -1,4 +1,5 @@
-//! What a deck is made of, whatever the host: mesh, parts, materials, supports, striker, contact and output, all in the deck's units.
+//! What a deck is made of, whatever the host: mesh, parts, materials, supports, striker, contact and output, all in the
+//! deck's units.
 
 use toron::host::units::UnitSystem;
 use toron::law::parameters::{Dimension, STRESS};
@@ -30,14 +31,16 @@ pub struct Model {
 #[derive(Default)]
 pub struct Mesh {
     pub nodes: Vec<[f64; 3]>,
-    /// Nodes 1 to 4 are a section of the yarn and 5 to 8 the next one, both in the order in which the first looks at the second. Of a
-    /// wedge the nodes of one edge across are the same: 1 and 2 and so 5 and 6, or 3 and 4 and so 7 and 8.
+    /// Nodes 1 to 4 are a section of the yarn and 5 to 8 the next one, both in the order in which the first looks at
+    /// the second. Of a wedge the nodes of one edge across are the same: 1 and 2 and so 5 and 6, or 3 and 4 and so 7
+    /// and 8.
     pub elements: Vec<[u32; 8]>,
     /// The fibre's unit direction in every element.
     pub fibre: Vec<[f64; 3]>,
     /// Whether that is the x axis in all of them.
     pub straight: bool,
-    /// Quadrangles, and triangles whose last two nodes are the same, that can touch something; counterclockwise seen from outside.
+    /// Quadrangles, and triangles whose last two nodes are the same, that can touch something; counterclockwise seen
+    /// from outside.
     pub faces: Vec<[u32; 4]>,
 }
 
@@ -92,7 +95,8 @@ pub struct Contact {
 
 /// The fraction of the stable step that our host takes, and decks ask for.
 pub const STEP_FACTOR: f64 = 0.9;
-/// An element that may fail is taken out when its own step is this fraction of the first one. Our host has 0.2, by direction.
+/// An element that may fail is taken out when its own step is this fraction of the first one. Our host has 0.2, by
+/// direction.
 pub const COLLAPSED: f64 = 0.1;
 /// The factor of viscous hourglass control. The solvers' own is 0.1; with it free ends behind a break have gone
 /// unstable in OpenRadioss, with 0.03 later. A part of its force grows there with h² and the square of the velocity,
@@ -109,7 +113,7 @@ pub struct Conversion {
 }
 
 impl Conversion {
-    pub fn of(&self, value: f64, dimension: Dimension) -> f64 {
+    pub fn convert(&self, value: f64, dimension: Dimension) -> f64 {
         self.from.scale(dimension).convert(value, &self.to.scale(dimension))
     }
 }
@@ -125,7 +129,7 @@ pub fn hourglass<'a>(
 ) -> Result<Vec<f64>, Error> {
     let modulus = |material: &toron_materials::material::model::Material| {
         let medium = Medium::<f64>::new(material, material.density.unwrap_or_default(), control)?;
-        Ok(conversion.of(medium.hourglass, STRESS))
+        Ok(conversion.convert(medium.hourglass, STRESS))
     };
     materials.into_iter().map(modulus).collect()
 }

@@ -10,7 +10,7 @@ use crate::weave::cloth::Cloth;
 use crate::weave::command::NAME;
 use crate::weave::model as woven;
 use crate::weave::model::Yarn;
-use toron_explicit_host::contact::Shape;
+use toron_explicit_host::contact::{RigidSurface, Shape};
 use toron_materials::deck::material::Material;
 use toron_materials::units::{LENGTH, MASS, SPEED, TIME};
 use toron_shared::error::Error;
@@ -33,33 +33,14 @@ pub fn refuse_strength(case: &str, scatters: bool) -> Result<(), Error> {
 }
 
 /// # Errors
-/// A strength that scatters, a material that the host or the deck's units cannot have, a sphere under which there is nothing.
+/// A strength that scatters, a material that the host or the deck's units cannot have, a sphere under which there is
+/// nothing.
 pub fn of_case(case: &Case, panel: &woven::Model, conversion: Conversion) -> Result<Model, Error> {
-    refuse_strength(&case.name, case.strength.is_some())?;
-    check(case, panel)?;
-    if case.sphere.aim != [0.0; 2] {
-        let [x, y] = case.sphere.aim;
-        return Err(Error::Input(format!("aim is [{x}, {y}] in case {}; allowed in a deck: none", case.name)));
-    }
-    check_mesh(&case.cloth)?;
-    let clearance = case.cloth.clearance();
-    if clearance <= 0.0 {
-        let message = "yarns of the mesh meet, so that the deck's contact has no gap; allowed: clearance > 0 in [mesh]";
-        return Err(Error::Input(format!("case {}: {message}", case.name)));
-    }
-    let Conversion { from, to } = conversion;
+    refuse(case, panel)?;
     let used = used(case);
     let of_case: Vec<_> = case.materials().collect();
-    let material = |&i: &usize| {
-        let mut material = Material::of_scene(of_case[i], &from, &to)?;
-        // Those of warp and weft may have one name.
-        let mut own = case.families_with_materials();
-        if let Some((ply, family)) = own.find(|&(ply, family)| case.own_material(ply, family) == Some(i)) {
-            material.name = format!("{}-{}", case.family_name(ply, family), material.name);
-        }
-        Ok(material)
-    };
-    let materials = used.iter().map(material).collect::<Result<Vec<_>, Error>>()?;
+    let used_materials: Vec<_> = used.iter().map(|&i| of_case[i]).collect();
+    let materials = materials(case, &used, conversion)?;
     let of_zones = used.iter().take_while(|&&i| i < case.zones.materials().len());
     let names: Vec<&str> = of_zones.zip(&materials).map(|(_, material)| material.name.as_str()).collect();
     let corners = |element: usize| panel.elements[element].map(|node| panel.nodes[node as usize]);
@@ -73,49 +54,87 @@ pub fn of_case(case: &Case, panel: &woven::Model, conversion: Conversion) -> Res
     if case.held {
         supports.push(rim(panel));
     }
-    let length = |value| conversion.of(value, LENGTH);
-    let [height, _] = case.cloth.yarn_heights();
-    let end = conversion.of(case.plan.end, TIME);
-    let strike = Strike {
-        striker: Striker {
-            shape: case.sphere.shape,
-            radius: length(case.sphere.radius),
-            mass: share(case) * conversion.of(case.mass, MASS),
-            velocity: -conversion.of(case.speed, SPEED),
-            friction: case.sphere.friction,
-            centre: [0.0, 0.0, length(start(case, panel)?)],
-            side: 0.0,
-            divisions: divisions(case.sphere.radius, height),
-        },
-        part: share(case),
-        height: length(height),
-        contact: Some(Contact { friction: case.mutual.friction, clearance: length(clearance) }),
-        control: case.control,
-        end,
-        sample: conversion.of(case.plan.sample, TIME),
-        frame: frame(end, case.plan.frames),
-        deflection: lowest_on_axis(&mesh.nodes, 2),
-        // A flat end cuts at its rim.
-        watched: nearest(
-            &mesh,
-            2,
-            if case.sphere.shape == Shape::Flat { length(case.sphere.radius) } else { 0.0 },
-            WATCHED,
-        ),
-        fails: used.iter().any(|&i| of_case[i].can_fail()),
-        hourglass: hourglass(used.iter().map(|&i| of_case[i]), case.control, conversion)?,
-        step: step(&mesh, &parts, &materials),
-    };
+    let step = step(&mesh, &parts, &materials);
+    let strike = strike((case, panel, &mesh), &used_materials, step, conversion)?;
     Ok(Model {
         title: String::new(),
         source: String::new(),
         name: case.name.clone(),
-        units: to,
+        units: conversion.to,
         mesh,
         parts,
         materials,
         supports,
         strike: Some(strike),
+    })
+}
+
+/// Refuses what no deck can have.
+fn refuse(case: &Case, panel: &woven::Model) -> Result<(), Error> {
+    refuse_strength(&case.name, case.strength.is_some())?;
+    check(case, panel)?;
+    if case.striker.aim != [0.0; 2] {
+        let [x, y] = case.striker.aim;
+        return Err(Error::Input(format!("aim is [{x}, {y}] in case {}; allowed in a deck: none", case.name)));
+    }
+    check_mesh(&case.cloth)?;
+    if case.cloth.clearance() <= 0.0 {
+        let message = "yarns of the mesh meet, so that the deck's contact has no gap; allowed: clearance > 0 in [mesh]";
+        return Err(Error::Input(format!("case {}: {message}", case.name)));
+    }
+    Ok(())
+}
+
+/// The deck's materials: those of the case at these places.
+fn materials(case: &Case, used: &[usize], Conversion { from, to }: Conversion) -> Result<Vec<Material>, Error> {
+    let of_case: Vec<_> = case.materials().collect();
+    let material = |&i: &usize| {
+        let mut material = Material::of_scene(of_case[i], &from, &to)?;
+        // Those of warp and weft may have one name.
+        let mut own = case.families_with_materials();
+        if let Some((ply, family)) = own.find(|&(ply, family)| case.own_material(ply, family) == Some(i)) {
+            material.name = format!("{}-{}", case.family_name(ply, family), material.name);
+        }
+        Ok(material)
+    };
+    used.iter().map(material).collect()
+}
+
+/// What strikes the panel, whose mesh is in the deck's units.
+fn strike(
+    (case, panel, mesh): (&Case, &woven::Model, &Mesh),
+    materials: &[&toron_materials::material::model::Material],
+    step: f64,
+    conversion: Conversion,
+) -> Result<Strike, Error> {
+    let length = |value| conversion.convert(value, LENGTH);
+    let [height, _] = case.cloth.yarn_heights();
+    let end = conversion.convert(case.plan.end, TIME);
+    let RigidSurface { shape, radius, friction, .. } = case.striker;
+    Ok(Strike {
+        striker: Striker {
+            shape,
+            radius: length(radius),
+            mass: share(case) * conversion.convert(case.mass, MASS),
+            velocity: -conversion.convert(case.speed, SPEED),
+            friction,
+            centre: [0.0, 0.0, length(start(case, panel)?)],
+            side: 0.0,
+            divisions: divisions(radius, height),
+        },
+        part: share(case),
+        height: length(height),
+        contact: Some(Contact { friction: case.mutual.friction, clearance: length(case.cloth.clearance()) }),
+        control: case.control,
+        end,
+        sample: conversion.convert(case.plan.sample, TIME),
+        frame: frame(end, case.plan.frames),
+        deflection: lowest_on_axis(&mesh.nodes, 2),
+        // A flat end cuts at its rim.
+        watched: nearest(mesh, 2, if shape == Shape::Flat { length(radius) } else { 0.0 }, WATCHED),
+        fails: materials.iter().any(|material| material.can_fail()),
+        hourglass: hourglass(materials.iter().copied(), case.control, conversion)?,
+        step,
     })
 }
 
@@ -158,7 +177,7 @@ fn check_mesh(cloth: &Cloth) -> Result<(), Error> {
 
 fn mesh(panel: &woven::Model, conversion: Conversion) -> Mesh {
     Mesh {
-        nodes: panel.nodes.iter().map(|node| node.map(|x| conversion.of(x, LENGTH))).collect(),
+        nodes: panel.nodes.iter().map(|node| node.map(|x| conversion.convert(x, LENGTH))).collect(),
         elements: panel.elements.iter().map(|element| SECTIONS.map(|corner| element[corner])).collect(),
         fibre: panel.fibre.clone(),
         straight: false,
@@ -175,7 +194,8 @@ fn used(case: &Case) -> Vec<usize> {
     (0..of_zones).chain(own).collect()
 }
 
-/// A part for each yarn, or for each of its materials; named by both where `zones` are several, the names of the first materials.
+/// A part for each yarn, or for each of its materials; named by both where `zones` are several, the names of the first
+/// materials.
 fn parts(panel: &woven::Model, zones: &[&str], material: impl Fn(&Yarn, usize) -> usize) -> Vec<Part> {
     let mut parts = Vec::new();
     let name = |yarn| name(yarn, panel.plies() > 1);

@@ -4,6 +4,7 @@ use super::model::{Conversion, Mesh, Model, Part, Strike, Support, frame, hourgl
 use super::of_fabric::{SECTIONS, WATCHED, lowest_on_axis, nearest, refuse_strength};
 use super::striker::Striker;
 use crate::impact::scene::{self, Case, Zones};
+use toron_explicit_host::mesh as host;
 use toron_materials::deck::material::Material;
 use toron_materials::units::{LENGTH, MASS, SPEED, TIME};
 use toron_shared::error::Error;
@@ -27,32 +28,20 @@ pub fn of_case(case: &Case, conversion: Conversion) -> Result<Model, Error> {
     let Conversion { from, to } = conversion;
     let materials = case.zones.materials().iter().map(|material| Material::of_scene(material, &from, &to));
     let materials = materials.collect::<Result<Vec<_>, _>>()?;
-    let length = |value| conversion.of(value, LENGTH);
+    let length = |value| conversion.convert(value, LENGTH);
     let yarn = case.yarn.mesh();
-    let mesh = Mesh {
-        nodes: yarn.nodes.iter().map(|node| node.map(length)).collect(),
-        elements: yarn.elements.iter().map(|element| SECTIONS.map(|corner| element[corner])).collect(),
-        fibre: vec![[1.0, 0.0, 0.0]; yarn.elements.len()],
-        straight: true,
-        faces: Vec::new(),
-    };
+    let mesh = mesh(&yarn, conversion);
     let parts = parts(case, &materials, yarn.elements_per_layer);
-    let section = yarn.nodes_per_section as u32;
-    let last = section * case.yarn.layers as u32;
-    let support = |name, key, nodes: std::ops::Range<u32>, fixed| Support { name, key, nodes: nodes.collect(), fixed };
-    let supports = vec![
-        support("mid-span", "half-length: the model is one half", 0..section, [true, false, false]),
-        support("clamp", "half-length: the yarn is clamped there", last..last + section, [true; 3]),
-    ];
+    let supports = supports(case, yarn.nodes_per_section as u32);
     let radius = length(cylinder.radius);
     let top = mesh.nodes.iter().map(|node| node[DOWN]).fold(0.0, f64::max);
-    let end = conversion.of(case.plan.end, TIME);
+    let end = conversion.convert(case.plan.end, TIME);
     let strike = Strike {
         striker: Striker {
             shape: cylinder.shape,
             radius,
-            mass: PART * conversion.of(mass, MASS),
-            velocity: -conversion.of(case.speed, SPEED),
+            mass: PART * conversion.convert(mass, MASS),
+            velocity: -conversion.convert(case.speed, SPEED),
             friction: cylinder.friction,
             centre: [0.0, top + radius, 0.0],
             side: 0.5 * LENGTH_OVER_WIDTH * length(case.yarn.width),
@@ -63,7 +52,7 @@ pub fn of_case(case: &Case, conversion: Conversion) -> Result<Model, Error> {
         contact: None,
         control: case.control,
         end,
-        sample: conversion.of(case.plan.sample, TIME),
+        sample: conversion.convert(case.plan.sample, TIME),
         frame: frame(end, case.plan.frames),
         deflection: lowest_on_axis(&mesh.nodes, DOWN),
         watched: nearest(&mesh, DOWN, 0.0, WATCHED),
@@ -82,6 +71,26 @@ pub fn of_case(case: &Case, conversion: Conversion) -> Result<Model, Error> {
         supports,
         strike: Some(strike),
     })
+}
+
+fn mesh(yarn: &host::Mesh, conversion: Conversion) -> Mesh {
+    Mesh {
+        nodes: yarn.nodes.iter().map(|node| node.map(|x| conversion.convert(x, LENGTH))).collect(),
+        elements: yarn.elements.iter().map(|element| SECTIONS.map(|corner| element[corner])).collect(),
+        fibre: vec![[1.0, 0.0, 0.0]; yarn.elements.len()],
+        straight: true,
+        faces: Vec::new(),
+    }
+}
+
+/// Symmetry at mid-span, and the clamp at the other end; a section has so many nodes.
+fn supports(case: &Case, section: u32) -> Vec<Support> {
+    let last = section * case.yarn.layers as u32;
+    let support = |name, key, nodes: std::ops::Range<u32>, fixed| Support { name, key, nodes: nodes.collect(), fixed };
+    vec![
+        support("mid-span", "half-length: the model is one half", 0..section, [true, false, false]),
+        support("clamp", "half-length: the yarn is clamped there", last..last + section, [true; 3]),
+    ]
 }
 
 /// The yarn, or its part of each material.

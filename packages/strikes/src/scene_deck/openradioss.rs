@@ -20,8 +20,8 @@ const PER_LINE: usize = 10;
 /// Part of the contact's own stiffness, with which yarns do not rebound, and its damping, part of the critical one.
 const STIFFNESS: f64 = 0.1;
 const DAMPING: f64 = 0.05;
-/// A node leaves a contact whose step is this fraction of the elements'. The contact stiffens without bound as its gap closes, and where
-/// two surfaces pinch a node the step of the whole model would follow.
+/// A node leaves a contact whose step is this fraction of the elements'. The contact stiffens without bound as its gap
+/// closes, and where two surfaces pinch a node the step of the whole model would follow.
 const CONTACT_STEP: f64 = 0.1;
 /// The error of the energy, over the energy, at which the run ends. What hourglass control and contact take is an error
 /// below 0, which is above −1. Long after a break free ends have gained energy without a bound, and the solver's own
@@ -29,11 +29,12 @@ const CONTACT_STEP: f64 = 0.1;
 const ENERGY_ERROR: f64 = 1.0;
 /// What is no viscosity: 0 is the solver's own.
 const NONE: f64 = 1e-20;
-/// How far inside the striker's surface its shells lie, where the contact begins, over a yarn's height. A touch more, and nothing
-/// penetrates at the start.
+/// How far inside the striker's surface its shells lie, where the contact begins, over a yarn's height. A touch more,
+/// and nothing penetrates at the start.
 const GAP: f64 = 0.25;
 const SHELLS: f64 = 1.001;
-/// Of the striker's shells: density over that of the fibre, so that they do not set the step, and at most this part of its mass.
+/// Of the striker's shells: density over that of the fibre, so that they do not set the step, and at most this part of
+/// its mass.
 const DENSITY_RATIO: f64 = 5.0;
 const MASS_OF_SHELLS: f64 = 0.2;
 /// Cycles from one restart file to the next.

@@ -1,4 +1,5 @@
-//! What a deck says of itself in a comment, for who compares its histories with others: its units, and what part of the whole it is.
+//! What a deck says of itself in a comment, for who compares its histories with others: its units, and what part of the
+//! whole it is.
 
 use std::fs::File;
 use std::io::{BufRead, BufReader};

@@ -1,15 +1,15 @@
-//! The rigid striker as quadrangles: a hemisphere that looks at the panel, the end of a cylinder and its wall, or half of a cylinder across
-//! the yarn.
+//! The rigid striker as quadrangles: a hemisphere that looks at the panel, the end of a cylinder and its wall, or half
+//! of a cylinder across the yarn.
 
 use std::f64::consts::FRAC_PI_4;
 
 use toron_explicit_host::contact::Shape;
 
-/// Quadrangles along the arc of half a cylinder, and along an edge of the cube that a hemisphere is made of, at most. Their middles lie
-/// 0.05 % of the radius inside the cylinder, 0.03 % inside the sphere.
+/// Quadrangles along the arc of half a cylinder, and along an edge of the cube that a hemisphere is made of, at most.
+/// Their middles lie 0.05 % of the radius inside the cylinder, 0.03 % inside the sphere.
 const MOST_DIVISIONS: usize = 48;
-/// Of a striker that is small beside the yarns: so many for each height of a yarn that its radius has, for quadrangles are not to be
-/// smaller than the distance at which the contact begins.
+/// Of a striker that is small beside the yarns: so many for each height of a yarn that its radius has, for quadrangles
+/// are not to be smaller than the distance at which the contact begins.
 const DIVISIONS: f64 = 2.0;
 
 /// A rigid body that moves along one axis.
@@ -99,8 +99,8 @@ fn on_disc(x: f64, y: f64) -> [f64; 2] {
     [x * (1.0 - 0.5 * y * y).sqrt(), y * (1.0 - 0.5 * x * x).sqrt()]
 }
 
-/// The lower side and, from below, so many rows of the four other sides of a cube about `centre`, whose points go from -1 to 1, drawn to
-/// where `place` has them from the centre.
+/// The lower side and, from below, so many rows of the four other sides of a cube about `centre`, whose points go from
+/// -1 to 1, drawn to where `place` has them from the centre.
 fn box_of(centre: [f64; 3], divisions: usize, rows: usize, place: impl Fn([f64; 3]) -> [f64; 3]) -> Surface {
     let (n, rows) = (divisions as i64, rows as i64);
     let mut numbers = std::collections::HashMap::new();

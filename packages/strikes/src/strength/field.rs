@@ -1,9 +1,9 @@
 //! The strength along a yarn.
 //!
-//! A yarn is a chain of cells of one length, by arc length at rest; those at its ends are as long as the yarn lets them be. Each has a
-//! strength of its own, by Weibull's law at its own length. A cell's strength follows from the seed, the yarn and the cell's number alone:
-//! the mesh has no part in it, and another modulus takes the same chance. Where the first border lies is chance as well: else all yarns
-//! would have one in the middle, under the blow.
+//! A yarn is a chain of cells of one length, by arc length at rest; those at its ends are as long as the yarn lets them
+//! be. Each has a strength of its own, by Weibull's law at its own length. A cell's strength follows from the seed, the
+//! yarn and the cell's number alone: the mesh has no part in it, and another modulus takes the same chance. Where the
+//! first border lies is chance as well: else all yarns would have one in the middle, under the blow.
 
 use super::weibull::Weibull;
 use crate::chance::uniform;
@@ -58,8 +58,8 @@ pub struct Cells {
 }
 
 impl Cells {
-    /// The least strength of the cells that a piece meets, which lies between these arc lengths. Beyond its ends the yarn goes on as it
-    /// ends: a mesh does not meet them.
+    /// The least strength of the cells that a piece meets, which lies between these arc lengths. Beyond its ends the
+    /// yarn goes on as it ends: a mesh does not meet them.
     pub fn least(&self, piece: [f64; 2]) -> f64 {
         let [from, to] = piece.map(|place| place / self.length + self.shift - self.first as f64);
         let last = self.strengths.len() - 1;

@@ -1,8 +1,9 @@
 //! Weibull's law from strengths at one or several lengths, by maximum likelihood, with likelihood-ratio intervals.
 //!
-//! A test that has broken at x counts by the density there, one that has ended before it broke (as it slipped in the grips) by the
-//! probability that it is stronger. With w = L/L₀ the log-likelihood is Σ ln(w m/x) + m ln(x/s) over what has broken, less Σ w (x/s)^m over
-//! all. Given m, s is known: s^m = Σ w x^m / r, with r that have broken; m is the only root of a function that falls.
+//! A test that has broken at x counts by the density there, one that has ended before it broke (as it slipped in the
+//! grips) by the probability that it is stronger. With w = L/L₀ the log-likelihood is Σ ln(w m/x) + m ln(x/s) over what
+//! has broken, less Σ w (x/s)^m over all. Given m, s is known: s^m = Σ w x^m / r, with r that have broken; m is the
+//! only root of a function that falls.
 
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
@@ -93,8 +94,9 @@ pub fn fit(tests: &[Test], reference_length: f64) -> Result<Fit, String> {
     })
 }
 
-/// The probability that one law has tests at least as unlike each other, length by length, as these are: of the likelihood ratio between one
-/// law and a law for each length; none where some lengths have no fit of their own, or there is but one.
+/// The probability that one law has tests at least as unlike each other, length by length, as these are: of the
+/// likelihood ratio between one law and a law for each length; none where some lengths have no fit of their own, or
+/// there is but one.
 pub fn probability_of_one_law(tests: &[Test], fit: &Fit) -> Option<f64> {
     let mut lengths: Vec<f64> = tests.iter().map(|test| test.length).collect();
     lengths.sort_by(f64::total_cmp);
@@ -342,8 +344,9 @@ mod tests {
         );
     }
 
-    /// Of samples of so many tests, how often the intervals of modulus and scale hold the true values, and the mean of the modulus over
-    /// the true one: with lengths in turn, and slips at strengths of the same modulus whose scale is larger by this factor.
+    /// Of samples of so many tests, how often the intervals of modulus and scale hold the true values, and the mean of
+    /// the modulus over the true one: with lengths in turn, and slips at strengths of the same modulus whose scale is
+    /// larger by this factor.
     fn coverage(trials: u32, count: usize, lengths: &[f64], slips: f64) -> [f64; 3] {
         let law = Weibull { modulus: 10.0, scale: 1.0, reference_length: 50.0 };
         let (mut held, mut ratio) = ([0; 2], 0.0);

@@ -1,7 +1,7 @@
 //! Weibull's law from the scales that were found at several lengths, where the strengths themselves are not given.
 //!
-//! The scale at a length is s (L₀/L)^(1/m): its logarithm falls by 1/m with that of the length. By least squares, with the scatter of the
-//! scales about the line as their error.
+//! The scale at a length is s (L₀/L)^(1/m): its logarithm falls by 1/m with that of the length. By least squares, with
+//! the scatter of the scales about the line as their error.
 
 use statrs::distribution::{ChiSquared, ContinuousCDF, StudentsT};
 
@@ -10,7 +10,7 @@ use crate::confidence::LEVEL;
 
 /// n times the variance of ln m of samples of n tests, in large samples: 6/π².
 const VARIANCE: f64 = 0.607_927_101_854_026_6;
-/// More tests at one length nobody makes.
+/// The most tests at one length that are proposed.
 const MOST_TESTS: f64 = 1e6;
 
 /// What scales tell.
@@ -69,8 +69,8 @@ pub fn fit(lengths: &[f64], scales: &[f64], reference_length: f64) -> Result<Sca
     })
 }
 
-/// The number of tests at each length from which on moduli that were found there differ by more than those of one law would in 95 of 100 cases;
-/// none where there are fewer than two, or they are so alike that nobody makes so many tests.
+/// The number of tests at each length from which on moduli that were found there differ by more than those of one law
+/// would in 95 of 100 cases; none where there are fewer than two, or they are so alike that nobody makes so many tests.
 pub fn contradiction(moduli: &[f64]) -> Option<f64> {
     let count = moduli.len() as f64;
     let mean = moduli.iter().map(|modulus| modulus.ln()).sum::<f64>() / count;

@@ -49,7 +49,8 @@ pub fn text(material: &Material, strength: f64, units: &UnitSystem) -> String {
     }
 }
 
-/// The line of a report on the cases whose strength scatters, each with its weakest element; `mirrored` is what symmetry leaves out.
+/// The line of a report on the cases whose strength scatters, each with its weakest element; `mirrored` is what
+/// symmetry leaves out.
 pub fn report<'a>(
     cases: impl Iterator<Item = (&'a str, Option<&'a Strength>, Option<&'a str>)>,
     mirrored: Option<&str>,

@@ -46,7 +46,7 @@ fn sections(mesh: &str, tables: &str) -> Sections {
         let strengths = strength.strengths(&model, yarn);
         let start = |element: usize| {
             let [x, y, _] = model.nodes[model.elements[yarn.elements.start + element][0] as usize];
-            back.of([x, y])[yarn.family as usize]
+            back.rotate([x, y])[yarn.family as usize]
         };
         let of_piece = |piece: &Piece| -> Vec<(f64, f64)> {
             let (first, per) = (piece.first_element, piece.grid.elements_per_layer());

@@ -41,7 +41,8 @@ mod tests {
                     assert!((found / share - 1.0).abs() < 1e-12, "{modulus} {length} {share}: {found}");
                 }
             }
-            // 1 − 1/e of the reference length is weaker than the scale; twice the length survives with the square of the chance.
+            // 1 − 1/e of the reference length is weaker than the scale; twice the length survives with the square of
+            // the chance.
             assert!((law.probability(50.0, 0.04) - (1.0 - (-1.0_f64).exp())).abs() < 1e-15);
             let survives = |length: f64| 1.0 - law.probability(length, 0.038);
             assert!((survives(100.0) - survives(50.0).powi(2)).abs() < 1e-14);

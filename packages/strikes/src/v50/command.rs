@@ -68,7 +68,7 @@ pub struct Arguments {
     threads: Option<usize>,
 }
 
-/// Fires the shots of a scene and writes what came of them, or what else is asked for.
+/// Fires the shots of a scene and writes the results, or the other output that the arguments choose.
 ///
 /// # Errors
 /// The input, a file that cannot be written, shots without a curve, or somebody has asked the program to end.
@@ -152,10 +152,10 @@ fn numbers(scene: &Scene, part: Option<&str>) -> Result<RangeInclusive<usize>, E
     }
 }
 
-/// That a run goes on with the table at a place if it is there, and begins if it is not.
+/// Checks that a run that restarts finds its table, and that one that begins finds none.
 ///
 /// # Errors
-/// It is asked for the other.
+/// The table is there and `restart` is not set, or the reverse.
 fn check_restart(place: &Path, restart: bool) -> Result<(), Error> {
     let is_there = is_file(place)?;
     let place = place.display();

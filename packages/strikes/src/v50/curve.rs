@@ -124,8 +124,8 @@ impl Curve {
         Some(curve)
     }
 
-    /// V50 and the deviation of a normal distribution that are the likeliest, whatever they are: no more is sought, no
-    /// less is told.
+    /// V50 and deviation of the likeliest normal distribution, without intervals and without a check of what they are
+    /// worth.
     pub fn likeliest(fates: &[Fate]) -> [f64; 2] {
         let likelihood = Likelihood::new(fates, Link::Probit, false);
         let [offset, slope, _] = likelihood.best();
@@ -149,7 +149,7 @@ impl Curve {
 
     /// The logarithm of the likelihood of the best curve, without a penalty.
     pub fn log_likelihood(&self) -> f64 {
-        self.likelihood.of_shots(self.best[0], self.best[1])
+        self.likelihood.log_likelihood(self.best[0], self.best[1])
     }
 
     /// The deviation of a normal distribution with the curve's slope.

@@ -1,7 +1,7 @@
 //! Residual over striking speed: Lambert and Jonas's (1976) curve v_r = a (v_s^p − v_l^p)^(1/p), by least squares.
 
 use levenberg_marquardt::{LeastSquaresProblem, LevenbergMarquardt};
-use nalgebra_of_least_squares::{Dyn, Matrix, OVector, Owned, U1, U3, Vector3};
+use nalgebra::{Dyn, Matrix, OVector, Owned, U1, U3, Vector3};
 
 /// A curve of three parameters says something beside as many perforations, at least.
 pub const FEWEST: usize = 4;
@@ -30,7 +30,7 @@ pub struct LambertJonas {
     pub deviation: f64,
 }
 
-/// Why the best curve says nothing of its shots.
+/// Why the best curve is no estimate of the shots' law.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Degenerate {
     /// Its exponent is beyond [`MOST_EXPONENT`].

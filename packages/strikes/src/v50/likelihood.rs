@@ -39,15 +39,16 @@ impl Likelihood {
     }
 
     /// The logarithm of the likelihood of a curve, without a penalty.
-    pub fn of_shots(&self, a: f64, b: f64) -> f64 {
+    pub fn log_likelihood(&self, a: f64, b: f64) -> f64 {
         let one =
             |shot: &Fate| self.link.log_chance(if shot.through { a + b * shot.speed } else { -a - b * shot.speed });
         self.shots.iter().map(one).sum()
     }
 
-    /// With half of the logarithm of the information's determinant, where Firth's correction is made.
-    fn of(&self, a: f64, b: f64) -> f64 {
-        self.of_shots(a, b) + if self.firth { 0.5 * self.log_information(a, b) } else { 0.0 }
+    /// What is maximised: the log-likelihood, plus half the logarithm of the information's determinant with Firth's
+    /// correction.
+    fn objective(&self, a: f64, b: f64) -> f64 {
+        self.log_likelihood(a, b) + if self.firth { 0.5 * self.log_information(a, b) } else { 0.0 }
     }
 
     /// The logarithm of the determinant of Fisher's information on a and b: the sum of w_i w_j (x_i − x_j)² over all
@@ -77,7 +78,7 @@ impl Likelihood {
     pub fn with_slope(&self, b: f64) -> (f64, f64) {
         let speeds = self.shots.iter().map(|shot| -b * shot.speed);
         let (low, high) = speeds.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), a| (l.min(a), h.max(a)));
-        maximum(|a| self.of(a, b), [low - FAR, high + FAR])
+        maximum(|a| self.objective(a, b), [low - FAR, high + FAR])
     }
 
     /// The best slope, its offset and their likelihood.
@@ -93,7 +94,7 @@ impl Likelihood {
         maximum(
             |log| {
                 let b = log.exp();
-                self.of(eta - b * x, b)
+                self.objective(eta - b * x, b)
             },
             SLOPES.map(f64::ln),
         )
@@ -104,7 +105,7 @@ impl Likelihood {
     /// far away.
     pub fn level(&self, eta: f64, above: bool) -> f64 {
         let bounds = if above { [eta, FAR] } else { [-FAR, eta] };
-        maximum(|a| self.of(a, SLOPES[0]), bounds).1
+        maximum(|a| self.objective(a, SLOPES[0]), bounds).1
     }
 }
 

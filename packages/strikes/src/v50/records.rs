@@ -69,7 +69,7 @@ impl Records {
     /// The file cannot be read, is another table, or of another scene or build.
     pub fn read(&mut self, place: &Path) -> Result<usize, Error> {
         let text = whole_lines(place)?;
-        // A line of too few cells is told in words of its own.
+        // A line of too few cells has a message of its own.
         let mut reader = ReaderBuilder::new().flexible(true).from_reader(text.as_bytes());
         let titles = reader.headers().map_err(|error| file_error(place, &error))?;
         if titles != self.titles {

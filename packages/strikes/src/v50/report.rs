@@ -283,7 +283,7 @@ fn errors_of_shots(series: &Series) -> String {
     of_shots("error of ", errors, "")
 }
 
-/// What is said of shots: each text once, with the numbers of the shots that share it.
+/// Warnings or errors of shots: each text once, with the numbers of the shots that share it.
 fn of_shots(before: &str, said: impl Iterator<Item = (usize, String)>, behind: &str) -> String {
     let named: Vec<(String, String)> = said.map(|(number, text)| (number.to_string(), text)).collect();
     let groups = grouped(named.iter().map(|(number, text)| (number.as_str(), text.as_str())));

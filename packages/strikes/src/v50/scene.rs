@@ -235,7 +235,7 @@ impl Target {
         let mut target = self.clone();
         let (plan, strength) = match &mut target {
             Target::Panel(case) => {
-                (case.speed, case.sphere.aim) = (shot.speed, shot.aim);
+                (case.speed, case.striker.aim) = (shot.speed, shot.aim);
                 (&mut case.plan, &mut case.strength)
             }
             Target::Yarn(case) => {
@@ -265,7 +265,7 @@ impl Target {
     /// Where a panel is struck; a yarn is struck in its middle.
     pub fn aim(&self) -> Option<[f64; 2]> {
         match self {
-            Target::Panel(case) => Some(case.sphere.aim),
+            Target::Panel(case) => Some(case.striker.aim),
             Target::Yarn(_) => None,
         }
     }
@@ -281,7 +281,7 @@ impl Target {
                 "aim is \"cell\" of a quarter, which is struck in the middle; allowed: fixed, or part = \"whole\"";
             return Err(message.to_string());
         }
-        let (middle, edges) = (case.sphere.aim, case.cloth.cell());
+        let (middle, edges) = (case.striker.aim, case.cloth.cell());
         for parts in [[-0.5, -0.5], [-0.5, 0.5], [0.5, -0.5], [0.5, 0.5]] {
             let corner = in_cell(middle, edges, parts);
             case.cloth.covers(corner).map_err(|allowed| {
@@ -398,7 +398,7 @@ mod tests {
         assert!(std::sync::Arc::ptr_eq(&case.cloth, &own.cloth));
         let seed = case.strength.map(|strength| strength.field.seed);
         assert_eq!(
-            (case.speed, case.sphere.aim, seed, case.plan.end),
+            (case.speed, case.striker.aim, seed, case.plan.end),
             (shots[6].speed, shots[6].aim, shots[6].seed, 3.0)
         );
         // Without scatter it is the scene's own.

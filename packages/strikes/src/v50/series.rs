@@ -1,4 +1,4 @@
-//! What came of a series: how many shots ended how, the curves, and what else is said of them.
+//! The results of a series: how many shots ended how, the curves, and what follows from them.
 
 use super::curve::{Curve, Fate, Mix, mix};
 use super::lambert_jonas::{Degenerate, LambertJonas};

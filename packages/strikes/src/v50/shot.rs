@@ -35,7 +35,7 @@ pub struct Ended {
     /// Of what struck, at the end: its residual speed where it went through.
     pub speed_at_end: f64,
     pub time: f64,
-    /// What is said of the run: that it is sound, or what is wrong with it.
+    /// The run's verdict: that it is sound, or what is wrong with it.
     pub verdict: String,
     /// How long it took.
     pub seconds: f64,

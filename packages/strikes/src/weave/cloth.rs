@@ -108,7 +108,7 @@ impl Cloth {
                 let ([warps, wefts], [warp, weft]) =
                     (woven.geometry.weave.pattern.repeat(), woven.geometry.weave.threads);
                 let turn = woven.panel.turn;
-                [turn.of([wefts as f64 * weft.pitch, 0.0]), turn.of([0.0, warps as f64 * warp.pitch])]
+                [turn.rotate([wefts as f64 * weft.pitch, 0.0]), turn.rotate([0.0, warps as f64 * warp.pitch])]
             }
             Cloth::Foreign(foreign) => [[2.0 * foreign.pitch[1], 0.0], [0.0, 2.0 * foreign.pitch[0]]],
         }

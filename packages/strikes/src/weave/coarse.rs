@@ -50,7 +50,7 @@ impl Span {
 }
 
 impl Panel {
-    /// Says what speaks against meshing a part coarsely.
+    /// Why a part cannot be meshed coarsely.
     ///
     /// # Errors
     /// What is allowed.

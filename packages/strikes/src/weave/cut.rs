@@ -8,7 +8,7 @@ use toron_pictures::page::{Area, Drawn};
 use toron_pictures::style::fine;
 use toron_pictures::view::View;
 
-/// A plane goes by this part of a yarn's width beside where it is asked for, so that it meets no node.
+/// A plane is moved by this part of a yarn's width, so that it meets no node.
 const BESIDE: f64 = 1e-5;
 /// The fibre of a yarn along an axis has less than this of the other one.
 const ALONG: f64 = 0.1;

@@ -114,9 +114,9 @@ impl Model {
             return;
         }
         for [x, y, _] in self.nodes.iter_mut().chain(&mut self.fibre) {
-            [*x, *y] = turn.of([*x, *y]);
+            [*x, *y] = turn.rotate([*x, *y]);
         }
-        self.crossings.iter_mut().for_each(|crossing| crossing.place = turn.of(crossing.place));
+        self.crossings.iter_mut().for_each(|crossing| crossing.place = turn.rotate(crossing.place));
     }
 
     fn add_ply(&mut self, other: Model, number: usize) {

@@ -66,7 +66,7 @@ impl Turn {
         Turn { cos, sin }
     }
 
-    pub fn of(self, [x, y]: [f64; 2]) -> [f64; 2] {
+    pub fn rotate(self, [x, y]: [f64; 2]) -> [f64; 2] {
         [self.cos * x - self.sin * y, self.sin * x + self.cos * y]
     }
 
@@ -159,7 +159,7 @@ impl Panel {
             Outline::Rectangle(half) => {
                 let ahead = family.placed(1.0, 0.0);
                 let beside = family.placed(0.0, coordinate);
-                let [ahead, beside] = [ahead, beside].map(|place| self.turn.of(place));
+                let [ahead, beside] = [ahead, beside].map(|place| self.turn.rotate(place));
                 let mut interval = [f64::NEG_INFINITY, f64::INFINITY];
                 for axis in 0..2 {
                     if ahead[axis] == 0.0 {

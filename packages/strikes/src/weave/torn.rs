@@ -25,7 +25,8 @@ fn ends_are_apart(yarn: &Yarn, elements: &[[u32; 8]], intact: impl Fn(usize) -> 
         element.iter().for_each(|&node| groups.join(element[0], node));
     }
     let [starts, ends] = yarn.ends.each_ref().map(|nodes| {
-        let mut of_end: Vec<u32> = nodes.iter().map(|&node| groups.of(node - yarn.nodes.start as u32)).collect();
+        let mut of_end: Vec<u32> =
+            nodes.iter().map(|&node| groups.representative(node - yarn.nodes.start as u32)).collect();
         of_end.sort_unstable();
         of_end
     });
@@ -38,7 +39,7 @@ pub fn pieces(nodes: usize, elements: &[[u32; 8]]) -> usize {
     for element in elements {
         element.iter().for_each(|&node| groups.join(element[0], node));
     }
-    (0..nodes as u32).filter(|&node| groups.of(node) == node).count()
+    (0..nodes as u32).filter(|&node| groups.representative(node) == node).count()
 }
 
 /// Nodes that are joined have one number, that of one of them.
@@ -49,7 +50,8 @@ impl Groups {
         Groups((0..count as u32).collect())
     }
 
-    pub fn of(&mut self, mut node: u32) -> u32 {
+    /// The node whose number those joined with this one have.
+    pub fn representative(&mut self, mut node: u32) -> u32 {
         while self.0[node as usize] != node {
             let next = self.0[node as usize];
             self.0[node as usize] = self.0[next as usize];
@@ -59,7 +61,7 @@ impl Groups {
     }
 
     pub fn join(&mut self, a: u32, b: u32) {
-        let (a, b) = (self.of(a), self.of(b));
+        let (a, b) = (self.representative(a), self.representative(b));
         self.0[a.max(b) as usize] = a.min(b);
     }
 }

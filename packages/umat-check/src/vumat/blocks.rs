@@ -94,9 +94,9 @@ pub fn repeat(session: &mut Session) -> io::Result<Finding> {
         };
         let (call, between) = (given(&points, &unturned), given(&points, &further));
         let time = time(k, session.material);
-        let first = session.ask(time, &call)?;
-        session.ask(time, &between)?;
-        let second = session.ask(time, &call)?;
+        let first = session.call_law(time, &call)?;
+        session.call_law(time, &between)?;
+        let second = session.call_law(time, &call)?;
         if let Some((_, what)) = differ(&first, &second) {
             let text = format!("the same call answers otherwise the second time, at increment {}: {what}", k + 1);
             return Ok(Finding::new(Question::Repeat, Verdict::Wrong, None, text).with("answers depend on order"));

@@ -73,7 +73,7 @@ fn open(path: &Path) -> Result<libloading::Library, String> {
 ///
 /// # Errors
 /// It cannot be loaded.
-pub fn alone(path: &Path) -> Result<bool, String> {
+pub fn only_vumat(path: &Path) -> Result<bool, String> {
     let library = open(path)?;
     let has = |name: &str| {
         // SAFETY: only whether there is such a symbol is asked.
@@ -340,7 +340,7 @@ impl<'a> Session<'a> {
     ///
     /// # Errors
     /// The system has no memory.
-    pub fn ask(&mut self, time: Time, points: &[Given]) -> io::Result<Vec<Found>> {
+    pub fn call_law(&mut self, time: Time, points: &[Given]) -> io::Result<Vec<Found>> {
         let count = points.len();
         let material = self.material;
         let mut arrays = match self.arrays.take() {
@@ -450,8 +450,8 @@ impl<'a> Session<'a> {
         };
         let [step_time, total_time, increment] = [scalar(0), scalar(1), scalar(2)];
         use Array::*;
-        // SAFETY: the arguments of a VUMAT, each as long as Abaqus declares it, of the precision that the library is built for. What
-        // the subroutine does beyond is its author's affair, and this process is there to bear it.
+        // SAFETY: the arguments of a VUMAT, each as long as Abaqus declares it, of the precision that the library is
+        // built for. What the subroutine does beyond is its author's affair, and this process is there to bear it.
         unsafe {
             (self.law.vumat)(
                 block.as_mut_ptr(),

@@ -11,11 +11,11 @@ use super::call::{Law, Precision, Session};
 use super::{blocks, deletion, energy, frame, process, single};
 use crate::child::ChildReply;
 
-/// Answers what is asked of a law; none where it is asked of a UMAT alone.
+/// The reply to a task; none where the task is for a UMAT alone.
 ///
 /// # Errors
 /// The system has no memory.
-pub fn answer(
+pub fn reply_to(
     law: &Law,
     material: &Material,
     task: &Task,
@@ -26,13 +26,14 @@ pub fn answer(
     Ok(match task {
         Task::Reads => Some(ChildReply::Reads(frame::reads(&mut session)?)),
         Task::Question { question, reads, .. } => {
-            Some(ChildReply::Finding(line(*question, law, &mut session, *reads)?))
+            Some(ChildReply::Finding(answer_question(*question, law, &mut session, *reads)?))
         }
-        Task::Alone | Task::LargeTurns | Task::Call(_) => None,
+        Task::OnlyVumat | Task::LargeTurns | Task::Call(_) => None,
     })
 }
 
-fn line(question: Question, law: &Law, session: &mut Session, reads: Reads) -> io::Result<Finding> {
+/// A question to a VUMAT.
+fn answer_question(question: Question, law: &Law, session: &mut Session, reads: Reads) -> io::Result<Finding> {
     match question {
         Question::Build | Question::Memory => process::touch(session),
         Question::Rest => process::rest(session),
@@ -42,9 +43,9 @@ fn line(question: Question, law: &Law, session: &mut Session, reads: Reads) -> i
         Question::Steps => frame::steps(session),
         Question::Energy => energy::energy(session),
         Question::Dissipation => energy::dissipation(session),
-        Question::Deletion => deletion::ask(session),
+        Question::Deletion => deletion::deletion(session),
         Question::Blocks => blocks::blocks(session),
-        Question::Single => single::ask(session, reads),
+        Question::Single => single::single(session, reads),
         Question::Repeat => blocks::repeat(session),
         Question::Threads => blocks::threads(law, session),
         Question::Outputs => process::outputs(session),

@@ -18,7 +18,7 @@ const BEYOND: f64 = 4.0;
 
 /// # Errors
 /// The system has no memory.
-pub fn ask(session: &mut Session) -> io::Result<Finding> {
+pub fn deletion(session: &mut Session) -> io::Result<Finding> {
     let line = |verdict, text: String| Finding::new(Question::Deletion, verdict, None, text);
     let Some(flag) = session.material.explicit.deletion else {
         return Ok(line(Verdict::NotAsked, "deletion, the number of DELETE, is not declared".to_string()));

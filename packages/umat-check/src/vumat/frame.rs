@@ -51,7 +51,7 @@ fn arguments(session: &mut Session) -> io::Result<Arguments> {
                 },
             ];
             let all: Vec<Given> = [given].into_iter().chain(changes).collect();
-            let found = session.ask(time(k, session.material), &all)?;
+            let found = session.call_law(time(k, session.material), &all)?;
             if !found[0].finite() {
                 break;
             }
@@ -104,7 +104,7 @@ pub fn objectivity(session: &mut Session) -> io::Result<Finding> {
             let r = rotation_of(f1);
             let without = plain.given(f1, &r.transpose(), session.material);
             let with = turned.given(f1, &turn, session.material);
-            let found = session.ask(time(k, session.material), &[without, with])?;
+            let found = session.call_law(time(k, session.material), &[without, with])?;
             if !found.iter().all(|found| found.finite()) {
                 let text = "not finite with superposed rotations";
                 return Ok(Finding::new(Question::Objectivity, Verdict::Wrong, None, text).with("NaN"));
@@ -179,7 +179,8 @@ pub fn isotropy(session: &mut Session) -> io::Result<Finding> {
     Ok(line(text, "axes matter"))
 }
 
-/// The largest change of the stress with the material turned beforehand, and of how many increments; none without stress.
+/// The largest change of the stress with the material turned beforehand, and of how many increments; none without
+/// stress.
 fn anisotropy(session: &mut Session) -> io::Result<Option<(f64, usize)>> {
     let mut rng = Rng::with_seed(session.material.seed ^ 0x0c);
     let (mut figure, mut compared) = (0.0_f64, 0);

@@ -1,7 +1,9 @@
-//! The same questions to a VUMAT, called as Abaqus/Explicit calls it: blocks of points, stress on corotational axes, no tangent.
+//! The same questions to a VUMAT, called as Abaqus/Explicit calls it: blocks of points, stress on corotational axes, no
+//! tangent.
 //!
-//! [`call`] is the subroutine, [`point`] the material points that are driven. The questions: [`frame`] (objectivity, isotropy,
-//! steps), [`blocks`] (sizes, order, repetition, threads), [`energy`], [`single`], [`deletion`], [`process`]; [`child`] asks them.
+//! [`call`] is the subroutine, [`point`] the material points that are driven. The questions: [`frame`] (objectivity,
+//! isotropy, steps), [`blocks`] (sizes, order, repetition, threads), [`energy`], [`single`], [`deletion`], [`process`];
+//! [`child`] asks them.
 
 pub mod blocks;
 pub mod call;

@@ -26,7 +26,7 @@ pub fn components(tensor: &Matrix3<f64>) -> Components {
     PLACES.map(|(i, j)| 0.5 * (tensor[(i, j)] + tensor[(j, i)]))
 }
 
-/// Where a point has got to.
+/// A point's state after its last increment.
 #[derive(Clone, Debug)]
 pub struct Point {
     /// Without superposed rotations.
@@ -53,7 +53,7 @@ impl Point {
         };
         if session.virgin.is_none() {
             let given = nothing.given(&nothing.f, &nothing.turn, session.material);
-            let found = session.ask(Time::data_check(session.material), &[given])?;
+            let found = session.call_law(Time::data_check(session.material), &[given])?;
             session.virgin = found.into_iter().next().map(|found| found.state);
         }
         let state = session.virgin.clone().unwrap_or_default();
@@ -122,7 +122,7 @@ pub fn block(session: &mut Session, paths: &[Vec<Matrix3<f64>>]) -> io::Result<V
     for k in 0..paths.iter().map(Vec::len).min().unwrap_or(0) {
         let given: Vec<Given> =
             points.iter().zip(paths).map(|(point, path)| point.given(&path[k], &unturned, material)).collect();
-        for (i, found) in session.ask(time(k, material), &given)?.into_iter().enumerate() {
+        for (i, found) in session.call_law(time(k, material), &given)?.into_iter().enumerate() {
             points[i] = points[i].after(&paths[i][k], &unturned, &found);
             answers[i].push(found);
         }

@@ -1,5 +1,5 @@
-//! What a VUMAT does to the process that it runs in, at rest and in the data check: memory, outputs that it leaves unset, floating-point
-//! exceptions, invalid input, many random histories.
+//! What a VUMAT does to the process that it runs in, at rest and in the data check: memory, outputs that it leaves
+//! unset, floating-point exceptions, invalid input, many random histories.
 
 use std::io;
 use std::time::{Duration, Instant};
@@ -58,7 +58,8 @@ pub fn rest(session: &mut Session) -> io::Result<Finding> {
 /// The strains of a data check.
 const SMALL: f64 = 1e-6;
 
-/// The call with stepTime = totalTime = 0, which may be answered as an elastic material does: with stress, finite, along the strain.
+/// The call with stepTime = totalTime = 0, which may be answered as an elastic material does: with stress, finite,
+/// along the strain.
 ///
 /// # Errors
 /// The system has no memory.
@@ -75,7 +76,7 @@ pub fn data_check(session: &mut Session) -> io::Result<Finding> {
     let fictitious: Vec<Given> =
         strains.iter().map(|strain| Given { strain_increment: components(strain), ..rest.clone() }).collect();
     let time = Time::data_check(session.material);
-    let (with, without) = (session.ask(time, &strained)?, session.ask(time, &fictitious)?);
+    let (with, without) = (session.call_law(time, &strained)?, session.call_law(time, &fictitious)?);
     let line = |verdict, text: &str| Finding::new(Question::DataCheck, verdict, None, text);
     if !with.iter().chain(&without).all(Found::finite) {
         return Ok(line(Verdict::Wrong, "not finite with stepTime = totalTime = 0").with("NaN"));
@@ -110,10 +111,10 @@ pub fn outputs(session: &mut Session) -> io::Result<Finding> {
         let given: Vec<Given> = all.map(|(point, path)| point.given(&path[k], &unturned, session.material)).collect();
         let time = time(k, session.material);
         session.unset = f64::from_bits(UNSET);
-        let found = session.ask(time, &given)?;
+        let found = session.call_law(time, &given)?;
         session.unset = 0.0;
         overwritten.extend(session.overwritten(time, &given)?);
-        let zero = session.ask(time, &given)?;
+        let zero = session.call_law(time, &given)?;
         // An output that keeps what was there, or depends on it, and has a number otherwise.
         let mut note = |name: String, before: f64, after: f64| {
             if before.is_nan() && !after.is_nan() && !unset.contains(&name) {
@@ -176,7 +177,7 @@ pub fn exceptions(session: &mut Session) -> io::Result<Finding> {
             // SAFETY: they take and give numbers, and change the flags of this thread alone.
             let (found, flags) = unsafe {
                 feclearexcept(all);
-                let found = session.ask(time(k, session.material), std::slice::from_ref(&given));
+                let found = session.call_law(time(k, session.material), std::slice::from_ref(&given));
                 (found?, fetestexcept(all))
             };
             asked += 1;
@@ -215,12 +216,12 @@ pub fn invalid(session: &mut Session) -> io::Result<Finding> {
     let unturned = Matrix3::<f64>::identity();
     let mut given: Vec<Given> = paths.iter().map(|path| virgin.given(&path[0], &unturned, session.material)).collect();
     let time = time(0, session.material);
-    let right = session.ask(time, &given)?;
+    let right = session.call_law(time, &given)?;
     let middle = given.len() / 2;
     given[middle].stretch[1][0] = f64::NAN;
     given[middle].gradient[1][0] = f64::NAN;
     given[middle].strain_increment[0] = f64::NAN;
-    let found = session.ask(time, &given)?;
+    let found = session.call_law(time, &given)?;
     let line = |verdict, text: &str| Finding::new(Question::Invalid, verdict, None, text);
     let spoilt = (0..found.len()).filter(|&i| i != middle && !found[i].same(&right[i])).count();
     if spoilt > 0 {

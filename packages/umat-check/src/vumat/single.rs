@@ -19,7 +19,7 @@ const INCREMENTS: usize = 12;
 ///
 /// # Errors
 /// The system has no memory.
-pub fn ask(session: &mut Session, reads: Reads) -> io::Result<Finding> {
+pub fn single(session: &mut Session, reads: Reads) -> io::Result<Finding> {
     let Some(built) = &session.material.explicit.single else {
         let text = "no second build with real*4: the source has no vaba_param.inc, or is a library (--single)";
         return Ok(Finding::new(Question::Single, Verdict::NotAsked, None, text));
@@ -52,7 +52,7 @@ pub fn ask(session: &mut Session, reads: Reads) -> io::Result<Finding> {
             .map(|(point, path)| rounded(point.given(&path[k], &unturned, session.material)))
             .collect();
         let time = time(k, session.material);
-        let (double, single) = (session.ask(time, &given)?, other.ask(time, &given)?);
+        let (double, single) = (session.call_law(time, &given)?, other.call_law(time, &given)?);
         for (i, (double, single)) in double.iter().zip(&single).enumerate() {
             if double.finite() && !single.finite() {
                 let text = format!("not finite at increment {} of single precision, and is of double", k + 1);

@@ -1,4 +1,5 @@
-//! Keywords of LS-DYNA: the fields and the columns of each card, which the comment before a card names in the same columns.
+//! Keywords of LS-DYNA: the fields and the columns of each card, which the comment before a card names in the same
+//! columns.
 
 use std::collections::BTreeMap;
 

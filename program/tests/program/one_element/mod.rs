@@ -68,7 +68,8 @@ const HOSTS: [Host; 6] = [
 const SCENES: [&str; 3] = ["tension", "compaction", "turn"];
 
 impl Host {
-    /// Name and path of every deck; MTest has a point of its own for the linear elastic law, the others both laws in one model.
+    /// Name and path of every deck; MTest has a point of its own for the linear elastic law, the others both laws in
+    /// one model.
     fn decks(&self) -> Vec<(&'static str, PathBuf)> {
         let last = if self.folder == "mtest" { "linear-tension" } else { "both-laws" };
         let folder = Path::new(ROOT).join("examples/one-element").join(self.folder);

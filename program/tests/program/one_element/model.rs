@@ -12,8 +12,8 @@ use crate::hexahedra::Mesh;
 /// When numbers are given, as parts of the time; under tension the last is after failure.
 pub const ROWS: [f64; 4] = [0.25, 0.5, 0.75, 1.0];
 
-/// Steps of the law: rows are at their ends, and the strain at which a yarn of these decks fails is not, so that rounding does not
-/// choose the step.
+/// Steps of the law: rows are at their ends, and the strain at which a yarn of these decks fails is not, so that
+/// rounding does not choose the step.
 const STEPS: usize = 7212;
 
 pub struct Deck {

@@ -1,5 +1,5 @@
-//! A section between walls that close, slowly: a bead for each fibre, which does not move along it. Energies over the section's area
-//! stand beside those of the law, and of `toron cell`.
+//! A section between walls that close, slowly: a bead for each fibre, which does not move along it. Energies over the
+//! section's area stand beside those of the law, and of `toron cell`.
 
 pub mod input;
 pub mod middle;

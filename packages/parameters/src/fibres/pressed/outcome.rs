@@ -1,4 +1,5 @@
-//! The result of a pressed section: energies over its reference volume, in the scene's unit of stress, and its invariants.
+//! The result of a pressed section: energies over its reference volume, in the scene's unit of stress, and its
+//! invariants.
 
 use crate::fibres::frame::Frame;
 use crate::fibres::model::{Model, Pressing, Striking, micro};
@@ -62,7 +63,8 @@ impl Pressed {
         late.map(|sample| sample.kinetic / sample.whole.energy).fold(0.0, f64::max)
     }
 
-    /// How much friction seems to have given back at most, over the work: 0 but for what the step leaves of the balance.
+    /// How much friction seems to have given back at most, over the work: 0 but for what the step leaves of the
+    /// balance.
     pub fn imbalance(&self) -> f64 {
         let (mut highest, mut worst): (f64, f64) = (0.0, 0.0);
         for sample in &self.samples {
@@ -116,8 +118,9 @@ fn at_rest(centres: &[[f64; 2]]) -> [f64; 3] {
     moments(&[mean(&|c| c[0]), mean(&|c| c[1]), mean(&|c| c[0] * c[0]), mean(&|c| c[0] * c[1]), mean(&|c| c[1] * c[1])])
 }
 
-/// I_tc and I_td of the homogeneous deformation F that takes second moments M₀ to M = F M₀ Fᵀ: the eigenvalues of M₀⁻¹M are the
-/// squares of two stretches, if its axes are those of M₀, as a box's are. I_tc is half the logarithm of their product, I_td half that of their ratio.
+/// I_tc and I_td of the homogeneous deformation F that takes second moments M₀ to M = F M₀ Fᵀ: the eigenvalues of M₀⁻¹M
+/// are the squares of two stretches, if its axes are those of M₀, as a box's are. I_tc is half the logarithm of their
+/// product, I_td half that of their ratio.
 fn invariants(before: [f64; 3], after: [f64; 3]) -> [f64; 2] {
     let determinant = |[a, b, c]: [f64; 3]| a * c - b * b;
     let ratio = determinant(after) / determinant(before);

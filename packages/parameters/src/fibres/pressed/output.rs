@@ -53,7 +53,8 @@ pub fn write_history(file: &Path, scene: &Scene, result: &Pressed) -> Result<(),
     std::fs::write(file, text).map_err(|error| file_error(file, &error))
 }
 
-/// The file that `toron fit` reads: the sections that are pressed on all sides or between sides that are held, as the walls say.
+/// The file that `toron fit` reads: the sections that are pressed on all sides or between sides that are held, as the
+/// walls say.
 pub fn fit_file(scene: &Scene, results: &Results) -> Option<String> {
     let loading = |case: &Case| match case.striker {
         Striker::Walls { walls: Walls::AllSides, .. } => Some(COMPACTION),
@@ -92,8 +93,8 @@ pub fn fit_file(scene: &Scene, results: &Results) -> Option<String> {
     Some(written.text())
 }
 
-/// The stretch from which on the section's energy has fallen by more than this: fibres have snapped to other places, where it is no
-/// longer that of an elastic section.
+/// The stretch from which on the section's energy has fallen by more than this: fibres have snapped to other places,
+/// where it is no longer that of an elastic section.
 fn snap(samples: &[Sample], least: f64) -> Option<f64> {
     let mut highest = *samples.first()?;
     for sample in samples {

@@ -76,7 +76,7 @@ fn middles(model: &Model, yarn: &Yarn) -> Option<Vec<Point>> {
             end.iter().for_each(|&corner| groups.join(nodes[end[0]], nodes[corner]));
         }
     }
-    let section: Vec<usize> = (0..yarn.nodes.len() as u32).map(|node| groups.of(node) as usize).collect();
+    let section: Vec<usize> = (0..yarn.nodes.len() as u32).map(|node| groups.representative(node) as usize).collect();
     let mut next: Vec<Option<usize>> = vec![None; section.len()];
     let mut is_behind = vec![false; section.len()];
     for nodes in elements() {

@@ -62,7 +62,8 @@ const WITHOUT_EFFECT: [&str; 48] = [
     "*DEFINE_CONTACT_",
     "*DEFINE_MATERIAL_HISTORIES",
 ];
-/// Of `*CONTROL_…` by their whole names, those with _ at the end by how they begin: others refine, move or delete what is there.
+/// Of `*CONTROL_…` by their whole names, those with _ at the end by how they begin: others refine, move or delete what
+/// is there.
 const CONTROLS: &str = "
     ACCURACY ACOUSTIC_ ALE BULK_VISCOSITY CHECK_SHELL CONTACT COUPLING CPM CPU DEBUG DISCRETE_ELEMENT DYNAMIC_RELAXATION EFG ENERGY
     EOS_USER_LIBRARY EXPLICIT_THERMAL_ EXPLOSIVE_SHADOW FREQUENCY_ HOURGLASS IMPLICIT_ LSDA MAT MPP_ NONLOCAL OUTPUT PARALLEL

@@ -200,7 +200,7 @@ fn crimp(model: &Model) -> [f64; 2] {
         let yarns = model.yarns.iter().filter(|yarn| yarn.family == family);
         let (mut length, mut crossed) = (0.0, 0.0);
         for element in yarns.flat_map(|yarn| yarn.elements.clone()) {
-            // A yarn's section is the same everywhere: its length goes by the volume.
+            // A yarn's section is the same everywhere: its length is in proportion to the volume.
             let volume = toron_explicit_host::hexahedron::Edges::of(&model.corners(&model.elements[element])).volume();
             (length, crossed) = (length + volume, crossed + volume * model.fibre[element][family as usize].abs());
         }

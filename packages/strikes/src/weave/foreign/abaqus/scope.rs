@@ -196,7 +196,7 @@ impl Scope {
             numbers.push(line.number("a number of an element", field)?);
         }
         let Some(count) = *nodes else {
-            // Where an element of another kind ends is told by the comma alone.
+            // Of an element of another kind, only a missing comma marks the end.
             self.others.insert(numbers[0]);
             self.add_to_set(set.as_ref(), numbers[0]);
             *begun = goes_on.then_some((numbers, place));

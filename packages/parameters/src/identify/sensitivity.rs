@@ -1,7 +1,8 @@
-//! What the parameters are worth in a scene: the scene with the fitted parameters, and with each at the ends of its interval.
+//! What the parameters are worth in a scene: the scene with the fitted parameters, and with each at the ends of its
+//! interval.
 //!
-//! A parameter that is strongly correlated with others is moved twice: alone, which the data may not allow, and with the others
-//! moved to where the data want them then.
+//! A parameter that is strongly correlated with others is moved twice: alone, which the data may not allow, and with
+//! the others moved to where the data want them then.
 
 use std::path::Path;
 

@@ -66,9 +66,9 @@ fn single_precision() {
     }
 }
 
-/// A fibre pressed to almost nothing in a section at rest, F = 1 − (1 − λ) m⊗m, along a diagonal of the axes: λ² is lost in
-/// 1 + (λ² − 1), and J/λ has the rounding of both. Exact values come from F's own entries, which are all known: with d on the diagonal
-/// and −o beside it F m = (d − 2o) m.
+/// A fibre pressed to almost nothing in a section at rest, F = 1 − (1 − λ) m⊗m, along a diagonal of the axes: λ² is
+/// lost in 1 + (λ² − 1), and J/λ has the rounding of both. Exact values come from F's own entries, which are all known:
+/// with d on the diagonal and −o beside it F m = (d − 2o) m.
 #[test]
 fn a_fibre_pressed_flat_along_a_diagonal() {
     for power in 1..=26 {

@@ -1,8 +1,8 @@
 //! The stress is the derivative of the energy: S = 2 ∂W/∂C, mode by mode, with W written from the thesis's invariants.
 //!
-//! W(C) stands in `law::thesis` as Eq. 4.9–4.15 print it. Here it is computed in 320 binary digits, where the cancellations of
-//! acosh x and of I5/I4² − 1 do no harm, and differentiated by central differences of step 2^-80, whose own error is far below
-//! a double's. The thesis's own stress, Eq. 4.14, is held against the same differences.
+//! W(C) stands in `law::thesis` as Eq. 4.9–4.15 print it. Here it is computed in 320 binary digits, where the
+//! cancellations of acosh x and of I5/I4² − 1 do no harm, and differentiated by central differences of step 2^-80,
+//! whose own error is far below a double's. The thesis's own stress, Eq. 4.14, is held against the same differences.
 
 use nalgebra::{Matrix3, Vector3};
 use proptest::prelude::*;

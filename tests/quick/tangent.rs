@@ -1,5 +1,5 @@
-//! The tangents of the hyperelastic law: against the truth table, against dual numbers through the law's own generic code,
-//! against central differences as each host would perturb, and what is said of kinks, failure and bad points.
+//! The tangents of the hyperelastic law: against the truth table, against dual numbers through the law's own generic
+//! code, against central differences as each host would perturb, and what is said of kinks, failure and bad points.
 
 use std::collections::BTreeMap;
 
@@ -183,7 +183,8 @@ fn dual_numbers() {
 // ---------------------------------------------------------------------------------------------------------------------
 // Central differences, as each host perturbs
 
-/// What a host differentiates: the change of its stress for a change of size h of its strain, and what the tangent says.
+/// What a host differentiates: the change of its stress for a change of size h of its strain, and what the tangent
+/// says.
 type Difference<'a> = (&'a str, Box<dyn Fn(f64) -> Matrix3<f64> + 'a>, Matrix3<f64>);
 
 #[test]
@@ -456,8 +457,8 @@ proptest! {
 // ---------------------------------------------------------------------------------------------------------------------
 // Blocks
 
-/// A block's tangents at every level are those of its points alone, to rounding; nothing is written beside them; what is
-/// left out is nothing.
+/// A block's tangents at every level are those of its points alone, to rounding; nothing is written beside them; what
+/// is left out is nothing.
 fn blocks<T: Number>(tolerance: f64) {
     let points: Vec<_> = samples((states(), stiffness()), 37).collect();
     let law = Hyperelastic::<T>::new(&[80.0, 1.25, 2.2, 0.5, 0.25, 0.3, 0.0, 0.0, 1.0, 0.0, 0.0].map(T::splat))
@@ -540,8 +541,8 @@ fn blocks_of_points() {
     blocks::<f32>(1e-3);
 }
 
-/// dP/dF keeps its digits where the images of the axes across the fibre are nearly parallel: two entries, of a section sheared by 78
-/// and of fibres sheared by 63 beside it, computed in 50 digits.
+/// dP/dF keeps its digits where the images of the axes across the fibre are nearly parallel: two entries, of a section
+/// sheared by 78 and of fibres sheared by 63 beside it, computed in 50 digits.
 #[test]
 fn nominal_of_a_flattened_section() {
     let law =

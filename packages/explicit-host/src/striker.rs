@@ -9,7 +9,7 @@ use super::lanes::Number;
 
 /// A rigid body that moves along one axis.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-pub struct Projectile {
+pub struct Striker {
     pub mass: f64,
     /// Where its centre is on that axis, and its velocity along it.
     pub position: f64,
@@ -23,9 +23,9 @@ pub struct Projectile {
     pub moved: f64,
 }
 
-impl Projectile {
+impl Striker {
     pub fn new(mass: f64, position: f64, velocity: f64, held: bool, contacts: Vec<Contact>) -> Self {
-        Projectile { mass, position, velocity, held, contacts, force: 0.0, moved: 0.0 }
+        Striker { mass, position, velocity, held, contacts, force: 0.0, moved: 0.0 }
     }
 
     /// Adds the forces of its contact to those of the bodies, after a step of this length.
@@ -48,7 +48,7 @@ impl Projectile {
     }
 
     /// A bound of the square of the frequency that the penalty adds: every spring has a node at one end and at the
-    /// other a share of the projectile, in proportion to its stiffness.
+    /// other a share of the striker, in proportion to its stiffness.
     pub fn frequency(&self) -> f64 {
         let touching: f64 = self.contacts.iter().map(|contact| contact.touching).sum();
         let own = if self.held { 0.0 } else { touching / self.mass };
