@@ -49,6 +49,7 @@ impl UserMaterial for NeoHooke {
         alive: 2,
         energies: 0..1,
         reads_old_gradient: false,
+        lost: None,
         refusal: None,
     };
     type Properties<R: Real> = [R; 1];

@@ -104,6 +104,7 @@ impl UserMaterial for Bare {
         alive: 1,
         energies: 0..0,
         reads_old_gradient: false,
+        lost: None,
         refusal: None,
     };
     type Properties<R: Real> = [R; 1];
@@ -131,6 +132,7 @@ impl UserMaterial for Families {
         alive: 1,
         energies: 0..0,
         reads_old_gradient: false,
+        lost: None,
         refusal: None,
     };
     type Properties<R: Real> = [R; 8];
@@ -166,6 +168,7 @@ impl UserMaterial for Viscous {
         alive: 2,
         energies: 0..0,
         reads_old_gradient: true,
+        lost: None,
         refusal: None,
     };
     type Properties<R: Real> = [R; 3];

@@ -6,8 +6,8 @@ use super::error::Error;
 use super::number::real::Real;
 use super::parameters::{self, FIBRE, LINEAR_FIBRE, LINEAR_SECOND_AXIS, Property};
 use super::state::{
-    self, ALIVE, ENERGIES, FAILED, FRICTIONAL_ALIVE, FRICTIONAL_FAILED, INVARIANTS, LINEAR_ALIVE, LINEAR_FAILED,
-    LINEAR_WORK, StateVariable,
+    self, ALIVE, ENERGIES, FAILED, FRICTIONAL_ALIVE, FRICTIONAL_FAILED, FRICTIONAL_LOST, INVARIANTS, LINEAR_ALIVE,
+    LINEAR_FAILED, LINEAR_WORK, StateVariable,
 };
 use super::status::LAW;
 
@@ -26,6 +26,8 @@ pub struct Description {
     pub failed: usize,
     pub alive: usize,
     pub energies: Range<usize>,
+    /// Index into the state: the energy lost since the start, per reference volume, of a law that loses any.
+    pub lost: Option<usize>,
     /// Whether a step depends on F at its start.
     pub reads_old_gradient: bool,
     /// Of a law that may refuse a point by a status of its own: why, as messages have it where that is
@@ -74,6 +76,7 @@ pub const HYPERELASTIC: Description = Description {
     alive: ALIVE,
     energies: ENERGIES..INVARIANTS,
     reads_old_gradient: false,
+    lost: None,
     refusal: None,
 };
 
@@ -87,6 +90,7 @@ pub const FRICTIONAL: Description = Description {
     alive: FRICTIONAL_ALIVE,
     energies: ENERGIES..INVARIANTS,
     reads_old_gradient: false,
+    lost: Some(FRICTIONAL_LOST),
     refusal: None,
 };
 
@@ -103,6 +107,7 @@ pub const LINEAR_ELASTIC: Description = Description {
     alive: LINEAR_ALIVE,
     energies: LINEAR_WORK..LINEAR_WORK + 1,
     reads_old_gradient: true,
+    lost: None,
     refusal: None,
 };
 
@@ -148,6 +153,11 @@ impl Description {
     pub fn energy<T: Real>(&self, state: &[T]) -> T {
         let energies = state.get(self.energies.clone()).unwrap_or_default().iter().copied();
         energies.reduce(|sum, energy| sum + energy).unwrap_or(T::splat(0.0))
+    }
+
+    /// The energy lost per reference volume of a state; 0 of a law that loses none.
+    pub fn lost_energy<T: Real>(&self, state: &[T]) -> T {
+        self.lost.and_then(|place| state.get(place)).copied().unwrap_or(T::splat(0.0))
     }
 
     /// How many numbers a host keeps for a point: the state, and these entries of F.

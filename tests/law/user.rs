@@ -50,6 +50,7 @@ impl UserMaterial for Damaged {
         alive: 4,
         energies: 0..1,
         reads_old_gradient: true,
+        lost: None,
         refusal: None,
     };
     type Properties<R: Real> = [R; 2];

@@ -176,6 +176,7 @@ mod panicking {
             alive: 1,
             energies: 0..0,
             reads_old_gradient: false,
+            lost: None,
             refusal: None,
         };
         type Properties<R: Real> = [R; 1];

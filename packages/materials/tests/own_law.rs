@@ -251,6 +251,7 @@ impl UserMaterial for Crossed {
         alive: 1,
         energies: 0..0,
         reads_old_gradient: false,
+        lost: None,
         refusal: None,
     };
     type Properties<R: Real> = [R; 7];

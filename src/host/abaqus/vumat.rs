@@ -119,8 +119,8 @@ unsafe fn vumat<L: Law<T>, T: Precision>(block: *const Vumat<T>) -> Result<i32, 
     // SAFETY: arrays of `nblock` points, which are not null, with the components that `Vumat` says; here and in the functions below.
     unsafe {
         for i in 0..n {
-            // State variables beyond those of the law are copied as they are, and the inelastic energy, which the law does not
-            // read, is kept, or 0 where it is not finite.
+            // State variables beyond those of the law are copied as they are, and the inelastic energy is kept, or 0 where
+            // it is not finite.
             for c in L::DESCRIPTION.state.len()..block.nstatev as usize {
                 at!(block.state_new, block, c, i) = at!(block.state_old, block, c, i);
             }
@@ -288,10 +288,18 @@ unsafe fn finish<L: Law<T>, T: Precision>(block: &Vumat<T>, i: usize, code: i32)
         for c in energies {
             energy += at!(block.state_new, block, c, i);
         }
-        let specific = energy / (*block.density.add(i) * volume);
-        // If the deformation or the density is invalid, the energy keeps its old value.
-        let known = zero.lt(volume) && (specific * zero).le(zero);
-        *block.ener_intern_new.add(i) = if known { specific } else { finite(*block.ener_intern_old.add(i)) };
+        let mass = *block.density.add(i) * volume;
+        // If the deformation or the density is invalid, an energy keeps its old value.
+        let per_mass = |energy: T, old: T| {
+            let specific = energy / mass;
+            let known = zero.lt(volume) && (specific * zero).le(zero);
+            if known { specific } else { finite(old) }
+        };
+        *block.ener_intern_new.add(i) = per_mass(energy, *block.ener_intern_old.add(i));
+        if let Some(lost) = L::DESCRIPTION.lost {
+            *block.ener_inelas_new.add(i) =
+                per_mass(at!(block.state_new, block, lost, i), *block.ener_inelas_old.add(i));
+        }
     }
 }
 

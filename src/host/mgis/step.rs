@@ -136,6 +136,9 @@ unsafe fn evaluate<L: Law<f64>>(view: &BehaviourDataView, options: Options, plan
         }
         if options.integrates {
             results.store_step(&stress, &state, L::DESCRIPTION.energy(state.as_ref()));
+            if L::DESCRIPTION.lost.is_some() && !view.s1.dissipated_energy.is_null() {
+                *view.s1.dissipated_energy = L::DESCRIPTION.lost_energy(state.as_ref());
+            }
         }
     }
     Ok(status::OK)

@@ -22,7 +22,7 @@ pub struct StateView {
     pub mass_density: *const f64,
     pub material_properties: *const f64,
     pub internal_state_variables: *mut f64,
-    /// The energies may be null; that which is dissipated is neither read nor written.
+    /// The energies may be null; that which is dissipated is written by a law that loses energy, and never read.
     pub stored_energy: *mut f64,
     pub dissipated_energy: *mut f64,
     pub external_state_variables: *const f64,

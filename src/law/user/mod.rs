@@ -206,6 +206,9 @@ pub(crate) const fn check_tables<M: UserMaterial>() {
         energies.start <= energies.end && energies.end <= own,
         "the energies are among the law's own state variables"
     );
+    if let Some(lost) = M::DESCRIPTION.lost {
+        assert!(lost < own, "the energy lost is among the law's own state variables");
+    }
     assert!(directions.len() <= MOST_DIRECTIONS, "a law has at most three directions");
     let mut i = 0;
     while i < directions.len() {

@@ -48,6 +48,7 @@ impl UserMaterial for ReinforcedSolid {
         failed: 2,
         alive: 3,
         reads_old_gradient: false,
+        lost: None,
         refusal: None,
     };
     type Properties<R: Real> = [R; 7];

@@ -56,6 +56,9 @@ pub fn summary(path: &LoadPath, history: &History) -> String {
             let stored = material.energy(&last.answer.memory) * path.element.volume();
             let kept = if history.failure.is_some() { "frozen at failure" } else { "stored" };
             work += &format!("; {kept} {} {unit}", number(stored));
+            if let Some(lost) = material.lost_energy(&last.answer.memory) {
+                work += &format!(", lost {} {unit}", number(lost * path.element.volume()));
+            }
         }
         line("work on the element", work);
     }

@@ -264,6 +264,12 @@ impl Material {
         memory.state[self.law.name().description().energies.clone()].iter().sum()
     }
 
+    /// Energy lost per reference volume; `None` of a law that loses none.
+    pub fn lost_energy(&self, memory: &Memory) -> Option<f64> {
+        let law = self.law.name().description();
+        law.lost.map(|_| law.lost_energy(&memory.state))
+    }
+
     /// Whether the law counts energies.
     pub fn has_energy(&self) -> bool {
         !self.law.name().description().energies.is_empty()
