@@ -20,7 +20,7 @@ macro_rules! library_laws {
                 "linear-elastic", "linear elastic law", "LINEARELASTIC", "ToronLinearElastic", user 2, umat 43
             }
             Frictional {
-                "frictional", "yarn law with friction", "FRICTIONAL", "ToronFrictional", user 3, umat 45
+                "frictional", "yarn law with friction", "FRICTIONAL", "ToronFrictional", user 3, umat 0
             }
         }
     };
@@ -38,7 +38,7 @@ pub struct LibraryLaw {
     pub behaviour: &'static str,
     /// OpenRadioss: nn of `/MAT/USERnn`.
     pub user: i32,
-    /// LS-DYNA: the material's number that cards are written with.
+    /// LS-DYNA: the material's number that cards are written with; 0: no routine of libtoron has the law.
     pub umat: u32,
 }
 
