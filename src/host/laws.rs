@@ -4,7 +4,6 @@
 use crate::law::description::Description;
 use crate::law::interface::Law;
 use crate::law::parameters::same;
-use crate::{Hyperelastic, LinearElastic};
 
 /// Calls a macro with the laws of the library behind the tokens in braces: for each its type, and in braces its names,
 /// in the order of [`LibraryLaw`].
@@ -44,7 +43,7 @@ macro_rules! rows {
         $name:literal, $title:literal, $symbol:literal, $behaviour:literal, user $user:literal, umat $umat:literal
     })+) => {
         pub static LAWS: [LibraryLaw; [$($user),+].len()] = [$(LibraryLaw {
-            description: const { &<$law<f64> as Law<f64>>::DESCRIPTION },
+            description: const { &<crate::$law<f64> as Law<f64>>::DESCRIPTION },
             name: $name,
             symbol: $symbol,
             behaviour: $behaviour,
@@ -52,7 +51,7 @@ macro_rules! rows {
             umat: $umat,
         }),+];
 
-        $(const _: () = assert!(same($title, <$law<f64> as Law<f64>>::DESCRIPTION.title), "the title of a law");)+
+        $(const _: () = assert!(same($title, <crate::$law<f64> as Law<f64>>::DESCRIPTION.title), "the title of a law");)+
     };
 }
 

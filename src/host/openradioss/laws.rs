@@ -158,7 +158,7 @@ macro_rules! listed {
     ) => {
         impl MyReal for $t {
             const TORON: Laws<$t> = Laws::new(
-                &[Material::of::<$first<$t>>($first_user), $(Material::of::<$law<$t>>($user)),*],
+                &[Material::of::<crate::$first<$t>>($first_user), $(Material::of::<crate::$law<$t>>($user)),*],
                 concat!(
                     $first_user, " (USER0", $first_user, ", ", $first_title, ")",
                     $(", ", $user, " (USER0", $user, ", ", $title, ")"),*
