@@ -152,7 +152,7 @@ impl UserMaterial for Families {
             let a = image(&step.f, m);
             let [x, y, z] = scale(over * (dot(a, a) - one), a);
             let pairs = [x * a[0], y * a[1], z * a[2], x * a[1], y * a[2], z * a[0]];
-            stress.iter_mut().zip(pairs).for_each(|(stress, of_fibres)| *stress = *stress + of_fibres);
+            stress.iter_mut().zip(pairs).for_each(|(stress, of_fibres)| *stress += of_fibres);
         }
         Response::new(stress, [])
     }
@@ -730,7 +730,7 @@ fn a_law_may_refuse_a_point() {
     let n = stretches.len();
     let f: Vec<f64> =
         (0..9).flat_map(|c| stretches.iter().map(move |&x| if c == 0 { x } else { f64::from(c % 4 == 0) })).collect();
-    for (tangents, level) in [false, true].into_iter().flat_map(|t| levels().into_iter().map(move |level| (t, level))) {
+    for (tangents, level) in [false, true].into_iter().flat_map(|t| levels().map(move |level| (t, level))) {
         let (mut stress, mut codes, mut active, mut tangent) =
             (vec![f64::NAN; 6 * n], vec![1; n], vec![7.0; n], vec![f64::NAN; 36 * n]);
         let stress_ = stress.as_mut_ptr();

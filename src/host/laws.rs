@@ -4,7 +4,6 @@
 use crate::law::description::Description;
 use crate::law::interface::Law;
 use crate::law::parameters::same;
-use crate::{Frictional, Hyperelastic, LinearElastic};
 
 /// Calls a macro with the laws of the library behind the tokens in braces: for each its type, and in braces its names,
 /// in the order of [`LibraryLaw`].
@@ -47,7 +46,7 @@ macro_rules! rows {
         $name:literal, $title:literal, $symbol:literal, $behaviour:literal, user $user:literal, umat $umat:literal
     })+) => {
         pub static LAWS: [LibraryLaw; [$($user),+].len()] = [$(LibraryLaw {
-            description: const { &<$law<f64> as Law<f64>>::DESCRIPTION },
+            description: const { &<crate::$law<f64> as Law<f64>>::DESCRIPTION },
             name: $name,
             symbol: $symbol,
             behaviour: $behaviour,
@@ -55,7 +54,7 @@ macro_rules! rows {
             umat: $umat,
         }),+];
 
-        $(const _: () = assert!(same($title, <$law<f64> as Law<f64>>::DESCRIPTION.title), "the title of a law");)+
+        $(const _: () = assert!(same($title, <crate::$law<f64> as Law<f64>>::DESCRIPTION.title), "the title of a law");)+
     };
 }
 

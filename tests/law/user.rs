@@ -192,9 +192,8 @@ fn run_in_rows<M: UserMaterial, T: Precision + Default>(
         if let Some(fibre) = &given.fibre {
             row[starts[2]..][..3].copy_from_slice(&fibre[i]);
         }
-        for start in if in_place { 4..5 } else { 3..4 } {
-            row[starts[start]..][..variables].copy_from_slice(&given.state[i]);
-        }
+        let old = starts[if in_place { 4 } else { 3 }];
+        row[old..][..variables].copy_from_slice(&given.state[i]);
     }
     let (mut speed, mut active, mut status) = (vec![T::default(); n], vec![T::default(); n], vec![1; n]);
     let base = rows.as_mut_ptr();

@@ -97,7 +97,7 @@ impl<R: Real, S: Array<R>> Input<R, S> {
         }
         check = step.jacobian.mul_add(zero, wave_modulus.mul_add(zero, check)) + other;
         if refusal.is_some() {
-            check = check - response.status; // a code is negative
+            check -= response.status; // a code is negative
         }
         let mut not_inverted = zero.lt(step.jacobian);
         if reads_old_gradient {

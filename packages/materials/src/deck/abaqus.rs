@@ -22,6 +22,11 @@ pub enum Solver {
     Both,
 }
 
+/// Whether the tangent is known not to be symmetric: of the linear elastic law, and of laws that lose energy.
+fn is_unsymmetric(material: &Material) -> bool {
+    material.law == LawName::LinearElastic || material.law.description().lost.is_some()
+}
+
 /// # Errors
 /// The material has no density.
 pub fn card(material: &Material, solver: Solver) -> Result<String, Error> {
@@ -29,7 +34,7 @@ pub fn card(material: &Material, solver: Solver) -> Result<String, Error> {
     match solver {
         Solver::Standard => {
             card += "** Abaqus/Standard: *STEP, NLGEOM=YES. It deletes no failed elements.\n";
-            if let LawName::Own(_) = material.law {
+            if matches!(material.law, LawName::Own(_)) && !is_unsymmetric(material) {
                 card += UNSYMMETRIC;
             }
         }
@@ -37,17 +42,15 @@ pub fn card(material: &Material, solver: Solver) -> Result<String, Error> {
         Solver::Both => {
             card += "** Abaqus/Standard: *STEP, NLGEOM=YES. It deletes no failed elements; DELETE is for Explicit.\n";
             match material.law {
-                LawName::Hyperelastic => {}
-                LawName::LinearElastic => card += "** Abaqus/Standard: *USER MATERIAL, CONSTANTS=..., UNSYMM.\n",
+                _ if is_unsymmetric(material) => card += "** Abaqus/Standard: *USER MATERIAL, CONSTANTS=..., UNSYMM.\n",
+                LawName::Hyperelastic | LawName::LinearElastic => {}
                 LawName::Own(_) => card += UNSYMMETRIC,
             }
             card += &deletion(material);
         }
     }
     let _ = write!(card, "*MATERIAL, NAME={}\n*DENSITY\n{},\n", name(material), short(material.density()?, WIDE));
-    // The tangent of the linear elastic law is not symmetric.
-    let unsymmetric = solver == Solver::Standard && material.law == LawName::LinearElastic;
-    card += &constants(material, if unsymmetric { ", UNSYMM" } else { "" });
+    card += &constants(material, if solver == Solver::Standard && is_unsymmetric(material) { ", UNSYMM" } else { "" });
     let delete = match solver {
         Solver::Standard => String::new(),
         Solver::Explicit | Solver::Both => format!(", DELETE={}", material.law.description().alive + 1),
