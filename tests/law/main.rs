@@ -8,5 +8,6 @@ mod linear_block;
 mod linear_elastic;
 mod parameters;
 mod properties;
+mod tangent;
 mod user;
 mod wave_speed;
