@@ -16,7 +16,7 @@ use crate::law::wave_speed;
 /// What a point with friction has remembered; 0 without an old state.
 ///
 /// # Safety
-/// As for [`sweep`], for the lanes from i on.
+/// As for [`sweep`](super::kernel::sweep), for the lanes from i on.
 #[inline(always)]
 pub(super) unsafe fn remembered<T: Scalar, R: Lanes<T>>(block: &Points<T>, i: usize) -> Slip<R> {
     let old = block.state_old[FAILURE];
@@ -34,7 +34,7 @@ pub(super) unsafe fn remembered<T: Scalar, R: Lanes<T>>(block: &Points<T>, i: us
 /// The columns of F.
 ///
 /// # Safety
-/// As for [`sweep`], for the lanes from i on.
+/// As for [`sweep`](super::kernel::sweep), for the lanes from i on.
 #[inline(always)]
 pub(super) unsafe fn gradient<T, R: Lanes<T>>(block: &Points<T>, i: usize) -> [[R; 3]; 3] {
     let f = &block.f_new;
@@ -51,7 +51,7 @@ pub(super) unsafe fn gradient<T, R: Lanes<T>>(block: &Points<T>, i: usize) -> [[
 /// The material frame, that of the properties or those of the points, and where it is usable.
 ///
 /// # Safety
-/// As for [`sweep`], for the lanes from i on.
+/// As for [`sweep`](super::kernel::sweep), for the lanes from i on.
 #[inline(always)]
 pub(super) unsafe fn frame<T, R: Lanes<T>, const WANT: u8>(
     law: &Hyperelastic<R>,
@@ -82,7 +82,7 @@ pub(super) struct Outcome<R: Real> {
 /// without waiting.
 ///
 /// # Safety
-/// As for [`sweep`], for the lanes from i on.
+/// As for [`sweep`](super::kernel::sweep), for the lanes from i on.
 #[inline(always)]
 pub(super) unsafe fn respond<T: Scalar, R: Lanes<T>, const WANT: u8>(
     law: &Hyperelastic<R>,
@@ -133,7 +133,7 @@ pub(super) unsafe fn respond<T: Scalar, R: Lanes<T>, const WANT: u8>(
 /// The latch of the old state.
 ///
 /// # Safety
-/// As for [`sweep`], for the lanes from i on.
+/// As for [`sweep`](super::kernel::sweep), for the lanes from i on.
 #[inline(always)]
 pub(super) unsafe fn latch<T, R: Lanes<T>, const WANT: u8>(block: &Points<T>, i: usize) -> R {
     let absent = if WANT & ANY != 0 { block.state_old[FAILURE].is_null() } else { WANT & STATE == 0 };
@@ -147,7 +147,7 @@ pub(super) unsafe fn latch<T, R: Lanes<T>, const WANT: u8>(block: &Points<T>, i:
 /// The limits of points that have their own, where the failure is computed.
 ///
 /// # Safety
-/// As for [`sweep`], for the lanes from i on.
+/// As for [`sweep`](super::kernel::sweep), for the lanes from i on.
 #[inline(always)]
 pub(super) unsafe fn limit<T, R: Lanes<T>, const WANT: u8>(block: &Points<T>, i: usize) -> Option<R> {
     let limited = if WANT & ANY != 0 { !block.limits(FAILURE).is_null() } else { WANT & LIMITS != 0 };
@@ -161,7 +161,7 @@ pub(super) unsafe fn limit<T, R: Lanes<T>, const WANT: u8>(block: &Points<T>, i:
 /// Stores the tangent of the intact material. Returns 0 where all its entries are finite, else NaN.
 ///
 /// # Safety
-/// As for [`sweep`], for the lanes from i on of a block that requests the tangent.
+/// As for [`sweep`](super::kernel::sweep), for the lanes from i on of a block that requests the tangent.
 #[inline(always)]
 pub(super) unsafe fn store_tangent<T: Scalar, R: Lanes<T>>(
     point: Deformed<'_, R>,
@@ -219,7 +219,7 @@ pub(super) unsafe fn clear_tangent<T: Scalar, R: Lanes<T>>(block: &Points<T>, i:
 /// cannot be evaluated, or its old state is not finite.
 ///
 /// # Safety
-/// As for [`sweep`], for the lanes from i on, after [`respond`].
+/// As for [`sweep`](super::kernel::sweep), for the lanes from i on, after [`respond`].
 #[inline(always)]
 pub(super) unsafe fn add_to_check<T: Scalar, R: Lanes<T>, const WANT: u8>(
     block: &Points<T>,
@@ -258,7 +258,7 @@ pub(super) struct Evaluated<'a, R: Real> {
 /// Stores the new state of the points that have one and the latch of all. Returns 1 for the points that are active, else 0.
 ///
 /// # Safety
-/// As for [`sweep`], for the lanes from i on, after [`respond`].
+/// As for [`sweep`](super::kernel::sweep), for the lanes from i on, after [`respond`].
 #[inline(always)]
 pub(super) unsafe fn store_state<T: Scalar, R: Lanes<T>, const WANT: u8>(
     law: &Hyperelastic<R>,
@@ -361,7 +361,7 @@ pub(super) fn old_entries<T, const WANT: u8>(block: &Points<T>, i: usize) -> [(b
 /// The status codes of the points that have failed before or cannot be evaluated; 0 for the others.
 ///
 /// # Safety
-/// As for [`sweep`], for the lanes from i on, after [`respond`] and before [`reset_invalid`].
+/// As for [`sweep`](super::kernel::sweep), for the lanes from i on, after [`respond`] and before [`reset_invalid`].
 #[inline(always)]
 pub(super) unsafe fn status_code<T: Scalar, R: Lanes<T>, const WANT: u8>(
     law: &Hyperelastic<R>,
@@ -393,7 +393,7 @@ pub(super) unsafe fn status_code<T: Scalar, R: Lanes<T>, const WANT: u8>(
 /// that they keep.
 ///
 /// # Safety
-/// As for [`sweep`], for the lanes from i on, after [`status_code`] and before [`store_state`].
+/// As for [`sweep`](super::kernel::sweep), for the lanes from i on, after [`status_code`] and before [`store_state`].
 #[inline(always)]
 pub(super) unsafe fn reset_invalid<T: Scalar, R: Lanes<T>, const WANT: u8>(
     block: &Points<T>,

@@ -148,8 +148,8 @@ pub struct Response<R: Real, S> {
     pub state: S,
     /// Where the point has failed in this step; [`Real::never`] for a law without failure.
     pub failed: R::Mask,
-    /// 0, or why the point cannot be evaluated, a code of [`status`](crate::status): [`LAW`](status::LAW), which means
-    /// what the description's `refusal` says, [`SMALLER_STEP`](status::SMALLER_STEP), or another one. Such a point
+    /// 0, or why the point cannot be evaluated, a code of [`status`]: [`status::LAW`], which means
+    /// what the description's `refusal` says, [`status::SMALLER_STEP`], or another one. Such a point
     /// keeps its old state. Read only of a law whose description has a refusal.
     pub status: R,
 }
