@@ -60,7 +60,7 @@ macro_rules! mgis {
                 $crate::mgis! { @ $name, "InternalStateVariables", STATE_LIST: [__toron::Text; STATE] = __toron::texts(&STATE_NAMES) }
                 $crate::mgis! { @ $name, "InternalStateVariablesTypes", STATE_TYPES: [i32; STATE] = [0; STATE] }
                 $crate::mgis! { @ $name, "ComputesInternalEnergy", STORES_ENERGY: u16 = 1 }
-                $crate::mgis! { @ $name, "ComputesDissipatedEnergy", DISSIPATES_ENERGY: u16 = 0 }
+                $crate::mgis! { @ $name, "ComputesDissipatedEnergy", DISSIPATES_ENERGY: u16 = LAW.lost.is_some() as u16 }
 
                 // None of these; the lists must exist all the same. MGIS and MTest themselves add the temperature.
                 $crate::mgis! { @ $name, "nExternalStateVariables", EXTERNAL_COUNT: u16 = 0 }
