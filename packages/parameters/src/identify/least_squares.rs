@@ -6,7 +6,9 @@
 
 use levenberg_marquardt::TerminationReason::{LostPatience, Numerical};
 use levenberg_marquardt::{LeastSquaresProblem, LevenbergMarquardt};
-use nalgebra::{DMatrix, DVector, Dyn, U1, VecStorage};
+use nalgebra::{DMatrix, DVector};
+use nalgebra_of_least_squares as algebra;
+use nalgebra_of_least_squares::{Dyn, U1, VecStorage};
 
 use super::data::DataSet;
 use super::parameter::{PARAMETERS, Parameter, Values};
@@ -182,7 +184,7 @@ impl LeastSquaresProblem<f64, Dyn, Dyn> for Problem<'_> {
     type JacobianStorage = VecStorage<f64, Dyn, Dyn>;
     type ParameterStorage = VecStorage<f64, Dyn, U1>;
 
-    fn set_params(&mut self, scaled: &DVector<f64>) {
+    fn set_params(&mut self, scaled: &algebra::DVector<f64>) {
         for ((parameter, scale), value) in self.free.iter().zip(&self.scales).zip(scaled) {
             self.unknown[parameter.index()] = value * scale;
         }
@@ -200,22 +202,22 @@ impl LeastSquaresProblem<f64, Dyn, Dyn> for Problem<'_> {
         }
     }
 
-    fn params(&self) -> DVector<f64> {
+    fn params(&self) -> algebra::DVector<f64> {
         let scaled =
             self.free.iter().zip(&self.scales).map(|(parameter, scale)| self.unknown[parameter.index()] / scale);
-        DVector::from_iterator(self.free.len(), scaled)
+        algebra::DVector::from_iterator(self.free.len(), scaled)
     }
 
-    fn residuals(&self) -> Option<DVector<f64>> {
+    fn residuals(&self) -> Option<algebra::DVector<f64>> {
         let weighted = self.residuals.iter().zip(self.data.weights).map(|(r, weight)| weight.sqrt() * r);
-        Some(DVector::from_iterator(self.residuals.len(), weighted))
+        Some(algebra::DVector::from_iterator(self.residuals.len(), weighted))
     }
 
-    fn jacobian(&self) -> Option<DMatrix<f64>> {
+    fn jacobian(&self) -> Option<algebra::DMatrix<f64>> {
         let entry = |row: usize, column: usize| {
             let gradient = self.gradients[(row, self.free[column].index())];
             self.data.weights[row].sqrt() * gradient * self.scales[column]
         };
-        self.refused.is_none().then(|| DMatrix::from_fn(self.residuals.len(), self.free.len(), entry))
+        self.refused.is_none().then(|| algebra::DMatrix::from_fn(self.residuals.len(), self.free.len(), entry))
     }
 }

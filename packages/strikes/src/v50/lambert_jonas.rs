@@ -1,7 +1,7 @@
 //! Residual over striking speed: Lambert and Jonas's (1976) curve v_r = a (v_s^p − v_l^p)^(1/p), by least squares.
 
 use levenberg_marquardt::{LeastSquaresProblem, LevenbergMarquardt};
-use nalgebra::{Dyn, Matrix, OVector, Owned, U1, U3, Vector3};
+use nalgebra_of_least_squares::{Dyn, Matrix, OVector, Owned, U1, U3, Vector3};
 
 /// A curve of three parameters says something beside as many perforations, at least.
 pub const FEWEST: usize = 4;
