@@ -50,13 +50,10 @@ module toron
   integer(c_int32_t), parameter :: toron_module_abi_version = 2
   integer(c_int32_t), parameter :: toron_hyperelastic = 0
   integer(c_int32_t), parameter :: toron_linear_elastic = 1
-  integer(c_int32_t), parameter :: toron_frictional = 2
   integer(c_int32_t), parameter :: toron_hyperelastic_properties = 11
   integer(c_int32_t), parameter :: toron_hyperelastic_state = 11
   integer(c_int32_t), parameter :: toron_linear_elastic_properties = 10
   integer(c_int32_t), parameter :: toron_linear_elastic_state = 10
-  integer(c_int32_t), parameter :: toron_frictional_properties = 13
-  integer(c_int32_t), parameter :: toron_frictional_state = 15
   integer(c_int32_t), parameter :: toron_rotation_fibre = 0
   integer(c_int32_t), parameter :: toron_rotation_polar = 1
   integer(c_int32_t), parameter :: toron_rotation_spin = 2

@@ -167,11 +167,6 @@
 #define TORON_LINEAR_ELASTIC 1
 
 /*
- Selects the yarn law with friction in these functions; it has no others in C yet.
- */
-#define TORON_FRICTIONAL 2
-
-/*
  Number of properties and of state variables of the hyperelastic law.
  */
 #define TORON_HYPERELASTIC_PROPERTIES 11
@@ -184,13 +179,6 @@
 #define TORON_LINEAR_ELASTIC_PROPERTIES 10
 
 #define TORON_LINEAR_ELASTIC_STATE 10
-
-/*
- Number of properties and of state variables of the law with friction.
- */
-#define TORON_FRICTIONAL_PROPERTIES 13
-
-#define TORON_FRICTIONAL_STATE 15
 
 /*
  Linear elastic law: the material frame follows the fibre.
@@ -1259,11 +1247,9 @@ int32_t toron_abi_version(void);
 int32_t toron_status_message(int32_t status, char *message, size_t capacity);
 
 /*
- The number of properties of a law (`TORON_HYPERELASTIC`, `TORON_LINEAR_ELASTIC`, `TORON_FRICTIONAL`), or `TORON_UNKNOWN_NAME`.
+ The number of properties of a law (`TORON_HYPERELASTIC`, `TORON_LINEAR_ELASTIC`), or `TORON_UNKNOWN_NAME`.
  */
-int32_t toron_property_count(int32_t law,
-                             char *message,
-                             size_t capacity);
+int32_t toron_property_count(int32_t law, char *message, size_t capacity);
 
 /*
  Writes the table row of property `index`, counted from 0, to `row`, whose `size` is set.

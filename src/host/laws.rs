@@ -18,9 +18,6 @@ macro_rules! library_laws {
             LinearElastic {
                 "linear-elastic", "linear elastic law", "LINEARELASTIC", "ToronLinearElastic", user 2, umat 43
             }
-            Frictional {
-                "frictional", "yarn law with friction", "FRICTIONAL", "ToronFrictional", user 3, umat 0
-            }
         }
     };
 }
@@ -37,7 +34,7 @@ pub struct LibraryLaw {
     pub behaviour: &'static str,
     /// OpenRadioss: nn of `/MAT/USERnn`.
     pub user: i32,
-    /// LS-DYNA: the material's number that cards are written with; 0: no routine of libtoron has the law.
+    /// LS-DYNA: the material's number that cards are written with.
     pub umat: u32,
 }
 

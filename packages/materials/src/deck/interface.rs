@@ -11,8 +11,8 @@ use crate::material::laws::{LawName, Names};
 pub struct Interface {
     /// What Abaqus's names of materials begin with; `None` where the counts of properties and state variables tell the laws apart.
     pub abaqus: Option<&'static str>,
-    /// LS-DYNA's number of the material, and with it of the routine: `umat41`; `None` of a law that no routine has.
-    pub ls_dyna: Option<u32>,
+    /// LS-DYNA's number of the material, and with it of the routine: `umat41`.
+    pub ls_dyna: u32,
     /// CalculiX's name of the material: `@`, the library's name without `lib` and `.so`, `_`, the law's.
     pub calculix: String,
     /// MGIS's and MTest's library, and name of the behaviour.
@@ -28,7 +28,7 @@ impl Interface {
         match law.names() {
             Names::Library(&LibraryLaw { symbol, behaviour, user, umat, .. }) => Interface {
                 abaqus: None,
-                ls_dyna: (umat > 0).then_some(umat),
+                ls_dyna: umat,
                 calculix: format!("@TORON_{symbol}"),
                 library: "libtoron_mgis.so",
                 behaviour,
@@ -37,7 +37,7 @@ impl Interface {
             },
             Names::Own(law) => Interface {
                 abaqus: Some(law.symbol),
-                ls_dyna: Some(41),
+                ls_dyna: 41,
                 calculix: format!("@OWN_{}", law.symbol),
                 library: "libOWN.so",
                 behaviour: law.symbol,

@@ -24,7 +24,7 @@ pub enum Fibre {
 }
 
 /// # Errors
-/// The material has no density; no routine has its law, and no number is given.
+/// The material has no density.
 pub fn card(material: &Material, id: u32, number: Option<u32>, fibre: Fibre) -> Result<String, Error> {
     let (interface, table, density) = (material.interface(), material.table(), material.density()?);
     let mut values = material.values.clone();
@@ -52,13 +52,7 @@ pub fn card(material: &Material, id: u32, number: Option<u32>, fibre: Fibre) -> 
     if !rounded.is_empty() {
         card += &format!("$ rounded to the columns of a field: {}\n", rounded.join(", "));
     }
-    let Some(number) = number.or(interface.ls_dyna) else {
-        return Err(Error::Input(format!(
-            "law {}: no routine of libtoron for LS-DYNA has it; allowed: a library of your own that has, and --mt for its number",
-            material.law.text()
-        )));
-    };
-    let [id, mt] = [id, number].map(|number| number.to_string());
+    let [id, mt] = [id, number.unwrap_or(interface.ls_dyna)].map(|number| number.to_string());
     let [lmc, bulk, shear, nhv] = [count + 2, count + 1, count + 2, history].map(|number| number.to_string());
     let numbers = [&id, &number_of(density), &mt, &lmc, &nhv, ortho, &bulk, &shear].map(str::to_string);
     card += &lines("mid ro mt lmc nhv iortho ibulk ig", &numbers);
