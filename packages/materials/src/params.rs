@@ -105,10 +105,6 @@ fn property_table(properties: &[Property], units: &UnitSystem) -> String {
         let bound = match (property.minimum.is_finite(), property.minimum_excluded) {
             (false, _) => "any".to_string(),
             (true, true) => format!("> {}, to {:?}", property.minimum, property.maximum),
-            // The number next to 1.
-            (true, false) if property.maximum > 0.999_999 && property.maximum < 1.0 => {
-                format!("{}, below 1", property.minimum)
-            }
             (true, false) => format!("{} to {:?}", property.minimum, property.maximum),
         };
         let default = property.default.map_or("-".to_string(), |value| value.to_string());

@@ -22,11 +22,6 @@ pub enum Solver {
     Both,
 }
 
-/// Whether the tangent is known not to be symmetric: of the linear elastic law, and of laws that lose energy.
-fn is_unsymmetric(material: &Material) -> bool {
-    material.law == LawName::LinearElastic || material.law.description().lost.is_some()
-}
-
 /// # Errors
 /// The material has no density.
 pub fn card(material: &Material, solver: Solver) -> Result<String, Error> {
@@ -34,7 +29,7 @@ pub fn card(material: &Material, solver: Solver) -> Result<String, Error> {
     match solver {
         Solver::Standard => {
             card += "** Abaqus/Standard: *STEP, NLGEOM=YES. It deletes no failed elements.\n";
-            if matches!(material.law, LawName::Own(_)) && !is_unsymmetric(material) {
+            if let LawName::Own(_) = material.law {
                 card += UNSYMMETRIC;
             }
         }
@@ -42,15 +37,17 @@ pub fn card(material: &Material, solver: Solver) -> Result<String, Error> {
         Solver::Both => {
             card += "** Abaqus/Standard: *STEP, NLGEOM=YES. It deletes no failed elements; DELETE is for Explicit.\n";
             match material.law {
-                _ if is_unsymmetric(material) => card += "** Abaqus/Standard: *USER MATERIAL, CONSTANTS=..., UNSYMM.\n",
-                LawName::Hyperelastic | LawName::LinearElastic => {}
+                LawName::Hyperelastic => {}
+                LawName::LinearElastic => card += "** Abaqus/Standard: *USER MATERIAL, CONSTANTS=..., UNSYMM.\n",
                 LawName::Own(_) => card += UNSYMMETRIC,
             }
             card += &deletion(material);
         }
     }
     let _ = write!(card, "*MATERIAL, NAME={}\n*DENSITY\n{},\n", name(material), short(material.density()?, WIDE));
-    card += &constants(material, if solver == Solver::Standard && is_unsymmetric(material) { ", UNSYMM" } else { "" });
+    // The tangent of the linear elastic law is not symmetric.
+    let unsymmetric = solver == Solver::Standard && material.law == LawName::LinearElastic;
+    card += &constants(material, if unsymmetric { ", UNSYMM" } else { "" });
     let delete = match solver {
         Solver::Standard => String::new(),
         Solver::Explicit | Solver::Both => format!(", DELETE={}", material.law.description().alive + 1),
