@@ -6,7 +6,7 @@ mod baselines;
 mod report;
 
 use std::path::{Path, PathBuf};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use baselines::{eigen, fortran, literal};
 use criterion::Criterion;
@@ -21,6 +21,7 @@ use toron::law::thesis::Yarn;
 use toron_materials::bench::command::{SIZES, processor, properties};
 use toron_materials::bench::entries::{Answer, Entry, each_point};
 use toron_materials::bench::scene::Scene;
+use toron_materials::bench::timing::in_turn;
 use toron_test_support::truth::{Case, cases};
 
 /// Every row is measured this often, in turn with the others, so that what disturbs one moment disturbs all.
@@ -68,7 +69,7 @@ fn main() {
     };
     let rows = implementations.iter().zip(timings).map(row).collect();
     let mut report = Report::new(Machine::new(processor(), compiler), SIZES.to_vec(), rows);
-    report.compare(|above, below, n| in_turn(&kernels[above], &kernels[below], n));
+    report.compare(|above, below, n| ratios(&kernels[above], &kernels[below], n));
     print!("\n{}", report.summary());
     report.write(&Path::new(env!("CARGO_MANIFEST_DIR")).join("results")).expect("the results are written");
 }
@@ -186,22 +187,15 @@ fn timings(implementations: &[Implementation], kernels: &[Kernel]) -> Vec<Vec<Qu
     timings
 }
 
-/// The ratios of the times of two kernels called in turn: a clock that wanders slows both calls of a pair alike. An untimed call
-/// before each leaves the caches as the kernel itself leaves them.
-fn in_turn(above: &Kernel, below: &Kernel, n: usize) -> Quartiles {
+/// The ratios of the times of two kernels called in turn.
+fn ratios(above: &Kernel, below: &Kernel, n: usize) -> Quartiles {
     let (mut double, mut single) = (Scene::impact(n), Scene::impact(n));
-    let mut call = |kernel: &Kernel| match kernel {
+    let call = |side: usize| match [above, below][side] {
         Kernel::Double(run) => run(&mut double),
         Kernel::Single(run) => run(&mut single),
     };
-    let mut seconds = |kernel: &Kernel| {
-        call(kernel);
-        let start = Instant::now();
-        call(kernel);
-        start.elapsed().as_secs_f64()
-    };
-    let pairs = (PAIRED / n).max(LEAST_PAIRS);
-    Quartiles::new((0..pairs).map(|_| seconds(above) / seconds(below)).collect())
+    let times = in_turn(call, [1, 1], (PAIRED / n).max(LEAST_PAIRS));
+    Quartiles::new(times.into_iter().map(|[above, below]| above / below).collect())
 }
 
 /// Nanoseconds a call of every sample of a row in a round.

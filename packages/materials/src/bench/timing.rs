@@ -1,4 +1,4 @@
-//! How calls are timed, for `toron bench` and `cargo bench`.
+//! How `toron bench` times calls, and how it and `cargo bench` time two in turn.
 
 use std::time::{Duration, Instant};
 
