@@ -6,8 +6,9 @@
 //! to an extremum without a gradient or a step length; starts from many directions about the current frame find all
 //! extrema.
 
+use super::axes::FibreFrame;
 use super::hyperelastic::Hyperelastic;
-use super::kinematics::{Decomposition, FibreFrame, Kinematics, Logarithms, Section, Strain, Stretch};
+use super::kinematics::{Decomposition, Kinematics, Logarithms, Section, Strain, Stretch};
 use super::number::real::Real;
 use super::number::vector::{along, dot, scale};
 use super::response::Request;

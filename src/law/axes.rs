@@ -1,10 +1,12 @@
-//! The axes that a deformation gradient is referred to: the coordinate axes, or a fibre direction and two axes across it.
+//! The axes that a deformation gradient is referred to: the coordinate axes, or a fibre direction and two axes across
+//! it.
 
 use super::kinematics::Stretch;
 use super::number::real::Real;
 use super::number::vector::{accurate_cross, along, dot, image, scale};
 
-/// Three axes to which a deformation gradient is referred: the fibre direction and two across it, n1 = m, n2 = t1, n3 = t2.
+/// Three axes to which a deformation gradient is referred: the fibre direction and two across it, n1 = m, n2 = t1, n3 =
+/// t2.
 pub trait Axes<R: Real>: Copy {
     /// Whether these are the coordinate axes.
     const ALONG_COORDINATES: bool;
@@ -24,7 +26,8 @@ pub trait Axes<R: Real>: Copy {
     fn product(&self, x: &Image<R>, y: &Image<R>, chi: R, axis: usize) -> R;
 }
 
-/// The image of an axis n: F n (`whole`) and (F − χ1) n (`rest`). Near the reference the latter has digits that F n has lost.
+/// The image of an axis n: F n (`whole`) and (F − χ1) n (`rest`). Near the reference the latter has digits that F n has
+/// lost.
 #[derive(Clone, Copy)]
 pub struct Image<R> {
     pub(super) whole: [R; 3],
@@ -99,10 +102,11 @@ impl<R: Real> FibreFrame<R> {
         let usable = zero.lt(square) & square.lt(R::splat(1e31));
         let length = R::select(usable, square, one).sqrt();
         let m = [direction[0] / length, direction[1] / length, direction[2] / length];
-        // Two axes across m, without a branch and without loss of digits for m near −x (Duff et al., J. Comput. Graph. Tech.
-        // 6(1), 2017). For m along the first coordinate axis they are the other two coordinate axes.
-        // Their second and third component are 1 − m2²/(1 + |m1|) and 1 − m3²/(1 + |m1|). With |m|² = 1 that of the larger of the two
-        // squares is a sum of positive numbers, which keeps its digits for m near that axis, where the difference cancels.
+        // Two axes across m, without a branch and without loss of digits for m near −x (Duff et al., J. Comput. Graph.
+        // Tech. 6(1), 2017). For m along the first coordinate axis they are the other two coordinate axes. Their second
+        // and third component are 1 − m2²/(1 + |m1|) and 1 − m3²/(1 + |m1|). With |m|² = 1 that of the larger of the
+        // two squares is a sum of positive numbers, which keeps its digits for m near that axis, where the difference
+        // cancels.
         let sign = R::select(m[0].lt(zero), -one, one);
         let size = m[0].abs();
         let a = one / (one + size);
@@ -151,8 +155,9 @@ impl<R: Real> Axes<R> for FibreFrame<R> {
     fn shifted(&self, v: [R; 3], s: R, axis: usize) -> [R; 3] {
         along(v, s, self.axis(axis))
     }
-    /// From the images where J_t = J/λ keeps more digits so. The image of the fibre has an error of |F|/λ roundings, and so has λ.
-    /// In J from the images that error is the same, and cancels in J/λ; there remains that of the other two images, at most
+    /// From the images where J_t = J/λ keeps more digits so. The image of the fibre has an error of |F|/λ roundings,
+    /// and so has λ. In J from the images that error is the same, and cancels in J/λ; there remains that of the other
+    /// two images, at most
     /// |F|²/J_t. Else, and where the sign is in question, from the columns, which have no error. Of an image that is short beside
     /// F, whether the fibre is pressed or its section blown up, it makes the difference between all digits and none.
     #[inline(always)]
@@ -169,8 +174,8 @@ impl<R: Real> Axes<R> for FibreFrame<R> {
     }
 }
 
-/// u·(v × w). With accurate minors it is as accurate as the entries allow; with ordinary ones it would lose most of its digits if a
-/// section is sheared and compacted.
+/// u·(v × w). With accurate minors it is as accurate as the entries allow; with ordinary ones it would lose most of its
+/// digits if a section is sheared and compacted.
 #[inline(always)]
 fn triple_product<R: Real>([u, v, w]: [[R; 3]; 3]) -> R {
     dot(u, accurate_cross(v, w))

@@ -1,7 +1,7 @@
 //! The derivative that a call for one point computes besides stress and state: none, or one of the tangents.
 
+use super::axes::FibreFrame;
 use super::hyperelastic::Deformed;
-use super::kinematics::FibreFrame;
 use super::number::real::Real;
 use super::response::Request;
 use super::tangent::{Bases, Measure};

@@ -1,31 +1,33 @@
-//! The yarn law with friction between the fibres of a section: the hyperelastic law, whose distortion holds only as far as fibres that
-//! are pressed together hold it.
+//! The yarn law with friction between the fibres of a section: the hyperelastic law, whose distortion holds only as far
+//! as fibres that are pressed together hold it.
 //!
-//! Seen along the fibres, a section is a granular medium in two dimensions: discs that keep no shape unless they are pressed together.
-//! Compaction gives their pressure p_t, distortion the deviator q = ½ k_td I_te, half the difference of the section's principal Kirchhoff
-//! stresses. The fibres slide over one another where q would exceed what friction holds (Mohr and Coulomb, in the plane):
+//! Seen along the fibres, a section is a granular medium in two dimensions: discs that keep no shape unless they are
+//! pressed together. Compaction gives their pressure p_t, distortion the deviator q = ½ k_td I_te, half the difference
+//! of the section's principal Kirchhoff stresses. The fibres slide over one another where q would exceed what friction
+//! holds (Mohr and Coulomb, in the plane):
 //!
 //! ```text
 //! q ≤ µ p_t + c        µ = sin φ of the bundle, c a cohesion, p_t = (p/2) k_tc ⟨−I_tc⟩^(p−1)
 //! ```
 //!
-//! Sliding changes the shape of the section at constant area, and its work is lost. What has slid is G, a symmetric tensor of the reference
-//! section with determinant 1, kept as two state variables d1 and d2:
+//! Sliding changes the shape of the section at constant area, and its work is lost. What has slid is G, a symmetric
+//! tensor of the reference section with determinant 1, kept as two state variables d1 and d2:
 //!
 //! ```text
 //! G = [g + d1, d2; d2, g − d1],  g = √(1 + d1² + d2²);      G = V Vᵀ,  det V = 1,  (w1, w2) = (a, b) V
 //! ```
 //!
-//! with the images a and b of `kinematics`. All that the hyperelastic law says about the distortion holds of w1 and w2 in their place, with
-//! I_te in place of I_td. Where q exceeds the limit it returns to it in closed form, along the geodesic of G to the inverse of the shape
-//! that the section has: with s = sinh 2 I_te and I_max = 2 (µ p_t + c)/k_td
+//! with the images a and b of `kinematics`. All that the hyperelastic law says about the distortion holds of w1 and w2
+//! in their place, with I_te in place of I_td. Where q exceeds the limit it returns to it in closed form, along the
+//! geodesic of G to the inverse of the shape that the section has: with s = sinh 2 I_te and I_max = 2 (µ p_t + c)/k_td
 //!
 //! ```text
 //! d ← [sinh(2 I_max) d − sinh(2 (I_te − I_max)) (½(a·a − b·b), a·b)/J_t]/s,      I_te ← I_max
 //! w_fr ← w_fr + ½ k_td (I_max + max(I_max, min(I_te, I_te,old))) (I_te − I_max)
 //! ```
 //!
-//! Left out: dilatancy (so that µ is what the fibres lose, not q/p_t at the peak), friction of fibres along each other, and the rate.
+//! Left out: dilatancy (so that µ is what the fibres lose, not q/p_t at the peak), friction of fibres along each other,
+//! and the rate.
 
 use super::block::{PARTS, Points, Precision, evaluate};
 use super::bounds::check;
@@ -40,7 +42,9 @@ use super::parameters::{self, FRICTIONAL_PROPERTIES, HYPERELASTIC_PROPERTIES};
 use super::state::{FRICTIONAL_PARTS, FRICTIONAL_STATE};
 use super::status;
 
-/// The law: that without friction, and the friction.
+/// The law, prepared from its thirteen properties: the hyperelastic law, and the friction. Points are evaluated by
+/// [`Law::step`]; their state is the fifteen variables of [`state::FRICTIONAL`](super::state::FRICTIONAL), all 0 at the
+/// start.
 #[derive(Clone, Copy, Debug)]
 pub struct Frictional<R = f64> {
     pub(super) elastic: Hyperelastic<R>,
@@ -201,7 +205,8 @@ impl<R: Real> Friction<R> {
         self.mu
     }
 
-    /// What holds of the distortion, from the strain of the section `elastic` before the return and the factors of its stress.
+    /// What holds of the distortion, from the strain of the section `elastic` before the return and the factors of its
+    /// stress.
     #[inline(always)]
     pub fn hold(&self, law: &Hyperelastic<R>, elastic: &Section<R>, trial: &Strain<R>, k: &Kirchhoff<R>) -> Hold<R> {
         let limit = self.mu.mul_add(k.pressure, self.cohesion);
@@ -216,7 +221,8 @@ impl<R: Real> Friction<R> {
         }
     }
 
-    /// The slip after the return, where the fibres slide; `section` is the whole one, `elastic` that of which the distortion is held.
+    /// The slip after the return, where the fibres slide; `section` is the whole one, `elastic` that of which the
+    /// distortion is held.
     #[inline(always)]
     pub fn slid(
         &self,

@@ -1,16 +1,17 @@
-//! The tangents of the law with friction: those of the hyperelastic law in the axes that the slip has left, and what makes them
-//! unsymmetric where the fibres slide (`docs/reference/theory.md`).
+//! The tangents of the law with friction: those of the hyperelastic law in the axes that the slip has left, and what
+//! makes them unsymmetric where the fibres slide (`docs/reference/theory.md`).
 
+use super::axes::FibreFrame;
 use super::hyperelastic::{Deformed, Hyperelastic, Kirchhoff};
-use super::kinematics::{FibreFrame, Kinematics, Section, Slid};
+use super::kinematics::{Kinematics, Section, Slid};
 use super::number::real::Real;
 use super::number::vector::dot;
 use super::tangent::{Bases, Measure, Orthogonal, Shape, sum};
 use super::voigt::{VOIGT, combination, square, symmetric_product};
 
 impl<R: Real> Deformed<'_, R> {
-    /// The tangent of a 6×6 measure of a section that may slide. It is not symmetric where the fibres slide: what friction holds grows
-    /// with the pressure, so that D̂ follows the area, but the pressure does not follow the shape.
+    /// The tangent of a 6×6 measure of a section that may slide. It is not symmetric where the fibres slide: what
+    /// friction holds grows with the pressure, so that D̂ follows the area, but the pressure does not follow the shape.
     #[inline(always)]
     pub fn sliding_moduli(self, slid: &Slid<'_, R>, n: &FibreFrame<R>, measure: Measure) -> [[R; 6]; 6] {
         let (k, alone) = (self.k.without_shear(), ShearAlone::new(self));

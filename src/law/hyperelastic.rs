@@ -6,23 +6,25 @@
 //! τ = k_el ⟨I_el⟩ e⊗e  −  (p/2) k_tc ⟨−I_tc⟩^(p−1) P  +  (k_td/4)(2 I_td/ŝ) D̂  +  (k_ld/λ⁴)(u⊗c1 + c1⊗u)
 //! ```
 //!
-//! with e = c1/λ, P = 1 − e⊗e, D̂ = a⊗a + b⊗b − t̂ P the deviator of the section, u = h2 a + h3 b, and the other quantities as
-//! in `kinematics`. It is the law that [`thesis`](super::thesis) states, with its Eq. 4.14 pushed forward, without its quotient 0/0:
-//! 2 I_td/ŝ is smooth through ŝ = 0.
+//! with e = c1/λ, P = 1 − e⊗e, D̂ = a⊗a + b⊗b − t̂ P the deviator of the section, u = h2 a + h3 b, and the other
+//! quantities as in `kinematics`. It is the law that [`thesis`](super::thesis) states, with its Eq. 4.14 pushed
+//! forward, without its quotient 0/0: 2 I_td/ŝ is smooth through ŝ = 0.
 //!
-//! `Kirchhoff` holds the four factors of τ. They are multiplied out twice: `cauchy` sums the modes in the axes of space, which is
-//! what a solver needs of every point, and `modes` keeps them apart and pulls them back to the reference placement, with the
-//! decomposition of F that `cauchy` does without. The tangents take D̂ and u from the same two functions of `kinematics` as `cauchy`.
+//! `Kirchhoff` holds the four factors of τ. They are multiplied out twice: `cauchy` sums the modes in the axes of
+//! space, which is what a solver needs of every point, and `modes` keeps them apart and pulls them back to the
+//! reference placement, with the decomposition of F that `cauchy` does without. The tangents take D̂ and u from the
+//! same two functions of `kinematics` as `cauchy`.
 
+use super::axes::FibreFrame;
 use super::failure::Failure;
-use super::kinematics::{Decomposition, FibreFrame, Kinematics, Strain, Stretch};
+use super::kinematics::{Decomposition, Kinematics, Strain, Stretch};
 use super::number::elementary::{Exponent, Power};
 use super::number::real::Real;
 use super::number::vector::scale;
 use super::voigt::{square, sum, symmetric_product as product};
 
-/// The properties by name, in any one consistent system of units. Hosts pass the same numbers as an array, in the order of
-/// [`parameters::HYPERELASTIC`](super::parameters::HYPERELASTIC), which also gives their bounds.
+/// The properties by name, in any one consistent system of units. Hosts pass the same numbers as an array, in the order
+/// of [`parameters::HYPERELASTIC`](super::parameters::HYPERELASTIC), which also gives their bounds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Properties<T> {
     /// Elongation stiffness, a stress.
@@ -53,8 +55,8 @@ pub struct Hyperelastic<R = f64> {
     pub(super) k_ld: R,
     /// p − 1, the exponent of the compaction stress.
     pub(super) exponent: Exponent<R>,
-    /// For a compaction of at most `limited_below`, W″ is replaced by `limited_curvature`: its formula would give infinity or
-    /// 0/0.
+    /// For a compaction of at most `limited_below`, W″ is replaced by `limited_curvature`: its formula would give
+    /// infinity or 0/0.
     pub(super) limited_below: R,
     pub(super) limited_curvature: R,
     pub(super) failure: Failure<R>,
@@ -124,11 +126,11 @@ impl<R: Real> Hyperelastic<R> {
         }
     }
 
-    /// Cauchy stress σ = τ/J, 11 22 33 12 23 31, of the intact points; 0 at points that have failed, undefined at points that
-    /// cannot be evaluated.
+    /// Cauchy stress σ = τ/J, 11 22 33 12 23 31, of the intact points; 0 at points that have failed, undefined at
+    /// points that cannot be evaluated.
     ///
-    /// The modes are summed before they are multiplied out: with the tension t, the pressure p, the factor f of the deviator,
-    /// d = f d̂ and v' = (f/(a·a)) v, see [`Section`](super::kinematics::Section),
+    /// The modes are summed before they are multiplied out: with the tension t, the pressure p, the factor f of the
+    /// deviator, d = f d̂ and v' = (f/(a·a)) v, see [`Section`](super::kinematics::Section),
     ///
     /// ```text
     /// J σ = −(p + d) 1 + (t + p + d) e⊗e + a⊗v' + v'⊗a + (k_ld/λ⁴)(u⊗c1 + c1⊗u)

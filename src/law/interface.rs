@@ -1,12 +1,12 @@
 //! What a host asks of a law: its description, its preparation from properties, and a step at many points. A host that
 //! is written for any [`Law`] names none.
 
+use super::axes::FibreFrame;
 pub use super::block::Points;
 use super::block::{PARTS, Precision, evaluate, parts};
 use super::description::{self, Description};
 use super::error::Error;
 use super::hyperelastic::Hyperelastic;
-use super::kinematics::FibreFrame;
 use super::linear_elastic::LinearElastic;
 use super::state::{HYPERELASTIC_PARTS, HYPERELASTIC_STATE, LINEAR_ELASTIC_STATE};
 

@@ -1,5 +1,5 @@
-//! The kinematics: from the deformation gradient to the four deformation modes and to the quantities that the stress needs,
-//! without cancellation.
+//! The kinematics: from the deformation gradient to the four deformation modes and to the quantities that the stress
+//! needs, without cancellation.
 //!
 //! With N = (m, t1, t2) the fibre and any two transverse axes, c_i = F n_i are the images of the axes. The fibre gives
 //!
@@ -8,8 +8,8 @@
 //! h_j = c1·c_j          longitudinal shear, I_ld = √(h2² + h3²)/λ²
 //! ```
 //!
-//! and the parts of the other two images that are orthogonal to it, a = c2 − (h2/λ²) c1 and b = c3 − (h3/λ²) c1, make the
-//! section:
+//! and the parts of the other two images that are orthogonal to it, a = c2 − (h2/λ²) c1 and b = c3 − (h3/λ²) c1, make
+//! the section:
 //!
 //! ```text
 //! J_t² = (a·a)(b·b) − (a·b)²    area ratio, I_tc = ¼ ln J_t²
@@ -18,24 +18,25 @@
 //!
 //! The stress needs no inverse, no eigenvector, no quotient 0/0, and no root but that of ŝ².
 //!
-//! Near the reference the strains are differences of nearly equal numbers. There H = F − 1 is exact in floating point, and
-//! C − 1 follows from H without cancellation; elsewhere the sums over F itself round best. One formula covers both,
+//! Near the reference the strains are differences of nearly equal numbers. There H = F − 1 is exact in floating point,
+//! and C − 1 follows from H without cancellation; elsewhere the sums over F itself round best. One formula covers both,
 //! C_ij = χ δ_ij + g_i·g_j + χ (n_i·g_j + n_j·g_i) with g_i = (F − χ1) n_i, for χ = 1 and χ = 0: the choice is a
-//! number, not a branch. With δ2 = g2 − (h2/λ²) c1 the section has a = χ t1 + δ2 and x22 = a·a − χ = δ2·(a + χ t1),
-//! and b and x33 follow in the same way from δ3.
+//! number, not a branch. With δ2 = g2 − (h2/λ²) c1 the section has a = χ t1 + δ2 and x22 = a·a − χ = δ2·(a + χ t1), and
+//! b and x33 follow in the same way from δ3.
 //!
-//! The computation has several stages ([`Stretch`], [`Section`], [`Logarithms`], [`Strain`]). A block evaluates each stage for
-//! several points before the next one: within a stage the chain of dependent operations is short enough for the processor to
-//! overlap points, and divisions and roots come at its end, where no operation of the stage waits for them.
+//! The computation has several stages ([`Stretch`], [`Section`], [`Logarithms`], [`Strain`]). A block evaluates each
+//! stage for several points before the next one: within a stage the chain of dependent operations is short enough for
+//! the processor to overlap points, and divisions and roots come at its end, where no operation of the stage waits for
+//! them.
 
-pub use super::axes::{Axes, FibreFrame, FirstAxis, Image};
+use super::axes::{Axes, FibreFrame, Image};
 use super::number::elementary::{Asinh, Logarithm};
 use super::number::real::{Real, Single};
 use super::number::vector::{along, cross, dot, scale, select};
 
-/// F is near the reference if every entry of its diagonal is above this by more than the sum of the squares of the others. F − 1
-/// is exact from ½ on. With d the least entry of the diagonal, |F v| > (d − √(d − 0.6)) |v| ≥ 0.35 |v|: no direction is shortened so
-/// far that its strain, computed from F − 1, would cancel with 1.
+/// F is near the reference if every entry of its diagonal is above this by more than the sum of the squares of the
+/// others. F − 1 is exact from ½ on. With d the least entry of the diagonal, |F v| > (d − √(d − 0.6)) |v| ≥ 0.35 |v|:
+/// no direction is shortened so far that its strain, computed from F − 1, would cancel with 1.
 const NEAR_REFERENCE: f64 = 0.6;
 
 /// The first stage: determinant, fibre stretch and longitudinal shear.
@@ -56,8 +57,8 @@ pub struct Stretch<R: Real> {
 }
 
 impl<R: Real> Stretch<R> {
-    /// From `f` (columns of F) and the material axes. Also returns F m, (F − χ1) t1 and (F − χ1) t2, from which the section is
-    /// computed.
+    /// From `f` (columns of F) and the material axes. Also returns F m, (F − χ1) t1 and (F − χ1) t2, from which the
+    /// section is computed.
     ///
     /// Valid where [`Strain::nan_if_invalid`] is 0; the caller masks out the other points.
     #[inline(always)]
@@ -103,8 +104,9 @@ impl<R: Real> Stretch<R> {
 
 /// The second stage: the section across the fibre.
 ///
-/// Its deviator D̂ = a⊗a + b⊗b − t̂ P is computed as (a⊗v + v⊗a)/(a·a) − d̂ P, with [`deviator`](Self::deviator) for d̂ and
-/// [`beside_a`](Self::beside_a) for v, whose terms are all as small as ŝ: it keeps its digits if the section is hardly distorted.
+/// Its deviator D̂ = a⊗a + b⊗b − t̂ P is computed as (a⊗v + v⊗a)/(a·a) − d̂ P, with [`deviator`](Self::deviator) for d̂
+/// and [`beside_a`](Self::beside_a) for v, whose terms are all as small as ŝ: it keeps its digits if the section is
+/// hardly distorted.
 #[derive(Clone, Copy, Debug)]
 pub struct Section<R: Real> {
     /// ½(a·a − b·b), a·b and its square, a·a.
@@ -121,13 +123,13 @@ pub struct Section<R: Real> {
     rounding: R,
 }
 
-/// The fibres have slipped far where the square of their slip, (h2² + h3²)/λ², is above this times J_t²/t̂. That is once to twice the
-/// square of the section's shorter half axis, and each half axis of slip costs about a rounding.
+/// The fibres have slipped far where the square of their slip, (h2² + h3²)/λ², is above this times J_t²/t̂. That is
+/// once to twice the square of the section's shorter half axis, and each half axis of slip costs about a rounding.
 const FAR_SLIP: f64 = 4.0;
 
 impl<R: Real> Section<R> {
-    /// From F m, (F − χ1) t1 and (F − χ1) t2. Also returns a and b, the images of the transverse axes without their components
-    /// along the image of the fibre.
+    /// From F m, (F − χ1) t1 and (F − χ1) t2. Also returns a and b, the images of the transverse axes without their
+    /// components along the image of the fibre.
     #[inline(always)]
     pub fn new<A: Axes<R>>(d: &Stretch<R>, images: [[R; 3]; 3], n: &A) -> (Self, [[R; 3]; 2]) {
         Self::from_rests(d, Self::rests(d, images), n)
@@ -150,8 +152,9 @@ impl<R: Real> Section<R> {
         (R::splat(FAR_SLIP) * self.area_square).lt(d.slip_square * self.half_trace)
     }
 
-    /// As [`new`](Self::new), with a and b made orthogonal to the fibre once more where `far` holds: of their components along it
-    /// the rounding of (h/λ²) c1 is left, as many roundings of a as the slip is longer than a. The other lanes keep their bits.
+    /// As [`new`](Self::new), with a and b made orthogonal to the fibre once more where `far` holds: of their
+    /// components along it the rounding of (h/λ²) c1 is left, as many roundings of a as the slip is longer than a. The
+    /// other lanes keep their bits.
     #[inline(always)]
     pub fn orthogonal<A: Axes<R>>(d: &Stretch<R>, images: [[R; 3]; 3], n: &A, far: R::Mask) -> (Self, [[R; 3]; 2]) {
         Self::from_rests(d, Self::orthogonal_rests(d, images, n, far), n)
@@ -182,7 +185,8 @@ impl<R: Real> Section<R> {
         let b = Image { whole: n.shifted(delta_3, d.chi, 2), rest: delta_3 };
         let Products { x22, x33, x23, x23_square, sum, delta } = Products::new(&a, &b, d.chi, n);
 
-        // Where the section is near the reference, J_t² − 1 has more correct digits than J. With χ = 0 `near` never holds.
+        // Where the section is near the reference, J_t² − 1 has more correct digits than J. With χ = 0 `near` never
+        // holds.
         let growth = sum + x22.mul_add(x33, -x23_square);
         let ratio = d.jacobian * d.inverse_square * d.jacobian;
         let near = sum.lt(d.chi) & (-half).lt(growth);
@@ -202,8 +206,8 @@ impl<R: Real> Section<R> {
         (section, [a.whole, b.whole])
     }
 
-    /// The section of this area that is made of the images w1 and w2 of other axes: (w1, w2) = (a, b) V, det V = 1. `rests` are δ2 and
-    /// δ3. Also returns w1 and w2.
+    /// The section of this area that is made of the images w1 and w2 of other axes: (w1, w2) = (a, b) V, det V = 1.
+    /// `rests` are δ2 and δ3. Also returns w1 and w2.
     #[inline(always)]
     pub fn referred_to<A: Axes<R>>(
         &self,
@@ -214,7 +218,8 @@ impl<R: Real> Section<R> {
     ) -> (Self, [[R; 3]; 2]) {
         let (zero, half) = (R::splat(0.0), R::splat(0.5));
         let (a, b) = (n.shifted(delta_2, d.chi, 1), n.shifted(delta_3, d.chi, 2));
-        // Near 1, V − 1 has digits that V has lost, and w_i − χ n_i = δ_i + (V − 1) a_i. Elsewhere V and a are multiplied out.
+        // Near 1, V − 1 has digits that V has lost, and w_i − χ n_i = δ_i + (V − 1) a_i. Elsewhere V and a are
+        // multiplied out.
         let chi = R::select(v.near_one, d.chi, zero);
         let kept = R::select(v.near_one, R::splat(1.0), zero);
         let [[v11, v12], [v21, v22]] = v.times;
@@ -255,7 +260,8 @@ impl<R: Real> Section<R> {
     }
 }
 
-/// x_ij = a_i·a_j − χ δ_ij of the images a_2 and a_3 of two axes, and what follows from these: x23², x22 + x33 and ½(x22 − x33).
+/// x_ij = a_i·a_j − χ δ_ij of the images a_2 and a_3 of two axes, and what follows from these: x23², x22 + x33 and
+/// ½(x22 − x33).
 struct Products<R> {
     x22: R,
     x33: R,
@@ -299,14 +305,14 @@ pub struct Logarithms<R: Real> {
     stretch: Logarithm<R>,
     area: Logarithm<R>,
     distortion: Asinh<R>,
-    /// 0 where F is finite, has a positive determinant, and is neither too large nor too small for its strains to be computed,
-    /// else NaN.
+    /// 0 where F is finite, has a positive determinant, and is neither too large nor too small for its strains to be
+    /// computed, else NaN.
     pub nan_if_invalid: R,
 }
 
 impl<R: Real> Logarithms<R> {
-    /// The distortion of the section as the deformation makes it, beside the logarithms of one that has slid; these are valid only
-    /// where that is.
+    /// The distortion of the section as the deformation makes it, beside the logarithms of one that has slid; these are
+    /// valid only where that is.
     #[inline(always)]
     pub fn beside(&mut self, whole: &Section<R>) -> Asinh<R> {
         let (least, most) = (R::splat(R::SQUARES.0), R::splat(R::SQUARES.1));
@@ -325,9 +331,9 @@ impl<R: Real> Logarithms<R> {
             stretch,
             area,
             distortion,
-            // A NaN in F makes `growth` NaN, and with it the largest value, in which `growth` comes last. If the three images
-            // are almost parallel, a and b may vanish by cancellation although J does not. With a·a and `growth` in range J_t²
-            // is a normal number.
+            // A NaN in F makes `growth` NaN, and with it the largest value, in which `growth` comes last. If the three
+            // images are almost parallel, a and b may vanish by cancellation although J does not. With a·a and `growth`
+            // in range J_t² is a normal number.
             nan_if_invalid: R::select(
                 least.lt(d.jacobian.min(d.square).min(section.a_square))
                     & d.square.max(section.half_trace).max(d.slip_square).max(growth).lt(most),
@@ -349,8 +355,8 @@ pub struct Strain<R> {
     pub distortion_ratio: R,
     /// 1/(a·a), for the stress.
     pub inverse_a_square: R,
-    /// 0 where F is finite, has a positive determinant, and is neither too large nor too small for its strains to be computed,
-    /// else NaN.
+    /// 0 where F is finite, has a positive determinant, and is neither too large nor too small for its strains to be
+    /// computed, else NaN.
     pub nan_if_invalid: R,
 }
 
@@ -385,7 +391,8 @@ pub struct Kinematics<'a, R: Real> {
     /// F m, a and b.
     pub images: [[R; 3]; 3],
     pub strain: &'a Strain<R>,
-    /// Of a section whose fibres may have slid; section, a and b are then those of other axes, from which its distortion is computed.
+    /// Of a section whose fibres may have slid; section, a and b are then those of other axes, from which its
+    /// distortion is computed.
     pub slid: Option<&'a Slid<'a, R>>,
 }
 
@@ -457,8 +464,8 @@ impl<'a, R: Real> Kinematics<'a, R> {
 ///     ⎣ 0   0   r22 ⎦
 /// ```
 ///
-/// The deviator of B = P F Fᵀ P over J_t has the components (d1, d2; d2, −d1) on (q1, q2), with √(d1² + d2²) = s = sinh 2 I_td.
-/// The stress by mode and the wave speed need this decomposition; the stress itself does not.
+/// The deviator of B = P F Fᵀ P over J_t has the components (d1, d2; d2, −d1) on (q1, q2), with √(d1² + d2²) = s = sinh
+/// 2 I_td. The stress by mode and the wave speed need this decomposition; the stress itself does not.
 #[derive(Clone, Copy, Debug)]
 pub struct Decomposition<R> {
     pub e: [R; 3],

@@ -11,9 +11,9 @@
 
 use nalgebra::Matrix3;
 
+use super::axes::FibreFrame;
 use super::error::Error;
 use super::failure::Failure;
-use super::kinematics::FibreFrame;
 use super::number::real::Real;
 use super::number::vector::{
     Matrix, along, cofactors, cross, difference, dot, image, is_finite, product, scale, scaled, selected, square_norm,

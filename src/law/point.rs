@@ -4,11 +4,12 @@ use core::cell::Cell;
 
 use nalgebra::Matrix3;
 
+use super::axes::{Axes, FibreFrame, FirstAxis};
 use super::derivative::{Derivative, NineByNine, NoTangent, SixBySix};
 use super::error::{Error, Value};
 use super::failure::Failure;
 use super::hyperelastic::{Deformed, Hyperelastic};
-use super::kinematics::{Axes, FibreFrame, FirstAxis, Kinematics, Logarithms, Section, Strain, Stretch};
+use super::kinematics::{Kinematics, Logarithms, Section, Strain, Stretch};
 use super::number::elementary::Power;
 use super::number::level::Level;
 #[cfg(target_arch = "x86_64")]

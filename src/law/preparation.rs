@@ -1,10 +1,10 @@
 //! From properties to a law: their check against the tables, and what is derived from them once.
 
+use super::axes::FibreFrame;
 use super::bounds::{check, limits, within};
 use super::error::{Error, Value};
 use super::failure::Failure;
 use super::hyperelastic::{self, Hyperelastic};
-use super::kinematics::FibreFrame;
 use super::linear_elastic::{self, LinearElastic, axes_of};
 use super::number::elementary::{Exponent, power};
 use super::number::real::Real;

@@ -1,11 +1,12 @@
 //! Prepared laws as plain numbers: a host may store them, copy them and send them to other processes, and a law comes
 //! back from them without a check and without arithmetic.
 
+use super::axes::FibreFrame;
 use super::error::Error;
 use super::failure::Failure;
 use super::frictional::{Friction, Frictional};
 use super::hyperelastic::Hyperelastic;
-use super::kinematics::{FibreFrame, Strain};
+use super::kinematics::Strain;
 use super::linear_elastic::LinearElastic;
 use super::number::elementary::Exponent;
 use super::number::real::{Real, Single};

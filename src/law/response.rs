@@ -1,9 +1,10 @@
 //! The results of the law at a point: what a caller requests, and what becomes of it if the point fails or cannot be
 //! evaluated.
 
+use super::axes::FibreFrame;
 use super::failure::Failure;
 use super::hyperelastic::{Deformed, Hyperelastic, Kirchhoff};
-use super::kinematics::{Decomposition, FibreFrame, Kinematics, Strain, Stretch};
+use super::kinematics::{Decomposition, Kinematics, Strain, Stretch};
 use super::number::real::Real;
 use super::status;
 

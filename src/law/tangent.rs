@@ -17,8 +17,9 @@
 //! where c, a and b' are orthogonal (`Orthogonal`). There is no quotient 0/0, and the moduli are symmetric by
 //! construction: only the upper triangle is computed.
 
+use super::axes::FibreFrame;
 use super::hyperelastic::Deformed;
-use super::kinematics::{FibreFrame, Kinematics, Section, Slid, Stretch};
+use super::kinematics::{Kinematics, Section, Slid, Stretch};
 use super::number::real::Real;
 use super::number::vector::{along, cross, dot, image, scale};
 use super::voigt::{

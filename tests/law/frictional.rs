@@ -1,4 +1,5 @@
-//! The law with friction: against its truth table, against the hyperelastic law, and what is said of sliding, energy and hard cases.
+//! The law with friction: against its truth table, against the hyperelastic law, and what is said of sliding, energy
+//! and hard cases.
 
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
@@ -178,8 +179,8 @@ impl Case {
         state
     }
 
-    /// The worst error of stress, slip, I_te and w_fr along the path, in roundings of the value and of what roundings of the input do to
-    /// it; flags that are wrong although the limit is not near.
+    /// The worst error of stress, slip, I_te and w_fr along the path, in roundings of the value and of what roundings
+    /// of the input do to it; flags that are wrong although the limit is not near.
     fn score<T: Number>(&self, level: Level, margin: f64) -> ([f64; 4], usize) {
         let law = self.properties.law::<T>(self.m);
         // Alone, and as the last of some.
@@ -245,8 +246,8 @@ fn truth_in_double_precision() {
 
 #[test]
 fn truth_in_single_precision() {
-    // To aspects of the slip of a thousand, and where rounding F to single precision leaves the point on its side of the limit and of
-    // the kink at I_tc = 0.
+    // To aspects of the slip of a thousand, and where rounding F to single precision leaves the point on its side of
+    // the limit and of the kink at I_tc = 0.
     let resolved = |case: &Case| !["small", "limit"].contains(&case.family.as_str());
     assert_true::<f32>(2.0, 3e-4, |case| resolved(case) && case.before[0].hypot(case.before[1]) <= 500.0);
 }
@@ -694,8 +695,8 @@ fn wrong_properties_are_named() {
     assert!(Frictional::<f64>::new(&properties[..11]).is_err());
 }
 
-/// d1, d2, I_te and w_fr after so many steps of [`a_million_steps_drift_by_few_roundings`], in 40 digits by the formulas of
-/// docs/reference/theory.md.
+/// d1, d2, I_te and w_fr after so many steps of [`a_million_steps_drift_by_few_roundings`], in 40 digits by the
+/// formulas of docs/reference/theory.md.
 const DRIFT: [(u32, [f64; 4]); 3] = [
     (1_000, [-0.030_655_847_710_926_39, 0.021_636_067_606_001_67, 0.002_927_340_399_679_24, 0.032_322_418_342_170_27]),
     (100_000, [-0.031_629_441_457_502_47, 0.003_752_061_643_506_637, 0.006_945_760_235_457_081, 4.581_700_445_923_355]),

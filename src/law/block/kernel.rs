@@ -8,9 +8,10 @@ use super::outputs::{
 };
 use super::points::Points;
 use super::request::{ALIGNED, ANY, FIBRES, FRICTION, STATE, wants_tangent};
+use crate::law::axes::{Axes, FibreFrame, FirstAxis};
 use crate::law::frictional::{Friction, Hold, Slip};
 use crate::law::hyperelastic::{Hyperelastic, Kirchhoff};
-use crate::law::kinematics::{Axes, FibreFrame, FirstAxis, Kinematics, Logarithms, Section, Slid, Strain, Stretch};
+use crate::law::kinematics::{Kinematics, Logarithms, Section, Slid, Strain, Stretch};
 use crate::law::number::elementary::{Asinh, Power, Reduced};
 use crate::law::number::real::{Lanes, Real, Scalar, WIDEST};
 use crate::law::state::part::{ENERGIES, FAILURE, INVARIANTS};
@@ -18,15 +19,16 @@ use crate::law::status;
 
 /// The kernel. Returns the worst status code.
 ///
-/// If the points do not fill the last register, it holds the last COUNT points of the block, some of which the register before it
-/// holds too: both are in the same group, in which every old state is read before a new one is stored, so that both compute and
-/// store the same.
+/// If the points do not fill the last register, it holds the last COUNT points of the block, some of which the register
+/// before it holds too: both are in the same group, in which every old state is read before a new one is stored, so
+/// that both compute and store the same.
 ///
 /// # Safety
-/// The block is valid, see [`Points`], with at least COUNT points next to each other and its state in place; `WANT` requests nothing
-/// that the block has no array for; the processor has the lanes' instructions. The other functions of this file are called for such a
-/// block, and for the lanes from a point i on with i + COUNT ≤ n, as [`place`] gives them: the components of every array that is not
-/// null, and of every one that WANT requests, have COUNT values from i on.
+/// The block is valid, see [`Points`], with at least COUNT points next to each other and its state in place; `WANT`
+/// requests nothing that the block has no array for; the processor has the lanes' instructions. The other functions of
+/// this file are called for such a block, and for the lanes from a point i on with i + COUNT ≤ n, as [`place`] gives
+/// them: the components of every array that is not null, and of every one that WANT requests, have COUNT values from i
+/// on.
 #[inline(always)]
 pub(super) unsafe fn sweep<T: Scalar, R: Lanes<T>, const WANT: u8>(
     law: &Hyperelastic<T>,
@@ -47,8 +49,8 @@ pub(super) unsafe fn sweep<T: Scalar, R: Lanes<T>, const WANT: u8>(
             _ if left <= 2 * STAGED => left.div_ceil(2),
             _ => STAGED,
         };
-        // SAFETY: count ≤ STAGED, and (first + count − 1) COUNT < n, `registers` being n/COUNT rounded up; a group has two registers at
-        // least, unless it is the whole block.
+        // SAFETY: count ≤ STAGED, and (first + count − 1) COUNT < n, `registers` being n/COUNT rounded up; a group has
+        // two registers at least, unless it is the whole block.
         unsafe { evaluate::<T, R, WANT>(law, block, first * R::COUNT, count, &mut worst) };
         first += count;
         if first >= registers {
@@ -70,9 +72,9 @@ pub(crate) fn least_code<T, R: Lanes<T>>(codes: R) -> i32 {
     code
 }
 
-/// The number of registers of points that go through a stage before the next one. The operations of one point wait for one
-/// another, so that the processor needs several points to work on, and a whole evaluation is too long for it to look ahead to
-/// the next point.
+/// The number of registers of points that go through a stage before the next one. The operations of one point wait for
+/// one another, so that the processor needs several points to work on, and a whole evaluation is too long for it to
+/// look ahead to the next point.
 pub(super) const STAGED: usize = 6;
 
 /// The law, and the friction of one with [`FRICTION`].
@@ -108,8 +110,8 @@ impl<X> Stage<X> {
     }
 }
 
-/// The results that only the next stage reads. They share one place, since the results of all stages have to stay in the
-/// first-level cache together with the data of the points.
+/// The results that only the next stage reads. They share one place, since the results of all stages have to stay in
+/// the first-level cache together with the data of the points.
 #[derive(Clone, Copy)]
 union Step<R: Real> {
     logarithms: Logarithms<R>,
@@ -121,7 +123,8 @@ union Step<R: Real> {
 /// Evaluates `count` registers of points from `i` on, in the axes that the kernel is built for.
 ///
 /// # Safety
-/// As for [`sweep`], with count ≤ STAGED; i + (count − 1) COUNT < n, and if the last register is not full, there are two.
+/// As for [`sweep`], with count ≤ STAGED; i + (count − 1) COUNT < n, and if the last register is not full, there are
+/// two.
 #[inline(always)]
 unsafe fn evaluate<T: Scalar, R: Lanes<T>, const WANT: u8>(
     law: Yarn<'_, R>,
@@ -153,8 +156,8 @@ unsafe fn evaluate<T: Scalar, R: Lanes<T>, const WANT: u8>(
     }
 }
 
-/// The first point of register `k` of the group that begins at point `i`: of the last one, a point of the register before it if fewer
-/// than COUNT points are left.
+/// The first point of register `k` of the group that begins at point `i`: of the last one, a point of the register
+/// before it if fewer than COUNT points are left.
 #[inline(always)]
 fn place<T, R: Lanes<T>>(block: &Points<T>, i: usize, k: usize) -> usize {
     (i + k * R::COUNT).min(block.n - R::COUNT)
@@ -209,8 +212,8 @@ struct Group<'a, T, R, A> {
     axes: A,
 }
 
-/// The results of the stages of a group. Each is an array of its own: in one, a store to a stage would stand in the way of loads from
-/// the others.
+/// The results of the stages of a group. Each is an array of its own: in one, a store to a stage would stand in the way
+/// of loads from the others.
 struct Stages<'a, R: Real, K> {
     stretches: &'a mut Stage<Stretch<R>>,
     /// Images of the axes, as [`Axes::keep`] stores them.
@@ -261,9 +264,9 @@ unsafe fn staged<T: Scalar, R: Lanes<T>, A: GroupAxes<R>, const WANT: u8>(group:
         outcomes: &mut Stage::new(),
         slides: &mut slides,
     };
-    // If the block has no array for the status codes or the active points, these are stored to a scratch array, which costs less
-    // than a test at every store. They have WIDEST ≥ COUNT values for each k, and i ≤ at(k) ≤ i + k COUNT, so that i may be
-    // subtracted from their addresses.
+    // If the block has no array for the status codes or the active points, these are stored to a scratch array, which
+    // costs less than a test at every store. They have WIDEST ≥ COUNT values for each k, and i ≤ at(k) ≤ i + k COUNT,
+    // so that i may be subtracted from their addresses.
     let mut no_status = [MaybeUninit::<i32>::uninit(); STAGED * WIDEST];
     let status =
         if block.status.is_null() { no_status.as_mut_ptr().cast::<i32>().wrapping_sub(i) } else { block.status };

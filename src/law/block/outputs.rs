@@ -2,10 +2,11 @@
 
 use super::points::Points;
 use super::request::{ANY, FRICTION, I_TE, LIMITS, LOST, SLIP, STATE, index_row, request, shears, wants_tangent};
+use crate::law::axes::FibreFrame;
 use crate::law::failure::Failure;
 use crate::law::frictional::Slip;
 use crate::law::hyperelastic::{Deformed, Hyperelastic, Kirchhoff};
-use crate::law::kinematics::{FibreFrame, Kinematics, Strain, Stretch};
+use crate::law::kinematics::{Kinematics, Strain, Stretch};
 use crate::law::number::real::{Lanes, Real, Scalar};
 use crate::law::response::nan_unless_finite;
 use crate::law::state::part::{ENERGIES, FAILURE, INVARIANTS};
@@ -77,9 +78,9 @@ pub(super) struct Outcome<R: Real> {
     pub latch_or_nan: R,
 }
 
-/// Computes and stores the stress, modes, wave speed and tangent; those of invalid points are reset later. The state is stored
-/// in a stage of its own: each component is in a different memory page, and a processor can store to only a few pages at a time
-/// without waiting.
+/// Computes and stores the stress, modes, wave speed and tangent; those of invalid points are reset later. The state is
+/// stored in a stage of its own: each component is in a different memory page, and a processor can store to only a few
+/// pages at a time without waiting.
 ///
 /// # Safety
 /// As for [`sweep`](super::kernel::sweep), for the lanes from i on.
@@ -215,8 +216,8 @@ pub(super) unsafe fn clear_tangent<T: Scalar, R: Lanes<T>>(block: &Points<T>, i:
     }
 }
 
-/// Returns `check` plus the contribution of a register. The sum is not finite if one of the points needs [`reset_invalid`]: it
-/// cannot be evaluated, or its old state is not finite.
+/// Returns `check` plus the contribution of a register. The sum is not finite if one of the points needs
+/// [`reset_invalid`]: it cannot be evaluated, or its old state is not finite.
 ///
 /// # Safety
 /// As for [`sweep`](super::kernel::sweep), for the lanes from i on, after [`respond`].
@@ -255,7 +256,8 @@ pub(super) struct Evaluated<'a, R: Real> {
     pub friction: Option<Remembered<'a, R>>,
 }
 
-/// Stores the new state of the points that have one and the latch of all. Returns 1 for the points that are active, else 0.
+/// Stores the new state of the points that have one and the latch of all. Returns 1 for the points that are active,
+/// else 0.
 ///
 /// # Safety
 /// As for [`sweep`](super::kernel::sweep), for the lanes from i on, after [`respond`].
@@ -331,7 +333,8 @@ pub(super) fn prefetch<T, R: Lanes<T>, const COMPONENTS: usize>(
     }
 }
 
-/// Where the old energies, invariants, friction and failure index of the lanes from i on are, each with whether it is requested.
+/// Where the old energies, invariants, friction and failure index of the lanes from i on are, each with whether it is
+/// requested.
 #[inline(always)]
 pub(super) fn old_entries<T, const WANT: u8>(block: &Points<T>, i: usize) -> [(bool, *mut T); 13] {
     let (request, stride) = (request::<T, WANT>(block), block.leading_dimension);
@@ -375,7 +378,8 @@ pub(super) unsafe fn status_code<T: Scalar, R: Lanes<T>, const WANT: u8>(
     let mut finite = zero.le(zero);
     for (requested, entry) in old_entries::<T, WANT>(block, i) {
         if requested {
-            // SAFETY: an entry that is requested has n ≥ i + COUNT values in its component, from `entry` on those of the lanes.
+            // SAFETY: an entry that is requested has n ≥ i + COUNT values in its component, from `entry` on those of
+            // the lanes.
             finite = finite & unsafe { (R::load(entry) * zero).le(zero) };
         }
     }
@@ -389,8 +393,8 @@ pub(super) unsafe fn status_code<T: Scalar, R: Lanes<T>, const WANT: u8>(
     R::select(outcome.updated, zero, code)
 }
 
-/// For points that have failed before or cannot be evaluated: sets the stress to 0, and what is not finite in the old state
-/// that they keep.
+/// For points that have failed before or cannot be evaluated: sets the stress to 0, and what is not finite in the old
+/// state that they keep.
 ///
 /// # Safety
 /// As for [`sweep`](super::kernel::sweep), for the lanes from i on, after [`status_code`] and before [`store_state`].

@@ -15,8 +15,8 @@ pub(super) const STATE: u8 = 1;
 pub(super) const FIBRES: u8 = 2;
 /// The fibre direction of the properties is the first axis.
 pub(super) const ALIGNED: u8 = 4;
-/// All that the block has arrays for and, if the law has one, longitudinal shear: the kernel looks these up at run time for each
-/// group of registers.
+/// All that the block has arrays for and, if the law has one, longitudinal shear: the kernel looks these up at run time
+/// for each group of registers.
 pub(super) const ANY: u8 = 8;
 /// Longitudinal shear, compiled with the state alone: it is rarely used.
 pub(super) const SHEAR: u8 = 16;

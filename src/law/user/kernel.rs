@@ -3,10 +3,10 @@
 use core::ops::Range;
 
 use super::{Array, MOST_DIRECTIONS, Response, Step, User, UserMaterial};
+use crate::law::axes::FibreFrame;
 use crate::law::block::{Kernels, Points, Precision, least_code};
 use crate::law::description::Description;
 use crate::law::failure::Failure;
-use crate::law::kinematics::FibreFrame;
 use crate::law::number::level::Level;
 use crate::law::number::real::{Lanes, Real};
 use crate::law::number::twice::Twice;

@@ -34,11 +34,11 @@ pub mod state {
     pub use crate::law::state::{ALIVE_ROW as ALIVE, FAILED_ROW as FAILED, StateVariable, row as variable};
 }
 
+use super::axes::FibreFrame;
 use super::block::{Precision, evaluate};
 use super::bounds::check;
 use super::error::{Error, Value};
 use super::interface::{Law, Points};
-use super::kinematics::FibreFrame;
 use super::number::vector::Matrix;
 use super::parameters::{Property, same};
 use super::status;

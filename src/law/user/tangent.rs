@@ -3,10 +3,10 @@
 
 use super::kernel::{Input, Outcome, wave_modulus};
 use super::{Array, Response, Step, User, UserMaterial};
+use crate::law::axes::FibreFrame;
 use crate::law::block::Precision;
 use crate::law::differentiated::{Rates, Stress, first};
 use crate::law::interface::Points;
-use crate::law::kinematics::FibreFrame;
 use crate::law::linear_tangent::{LinearTangent, by_rows};
 use crate::law::number::dual::Dual;
 use crate::law::number::level::Level;
