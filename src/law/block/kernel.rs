@@ -139,9 +139,10 @@ unsafe fn evaluate<T: Scalar, R: Lanes<T>, const WANT: u8>(
         for k in 0..count {
             places.put(k, place::<T, R>(block, i, k));
         }
-        if WANT & ALIGNED != 0 {
+        // `const`, so that each kernel is compiled in its own axes alone.
+        if const { WANT & ALIGNED != 0 } {
             staged::<T, R, FirstAxis, WANT>(&Group { law, block, i, count, places, axes: FirstAxis }, worst);
-        } else if WANT & (FIBRES | ANY) != 0 {
+        } else if const { WANT & (FIBRES | ANY) != 0 } {
             let mut axes = Stage::new();
             for k in 0..count {
                 axes.put(k, frame::<T, R, WANT>(law.elastic, block, *places.get(k)));
@@ -275,11 +276,11 @@ unsafe fn staged<T: Scalar, R: Lanes<T>, A: GroupAxes<R>, const WANT: u8>(group:
     // SAFETY: as the caller promises; each function reads what the ones before have put.
     unsafe {
         let slipped = group.kinematics(&mut stages);
-        if WANT & FRICTION != 0 {
+        if const { WANT & FRICTION != 0 } {
             group.refer_to_slip(&mut stages, slipped);
         }
         group.strains::<WANT>(&mut stages);
-        if WANT & FRICTION != 0 {
+        if const { WANT & FRICTION != 0 } {
             group.hold(&mut stages);
         }
         group.respond::<WANT>(&mut stages, status);
