@@ -121,13 +121,20 @@ pub(crate) struct Slip<R> {
 pub(crate) struct Hold<R: Real> {
     pub slides: R::Mask,
     /// I_te before and after the return.
-    trial: R,
+    pub trial: R,
     pub i_te: R,
     /// The factor of D̂ in the Kirchhoff stress.
     pub distortion: R,
 }
 
 impl<R: Real> Slip<R> {
+    /// Where there is one, or one that is NaN.
+    #[inline(always)]
+    pub fn is_any(&self) -> R::Mask {
+        let zero = R::splat(0.0);
+        !(self.d[0].abs().le(zero) & self.d[1].abs().le(zero))
+    }
+
     /// V, the axes that the section's distortion is referred to.
     #[inline(always)]
     pub fn axes(&self) -> Unimodular<R> {
@@ -138,8 +145,11 @@ impl<R: Real> Slip<R> {
         let g = (one + square).sqrt();
         // r ≥ 1, and r − 1 and 1/r − 1 without cancellation.
         let r = (g + size).sqrt();
-        let over_r = one / r;
-        let beyond = size.mul_add(one + g, square) / ((one + g) * (one + r));
+        // One division for both quotients.
+        let sums = (one + g) * (one + r);
+        let over_both = one / (r * sums);
+        let over_r = sums * over_both;
+        let beyond = size.mul_add(one + g, square) * (r * over_both);
         let [long, short] = [R::select(near_one, beyond, r), R::select(near_one, -(beyond * over_r), over_r)];
         let (first, off) = (zero.le(d1), d2 * over_r);
         Unimodular {
@@ -149,16 +159,6 @@ impl<R: Real> Slip<R> {
             ],
             near_one,
         }
-    }
-}
-
-impl<R: Real> Hold<R> {
-    /// The strain after the return, of the section whose distortion is held: I_te in place of I_td.
-    #[inline(always)]
-    pub fn strain(&self, elastic: &Section<R>, trial: &Strain<R>) -> Strain<R> {
-        let distorted = R::select(self.slides, elastic.distortion, R::splat(1.0));
-        let ratio = R::select(self.slides, self.i_te / distorted, trial.distortion_ratio);
-        Strain { i_td: self.i_te, distortion_ratio: ratio, ..*trial }
     }
 }
 
@@ -219,6 +219,13 @@ impl<R: Real> Friction<R> {
             i_te: R::select(slides, most, trial.i_td),
             distortion: R::select(slides, limit / distorted, k.distortion),
         }
+    }
+
+    /// The strain after the return: I_te in place of I_td.
+    #[inline(always)]
+    pub fn held(&self, hold: &Hold<R>, trial: &Strain<R>) -> Strain<R> {
+        let ratio = R::select(hold.slides, hold.distortion * self.per_stiffness, trial.distortion_ratio);
+        Strain { i_td: hold.i_te, distortion_ratio: ratio, ..*trial }
     }
 
     /// The slip after the return, where the fibres slide; `section` is the whole one, `elastic` that of which the

@@ -228,9 +228,20 @@ struct Stages<'a, R: Real, K> {
     slides: &'a mut Slides<R>,
 }
 
+impl<R: Real, K> Stages<'_, R, K> {
+    /// The sections as the deformation makes them, and their a and b.
+    #[inline(always)]
+    fn whole(&self) -> (&Stage<Section<R>>, &Stage<[[R; 3]; 2]>) {
+        match self.slides.any_before {
+            true => (&self.slides.sections, &self.slides.images),
+            false => (self.sections, self.images),
+        }
+    }
+}
+
 /// What a law with friction keeps besides.
 struct Slides<R: Real> {
-    /// The section as the deformation makes it, its a and b, and its distortion.
+    /// Where any of the fibres have slid before: the section as the deformation makes it, its a and b, and its distortion.
     sections: Stage<Section<R>>,
     images: Stage<[[R; 3]; 2]>,
     distortions: Stage<Asinh<R>>,
@@ -238,6 +249,8 @@ struct Slides<R: Real> {
     slips: Stage<Slip<R>>,
     /// Whether any of the fibres slide.
     any: bool,
+    /// Whether any of them have slid before. If none have, the whole section is the one whose distortion has energy.
+    any_before: bool,
 }
 
 /// Evaluates a group, stage by stage.
@@ -254,6 +267,7 @@ unsafe fn staged<T: Scalar, R: Lanes<T>, A: GroupAxes<R>, const WANT: u8>(group:
         holds: Stage::new(),
         slips: Stage::new(),
         any: false,
+        any_before: false,
     };
     let mut stages = Stages {
         stretches: &mut Stage::new(),
@@ -357,8 +371,16 @@ impl<T: Scalar, R: Lanes<T>, A: GroupAxes<R>> Group<'_, T, R, A> {
     /// The section that is left of the whole one where the fibres have slid.
     #[inline(always)]
     unsafe fn refer_to_slip(&self, stages: &mut Stages<'_, R, Kept<R, A>>, any_slipped: bool) {
+        let mut slid = R::never();
         // SAFETY: see above.
         unsafe {
+            for k in 0..self.count {
+                slid = slid | remembered::<T, R>(self.block, self.at(k)).is_any();
+            }
+            stages.slides.any_before = R::any(slid);
+            if !stages.slides.any_before {
+                return;
+            }
             for k in 0..self.count {
                 let (n, d, &whole) = (self.axes.get(k).0, stages.stretches.get(k), stages.sections.get(k));
                 let vectors = self.images(stages, k);
@@ -385,7 +407,7 @@ impl<T: Scalar, R: Lanes<T>, A: GroupAxes<R>> Group<'_, T, R, A> {
         unsafe {
             for k in 0..self.count {
                 let mut logarithms = Logarithms::new(stages.stretches.get(k), stages.sections.get(k));
-                if WANT & FRICTION != 0 {
+                if WANT & FRICTION != 0 && stages.slides.any_before {
                     let distortion = logarithms.beside(stages.slides.sections.get(k));
                     stages.slides.distortions.put(k, distortion);
                 }
@@ -425,17 +447,17 @@ impl<T: Scalar, R: Lanes<T>, A: GroupAxes<R>> Group<'_, T, R, A> {
                 let factors = law.kirchhoff(stages.stretches.get(k), strain, stages.steps.get(k).powered);
                 let hold = friction.hold(law, section, strain, &factors);
                 sliding = sliding | hold.slides;
-                let strain = hold.strain(section, strain);
+                let strain = friction.held(&hold, strain);
                 stages.strains.put(k, strain);
                 stages.slides.holds.put(k, hold);
             }
             stages.slides.any = R::any(sliding);
             if stages.slides.any {
                 for k in 0..self.count {
-                    let (old, slides) = (remembered::<T, R>(self.block, self.at(k)), &mut *stages.slides);
-                    let (section, hold) = (stages.sections.get(k), slides.holds.get(k));
-                    let slip = friction.slid(law, &old, slides.sections.get(k), section, hold);
-                    slides.slips.put(k, slip);
+                    let old = remembered::<T, R>(self.block, self.at(k));
+                    let (section, hold) = (stages.sections.get(k), stages.slides.holds.get(k));
+                    let slip = friction.slid(law, &old, stages.whole().0.get(k), section, hold);
+                    stages.slides.slips.put(k, slip);
                 }
             }
         }
@@ -478,13 +500,13 @@ impl<T: Scalar, R: Lanes<T>, A: GroupAxes<R>> Group<'_, T, R, A> {
                 };
                 let slid;
                 if WANT & FRICTION != 0 {
-                    let (old, slides) = (remembered::<T, R>(self.block, self.at(k)), &*stages.slides);
+                    let (old, (sections, images)) = (remembered::<T, R>(self.block, self.at(k)), stages.whole());
                     nan_if_invalid = (old.i_te + old.lost).mul_add(zero, nan_if_invalid);
                     slid = Slid {
-                        whole: slides.sections.get(k),
-                        images: *slides.images.get(k),
+                        whole: sections.get(k),
+                        images: *images.get(k),
                         axes: old.axes(),
-                        slides: slides.holds.get(k).slides,
+                        slides: stages.slides.holds.get(k).slides,
                         mu: self.law.friction.mu(),
                     };
                     kinematics.slid = Some(&slid);
@@ -551,7 +573,11 @@ impl<T: Scalar, R: Lanes<T>, A: GroupAxes<R>> Group<'_, T, R, A> {
                 if WANT & FRICTION != 0 {
                     let slides = &*stages.slides;
                     let slip = if slides.any { Some(slides.slips.get(k)) } else { None };
-                    point.friction = Some(Remembered { i_td: slides.distortions.get(k).finish().0, slip });
+                    let i_td = match slides.any_before {
+                        true => slides.distortions.get(k).finish().0,
+                        false => slides.holds.get(k).trial,
+                    };
+                    point.friction = Some(Remembered { i_td, slip });
                 }
                 let outcome = stages.outcomes.get(k);
                 let is_active = store_state::<T, R, WANT>(self.law.elastic, self.block, self.at(k), &point, outcome);
