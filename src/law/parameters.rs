@@ -202,7 +202,7 @@ pub const fn place(table: &[Property], name: &str) -> usize {
 pub struct Preset {
     pub name: &'static str,
     /// The properties of its law.
-    pub table: &'static [Property],
+    pub properties: &'static [Property],
     /// One value for each of them.
     pub values: &'static [f64],
     /// Reference density in kg/m³.
@@ -210,25 +210,32 @@ pub struct Preset {
     pub source: &'static str,
 }
 
+impl Preset {
+    /// The rows of which `values` has the values.
+    pub fn table(&self) -> &'static [Property] {
+        self.properties
+    }
+}
+
 /// The presets of the library.
 pub static PRESETS: [Preset; 3] = [
     Preset {
         name: "kevlar-km2-600",
-        table: &HYPERELASTIC,
+        properties: &HYPERELASTIC,
         values: &[82.341e9, 1.055e9, 2.2, 0.64974e9, 0.0, 0.0458, 1.8, 0.0, 1.0, 0.0, 0.0],
         density: 1351.4,
         source: "Kevlar KM2 600 denier: del Sorbo 2019, Tab. 4.3, 4.5 (multiaxial failure); woven: k_ld 5 to 20 MPa",
     },
     Preset {
         name: "kevlar-km2-600-linear",
-        table: &LINEAR_ELASTIC,
+        properties: &LINEAR_ELASTIC,
         values: &[79.414e9, 0.794e9, 0.126e9, 3.637e9, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0],
         density: 1351.4,
         source: "Kevlar KM2 600 denier, 400 fibres: del Sorbo 2019, Tab. 4.4",
     },
     Preset {
         name: "kevlar-km2-600-frictional",
-        table: &FRICTIONAL,
+        properties: &FRICTIONAL,
         values: &[82.341e9, 1.055e9, 2.2, 0.64974e9, 0.0, 0.0458, 1.8, 0.0, 1.0, 0.0, 0.0, 0.25, 0.0],
         density: 1351.4,
         source: "Kevlar KM2 600 denier: del Sorbo 2019, Tab. 4.3, 4.5 (multiaxial failure); friction: a guess, mu 0.25 without cohesion",

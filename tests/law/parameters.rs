@@ -265,7 +265,7 @@ fn presets() {
     let names = PRESETS.iter().map(|preset| preset.name).collect::<HashSet<_>>();
     assert_eq!(names.len(), PRESETS.len());
     for preset in &PRESETS {
-        assert!(toron::law::bounds::check(preset.table, preset.values).is_ok(), "{}", preset.name);
+        assert!(toron::law::bounds::check(preset.table(), preset.values).is_ok(), "{}", preset.name);
         assert_eq!(preset.density, 1351.4);
     }
 }

@@ -71,10 +71,10 @@ unsafe fn preset<T: Precision>(
         if properties.is_null() {
             return Err(Error::Null { name: "properties" });
         }
-        if count != found.table.len() {
-            return Err(wrong_number(i64::try_from(count).unwrap_or(i64::MAX), found.table));
+        if count != found.table().len() {
+            return Err(wrong_number(i64::try_from(count).unwrap_or(i64::MAX), found.table()));
         }
-        for (i, (&value, property)) in found.values.iter().zip(found.table).enumerate() {
+        for (i, (&value, property)) in found.values.iter().zip(found.table()).enumerate() {
             // SAFETY: not null, as just checked, and i < `count`, which is the table's length.
             unsafe { *properties.add(i) = T::splat(system.from_si(value, property.dimension)) };
         }

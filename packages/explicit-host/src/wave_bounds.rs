@@ -78,7 +78,7 @@ mod tests {
     fn turning(preset: &str, k_ld: f64, rotation: Rotation) -> Material {
         let preset = parameters::preset(preset).expect("it exists");
         let mut values = preset.values.to_vec();
-        for (value, property) in values.iter_mut().zip(preset.table) {
+        for (value, property) in values.iter_mut().zip(preset.table()) {
             match property.name {
                 "k_ld" => *value = k_ld,
                 "eps_lim" | "sigma_lim" | "alpha" | "beta" => *value = 0.0,

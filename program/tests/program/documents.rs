@@ -79,7 +79,7 @@ fn state_variables(variables: &[StateVariable]) -> String {
 fn presets() -> String {
     const SYSTEMS: [&str; 3] = ["si", "mm-tonne-s", "mm-kg-ms"];
     let text = |preset: &Preset| {
-        let rows = preset.table.iter().zip(preset.values).map(|(row, &value)| (row.name, value, row.dimension));
+        let rows = preset.table().iter().zip(preset.values).map(|(row, &value)| (row.name, value, row.dimension));
         let rows = rows.chain([("density", preset.density, DENSITY)]).map(|(name, value, dimension)| {
             let [a, b, c] = SYSTEMS.map(|system| quantity(system, value, dimension));
             [format!("`{name}`"), a, b, c]
@@ -193,7 +193,7 @@ fn km2(system: &str) -> Vec<f64> {
 fn preset(name: &str, system: &str) -> Vec<f64> {
     let preset = parameters::preset(name).expect("a preset");
     let units = UnitSystem::parse(system).expect("a unit system");
-    preset.table.iter().zip(preset.values).map(|(row, &value)| units.from_si(value, row.dimension)).collect()
+    preset.table().iter().zip(preset.values).map(|(row, &value)| units.from_si(value, row.dimension)).collect()
 }
 
 /// What the command prints: cards, for the documents to show.

@@ -490,7 +490,7 @@ impl<T: BlockPrecision> OpenradiossGroup<T> {
         let array = |components: usize, length: usize| Aligned::new(T::default(), components * length);
         let mut uparam = array(1, layout.parameters());
         let option = [T::from_f64(if fibre_in_uvar { 2.0 } else { 0.0 })];
-        let values = [&properties[..], &option].concat();
+        let values = [properties, &option].concat();
         openradioss::read(&T::TORON, layout.number, &values, &mut uparam).map_err(|error| error.code())?;
         Ok(OpenradiossGroup {
             n,

@@ -39,7 +39,7 @@ toron::library_laws! { by_description {} }
 impl From<&parameters::Preset> for LawName {
     /// The law of the library that has these properties.
     fn from(preset: &parameters::Preset) -> LawName {
-        let found = BY_DESCRIPTION.iter().find(|law| std::ptr::eq(law.description.properties, preset.table));
+        let found = BY_DESCRIPTION.iter().find(|law| std::ptr::eq(law.description.properties, preset.properties));
         LawName::of(found.expect("a preset is of a law of the library"))
     }
 }

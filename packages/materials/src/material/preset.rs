@@ -404,7 +404,7 @@ mod tests {
     fn built_in_presets_become_the_same_type() {
         for built_in in Laws::Toron.presets() {
             let (preset, mm) = (Preset::from(built_in), UnitSystem::parse("mm-tonne-s").expect("a system"));
-            let values = built_in.table.iter().zip(built_in.values);
+            let values = built_in.table().iter().zip(built_in.values);
             let expected: Vec<f64> = values.map(|(row, &value)| mm.from_si(value, row.dimension)).collect();
             assert_eq!(preset.complete(&mm), Ok(expected));
             assert_eq!(preset.density_in(&mm), Some(mm.from_si(built_in.density, DENSITY)));
