@@ -151,7 +151,8 @@ static void presets(void)
     enum { LINEAR = TORON_LINEAR_ELASTIC_PROPERTIES };
     real *values = reals(PROPERTIES);
 #define PRESET ENTRY(toron_preset)
-    REFUSED(TORON_UNKNOWN_NAME, "there is no preset \"nylon\"; allowed: kevlar-km2-600, kevlar-km2-600-linear", PRESET, "nylon",
+    REFUSED(TORON_UNKNOWN_NAME, "there is no preset \"nylon\"; allowed: kevlar-km2-600, kevlar-km2-600-linear, "
+            "kevlar-km2-600-frictional", PRESET, "nylon",
             "si", values, PROPERTIES, NULL);
     CHECK(TOLD(PRESET, "kevlar-km2-600", "m-kg", values, PROPERTIES, NULL) == TORON_UNKNOWN_NAME, "units");
     CHECK(strstr(text, "there is no system of units \"m-kg\"; allowed: ") == text, "%s", text);
