@@ -9,7 +9,8 @@ use std::process::Command;
 
 use toron::host::abaqus::Vumat;
 use toron_c::{
-    Block, FrictionalLaw, HyperelasticLaw, Layout, LinearBlock, LinearElasticLaw, LinearIncrement, LinearPoint, Point, TableRow,
+    Block, FrictionalLaw, HyperelasticLaw, Layout, LinearBlock, LinearElasticLaw, LinearIncrement, LinearPoint, Point,
+    TableRow,
 };
 
 use toron_test_support::library::{ROOT, folder, run};

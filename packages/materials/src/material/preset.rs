@@ -456,7 +456,11 @@ mod tests {
             ("units = \"si\"\ncolour = 3".to_string(), 2, "unknown field `colour`, expected one of `name`, `source`"),
             ("name = \"a\"".to_string(), 1, "missing field `units`"),
             ("units = \"mm\"".to_string(), 1, "unit system \"mm\"; allowed: length-mass-time"),
-            (format!("{si}law = \"elastic\""), 2, "law is \"elastic\"; allowed: hyperelastic or linear-elastic or frictional"),
+            (
+                format!("{si}law = \"elastic\""),
+                2,
+                "law is \"elastic\"; allowed: hyperelastic or linear-elastic or frictional",
+            ),
             (
                 format!("{si}law = \"linear-elastic\"\nproperties = {{ p = 2 }}"),
                 3,
