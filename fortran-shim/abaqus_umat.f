@@ -1,8 +1,9 @@
 ! UMAT of Abaqus/Standard for the laws of libtoron.
 !
 ! A material with 10 properties and 10 state variables has the linear
-! elastic law, every other one the hyperelastic yarn law: 11 properties
-! and 11 or more state variables. One job may have both.
+! elastic law, one with 13 or 14 properties the yarn law with friction,
+! every other one the hyperelastic yarn law: 11 properties and 11 or
+! more state variables. One job may have all.
 !
 ! Solids (NDI = 3; NSHR = 3, or 1 for plane strain and axisymmetric
 ! ones) with NLGEOM=YES and no *ORIENTATION: see docs. DDSDDE is
@@ -60,6 +61,19 @@
           integer(c_size_t), value :: capacity
           integer(c_int32_t) :: status
         end function
+        function toron_abaqus_frictional_umat_f64(stress, statev,
+     &    ddsdde, sse, spd, pnewdt, dfgrd1, props, nprops, nstatv, ndi,
+     &    nshr, nlgeom, message, capacity) bind(c) result(status)
+          import :: c_char, c_double, c_int32_t, c_size_t
+          real(c_double), intent(inout) :: stress(*), statev(*)
+          real(c_double), intent(inout) :: ddsdde(*), sse, spd, pnewdt
+          real(c_double), intent(in) :: dfgrd1(*), props(*)
+          integer(c_int32_t), value :: nprops, nstatv, ndi, nshr
+          integer(c_int32_t), value :: nlgeom
+          character(kind=c_char), intent(inout) :: message(*)
+          integer(c_size_t), value :: capacity
+          integer(c_int32_t) :: status
+        end function
       end interface
 
 !     JSTEP(3) is 1 with NLGEOM=YES. Releases that pass a scalar KSTEP
@@ -71,6 +85,12 @@
      &    int(nstatv, c_int32_t), int(ndi, c_int32_t),
      &    int(nshr, c_int32_t), int(jstep(3), c_int32_t), message,
      &    capacity)
+      else if (nprops == 13 .or. nprops == 14) then
+        status = toron_abaqus_frictional_umat_f64(stress, statev,
+     &    ddsdde, sse, spd, pnewdt, dfgrd1, props,
+     &    int(nprops, c_int32_t), int(nstatv, c_int32_t),
+     &    int(ndi, c_int32_t), int(nshr, c_int32_t),
+     &    int(jstep(3), c_int32_t), message, capacity)
       else
         status = toron_abaqus_umat_tangent_f64(stress, statev, ddsdde,
      &    sse, pnewdt, dfgrd1, props, int(nprops, c_int32_t),

@@ -2,12 +2,14 @@
 ! jobs in single precision.
 !
 ! A material with 10 properties and 10 state variables has the linear
-! elastic law, every other one the hyperelastic yarn law: 11 properties
-! and 11 or more state variables. One job may have both.
+! elastic law, one with 13 or 14 properties the yarn law with friction,
+! every other one the hyperelastic yarn law: 11 properties and 11 or
+! more state variables. One job may have all.
 !
 ! Solids (NDIR = 3; NSHR = 3, or 1 for plane strain and axisymmetric
 ! ones, with a material whose name ends in _PSTRAIN or _AXIS); *DEPVAR,
-! DELETE=11, for the linear elastic law DELETE=10: see docs.
+! DELETE=11, for the linear elastic law DELETE=10, for that with
+! friction DELETE=15: see docs.
 !
 ! Fixed form: statements in columns 7 to 72, continued in column 6, and
 ! nothing beyond. Compile it as .f; free form is not supported.
@@ -61,6 +63,14 @@
           integer(c_size_t), value :: capacity
           integer(c_int32_t) :: status
         end function
+        function toron_abaqus_frictional_vumat_f32(block, message,
+     &    capacity) bind(c) result(status)
+          import :: arguments, c_char, c_int32_t, c_size_t
+          type(arguments), target, intent(in) :: block
+          character(kind=c_char), intent(inout) :: message(*)
+          integer(c_size_t), value :: capacity
+          integer(c_int32_t) :: status
+        end function
         function toron_abaqus_vumat_f32(block, message, capacity)
      &    bind(c) result(status)
           import :: arguments, c_char, c_int32_t, c_size_t
@@ -104,6 +114,9 @@
       block%ener_inelas_new = c_loc(enerinelasnew)
       if (nprops == 10 .and. nstatev == 10) then
         status = toron_abaqus_linear_vumat_f32(block, message,
+     &    capacity)
+      else if (nprops == 13 .or. nprops == 14) then
+        status = toron_abaqus_frictional_vumat_f32(block, message,
      &    capacity)
       else
         status = toron_abaqus_vumat_f32(block, message, capacity)

@@ -1,7 +1,7 @@
-! LECMUSER01 and LECMUSER02 for OpenRadioss's SDK: the starter reads a
-! material of libtoron, /MAT/USER01 the hyperelastic yarn law and
-! /MAT/USER02 the linear elastic one. The engine's part is
-! openradioss_luser.f.
+! LECMUSER01 to LECMUSER03 for OpenRadioss's SDK: the starter reads a
+! material of libtoron, /MAT/USER01 the hyperelastic yarn law,
+! /MAT/USER02 the linear elastic one and /MAT/USER03 the yarn law with
+! friction. The engine's part is openradioss_luser.f.
 !
 ! The card has, behind the line of the density, fields of 20 columns,
 ! five a line: the properties, then options: see docs.
@@ -39,6 +39,23 @@
       type(ulawbuf) :: userbuf
       external :: toron_lecmuser
       call toron_lecmuser(2, iin, iout, uparam, maxuparam, nuparam,
+     &  nuvar, parmat)
+      nfunc = 0
+      end subroutine
+
+      subroutine lecmuser03(iin, iout, uparam, maxuparam, nuparam,
+     &  nuvar, ifunc, maxfunc, nfunc, parmat, userbuf)
+      use law_user, only: ulawbuf
+      use law_userso, only: ulawintbuf
+      implicit none
+      type(ulawintbuf), pointer :: kinds
+      integer, parameter :: my_real = kind(kinds%rho0)
+      integer :: iin, iout, maxuparam, nuparam, nuvar, ifunc(*)
+      integer :: maxfunc, nfunc
+      real(my_real) :: uparam(*), parmat(*)
+      type(ulawbuf) :: userbuf
+      external :: toron_lecmuser
+      call toron_lecmuser(3, iin, iout, uparam, maxuparam, nuparam,
      &  nuvar, parmat)
       nfunc = 0
       end subroutine

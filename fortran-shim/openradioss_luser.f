@@ -1,6 +1,7 @@
-! LUSER01 and LUSER02 for OpenRadioss's SDK: the engine's part of
-! /MAT/USER01, the hyperelastic yarn law of libtoron, and /MAT/USER02,
-! its linear elastic law. The starter's part is openradioss_lecmuser.f.
+! LUSER01 to LUSER03 for OpenRadioss's SDK: the engine's part of
+! /MAT/USER01, the hyperelastic yarn law of libtoron, /MAT/USER02, its
+! linear elastic law, and /MAT/USER03, the yarn law with friction. The
+! starter's part is openradioss_lecmuser.f.
 !
 ! Solids: /PROP/TYPE14 with Isolid = 1, Ismstr = 10, Iframe = 1: see
 ! docs. Integers have 4 bytes; the solver's kind of reals is that of
@@ -28,6 +29,24 @@
       end subroutine
 
       subroutine luser02(nel, nuparam, nuvar, nfunc, ifunc, npf, tf,
+     &  time, timestep, uparam, rho, volume, eint, ngl, soundsp,
+     &  viscmax, uvar, off, sigy, pla, userbuf)
+      use, intrinsic :: iso_c_binding, only: c_int32_t
+      use law_userso, only: ulawintbuf
+      implicit none
+      type(ulawintbuf) :: userbuf
+      integer, parameter :: my_real = kind(userbuf%rho0)
+      integer(c_int32_t) :: nel, nuparam, nuvar, nfunc, ifunc(*)
+      integer(c_int32_t) :: npf(*), ngl(*)
+      real(my_real) :: tf(*), time, timestep, uparam(*), rho(*)
+      real(my_real) :: volume(*), eint(*), soundsp(*), viscmax(*)
+      real(my_real) :: uvar(*), off(*), sigy(*), pla(*)
+      external :: toron_luser
+      call toron_luser(nel, nuparam, nuvar, time, uparam, ngl, soundsp,
+     &  viscmax, uvar, off, userbuf)
+      end subroutine
+
+      subroutine luser03(nel, nuparam, nuvar, nfunc, ifunc, npf, tf,
      &  time, timestep, uparam, rho, volume, eint, ngl, soundsp,
      &  viscmax, uvar, off, sigy, pla, userbuf)
       use, intrinsic :: iso_c_binding, only: c_int32_t

@@ -50,10 +50,13 @@ module toron
   integer(c_int32_t), parameter :: toron_module_abi_version = 2
   integer(c_int32_t), parameter :: toron_hyperelastic = 0
   integer(c_int32_t), parameter :: toron_linear_elastic = 1
+  integer(c_int32_t), parameter :: toron_frictional = 2
   integer(c_int32_t), parameter :: toron_hyperelastic_properties = 11
   integer(c_int32_t), parameter :: toron_hyperelastic_state = 11
   integer(c_int32_t), parameter :: toron_linear_elastic_properties = 10
   integer(c_int32_t), parameter :: toron_linear_elastic_state = 10
+  integer(c_int32_t), parameter :: toron_frictional_properties = 13
+  integer(c_int32_t), parameter :: toron_frictional_state = 15
   integer(c_int32_t), parameter :: toron_rotation_fibre = 0
   integer(c_int32_t), parameter :: toron_rotation_polar = 1
   integer(c_int32_t), parameter :: toron_rotation_spin = 2
@@ -195,6 +198,18 @@ module toron
     type(toron_layout) :: tangent_layout
     type(c_ptr) :: limit = c_null_ptr
     type(toron_layout) :: limit_layout
+  end type
+
+  type, bind(c) :: toron_frictional_f64
+    integer(c_int64_t) :: tag = 0
+    integer(c_int64_t) :: size = 0
+    real(c_double) :: values(62) = 0
+  end type
+
+  type, bind(c) :: toron_frictional_f32
+    integer(c_int64_t) :: tag = 0
+    integer(c_int64_t) :: size = 0
+    real(c_float) :: values(62) = 0
   end type
 
   type, bind(c) :: toron_linear_elastic_f64
@@ -411,6 +426,26 @@ module toron
     procedure toron_hyperelastic_least_acoustic_eigenvalue_f64
   end interface
 
+  interface toron_frictional_prepare
+    procedure toron_frictional_prepare_f64, toron_frictional_prepare_f32
+  end interface
+
+  interface toron_frictional_point
+    procedure toron_frictional_point_f64, toron_frictional_point_f32
+  end interface
+
+  interface toron_frictional_point_with_properties
+    procedure toron_frictional_point_with_properties_f64, toron_frictional_point_with_properties_f32
+  end interface
+
+  interface toron_frictional_block
+    procedure toron_frictional_block_f64, toron_frictional_block_f32
+  end interface
+
+  interface toron_frictional_block_with_properties
+    procedure toron_frictional_block_with_properties_f64, toron_frictional_block_with_properties_f32
+  end interface
+
   interface toron_linear_elastic_prepare
     procedure toron_linear_elastic_prepare_f64, toron_linear_elastic_prepare_f32
   end interface
@@ -451,12 +486,20 @@ module toron
     procedure toron_abaqus_linear_umat_f64
   end interface
 
+  interface toron_abaqus_frictional_umat
+    procedure toron_abaqus_frictional_umat_f64
+  end interface
+
   interface toron_abaqus_vumat
     procedure toron_abaqus_vumat_f64, toron_abaqus_vumat_f32
   end interface
 
   interface toron_abaqus_linear_vumat
     procedure toron_abaqus_linear_vumat_f64, toron_abaqus_linear_vumat_f32
+  end interface
+
+  interface toron_abaqus_frictional_vumat
+    procedure toron_abaqus_frictional_vumat_f64, toron_abaqus_frictional_vumat_f32
   end interface
 
   interface toron_lsdyna_umat
@@ -497,6 +540,26 @@ module toron
 
   interface toron_lsdyna_linear_bulk_and_shear
     procedure toron_lsdyna_linear_bulk_and_shear_f64
+  end interface
+
+  interface toron_lsdyna_frictional_umat
+    procedure toron_lsdyna_frictional_umat_f64, toron_lsdyna_frictional_umat_f32
+  end interface
+
+  interface toron_lsdyna_frictional_umat_vector
+    procedure toron_lsdyna_frictional_umat_vector_f64, toron_lsdyna_frictional_umat_vector_f32
+  end interface
+
+  interface toron_lsdyna_frictional_utan
+    procedure toron_lsdyna_frictional_utan_f64, toron_lsdyna_frictional_utan_f32
+  end interface
+
+  interface toron_lsdyna_frictional_utan_vector
+    procedure toron_lsdyna_frictional_utan_vector_f64, toron_lsdyna_frictional_utan_vector_f32
+  end interface
+
+  interface toron_lsdyna_frictional_bulk_and_shear
+    procedure toron_lsdyna_frictional_bulk_and_shear_f64
   end interface
 
   interface toron_openradioss_lecm
@@ -922,6 +985,220 @@ contains
     call end_message(status, message)
   end function
 
+  function toron_frictional_prepare_f64(law, properties, message) result(status)
+    type(toron_frictional_f64), intent(out) :: law
+    real(c_double), intent(in), contiguous :: properties(:)
+    character(*), intent(out), optional :: message
+    integer(c_int32_t) :: status
+    interface
+      function c_frictional_prepare_f64(law, size, properties, count, message, &
+        capacity) bind(c, name='toron_frictional_prepare_f64') result(status)
+        import
+        type(toron_frictional_f64), intent(inout) :: law
+        integer(c_size_t), value :: size
+        real(c_double), intent(in) :: properties(*)
+        integer(c_size_t), value :: count
+        character(kind=c_char), intent(inout), optional :: message(*)
+        integer(c_size_t), value :: capacity
+        integer(c_int32_t) :: status
+      end function
+    end interface
+    status = c_frictional_prepare_f64(law, c_sizeof(law), properties, size(properties, kind=c_size_t), message, &
+      room(message))
+    call end_message(status, message)
+  end function
+
+  function toron_frictional_prepare_f32(law, properties, message) result(status)
+    type(toron_frictional_f32), intent(out) :: law
+    real(c_float), intent(in), contiguous :: properties(:)
+    character(*), intent(out), optional :: message
+    integer(c_int32_t) :: status
+    interface
+      function c_frictional_prepare_f32(law, size, properties, count, message, &
+        capacity) bind(c, name='toron_frictional_prepare_f32') result(status)
+        import
+        type(toron_frictional_f32), intent(inout) :: law
+        integer(c_size_t), value :: size
+        real(c_float), intent(in) :: properties(*)
+        integer(c_size_t), value :: count
+        character(kind=c_char), intent(inout), optional :: message(*)
+        integer(c_size_t), value :: capacity
+        integer(c_int32_t) :: status
+      end function
+    end interface
+    status = c_frictional_prepare_f32(law, c_sizeof(law), properties, size(properties, kind=c_size_t), message, &
+      room(message))
+    call end_message(status, message)
+  end function
+
+  function toron_frictional_point_f64(law, point, message) result(status)
+    type(toron_frictional_f64), intent(in) :: law
+    type(toron_point_f64), target, intent(in) :: point
+    character(*), intent(out), optional :: message
+    integer(c_int32_t) :: status
+    interface
+      function c_frictional_point_f64(law, point, message, &
+        capacity) bind(c, name='toron_frictional_point_f64') result(status)
+        import
+        type(toron_frictional_f64), intent(in) :: law
+        type(toron_point_f64), target, intent(in) :: point
+        character(kind=c_char), intent(inout), optional :: message(*)
+        integer(c_size_t), value :: capacity
+        integer(c_int32_t) :: status
+      end function
+    end interface
+    status = c_frictional_point_f64(law, point, message, room(message))
+    call end_message(status, message)
+  end function
+
+  function toron_frictional_point_f32(law, point, message) result(status)
+    type(toron_frictional_f32), intent(in) :: law
+    type(toron_point_f32), target, intent(in) :: point
+    character(*), intent(out), optional :: message
+    integer(c_int32_t) :: status
+    interface
+      function c_frictional_point_f32(law, point, message, &
+        capacity) bind(c, name='toron_frictional_point_f32') result(status)
+        import
+        type(toron_frictional_f32), intent(in) :: law
+        type(toron_point_f32), target, intent(in) :: point
+        character(kind=c_char), intent(inout), optional :: message(*)
+        integer(c_size_t), value :: capacity
+        integer(c_int32_t) :: status
+      end function
+    end interface
+    status = c_frictional_point_f32(law, point, message, room(message))
+    call end_message(status, message)
+  end function
+
+  function toron_frictional_point_with_properties_f64(properties, point, message) result(status)
+    real(c_double), intent(in), contiguous :: properties(:)
+    type(toron_point_f64), target, intent(in) :: point
+    character(*), intent(out), optional :: message
+    integer(c_int32_t) :: status
+    interface
+      function c_frictional_point_with_properties_f64(properties, count, point, message, &
+        capacity) bind(c, name='toron_frictional_point_with_properties_f64') result(status)
+        import
+        real(c_double), intent(in) :: properties(*)
+        integer(c_size_t), value :: count
+        type(toron_point_f64), target, intent(in) :: point
+        character(kind=c_char), intent(inout), optional :: message(*)
+        integer(c_size_t), value :: capacity
+        integer(c_int32_t) :: status
+      end function
+    end interface
+    status = c_frictional_point_with_properties_f64(properties, size(properties, kind=c_size_t), point, message, &
+      room(message))
+    call end_message(status, message)
+  end function
+
+  function toron_frictional_point_with_properties_f32(properties, point, message) result(status)
+    real(c_float), intent(in), contiguous :: properties(:)
+    type(toron_point_f32), target, intent(in) :: point
+    character(*), intent(out), optional :: message
+    integer(c_int32_t) :: status
+    interface
+      function c_frictional_point_with_properties_f32(properties, count, point, message, &
+        capacity) bind(c, name='toron_frictional_point_with_properties_f32') result(status)
+        import
+        real(c_float), intent(in) :: properties(*)
+        integer(c_size_t), value :: count
+        type(toron_point_f32), target, intent(in) :: point
+        character(kind=c_char), intent(inout), optional :: message(*)
+        integer(c_size_t), value :: capacity
+        integer(c_int32_t) :: status
+      end function
+    end interface
+    status = c_frictional_point_with_properties_f32(properties, size(properties, kind=c_size_t), point, message, &
+      room(message))
+    call end_message(status, message)
+  end function
+
+  function toron_frictional_block_f64(law, block, message) result(status)
+    type(toron_frictional_f64), intent(in) :: law
+    type(toron_block_f64), target, intent(in) :: block
+    character(*), intent(out), optional :: message
+    integer(c_int32_t) :: status
+    interface
+      function c_frictional_block_f64(law, block, message, &
+        capacity) bind(c, name='toron_frictional_block_f64') result(status)
+        import
+        type(toron_frictional_f64), intent(in) :: law
+        type(toron_block_f64), target, intent(in) :: block
+        character(kind=c_char), intent(inout), optional :: message(*)
+        integer(c_size_t), value :: capacity
+        integer(c_int32_t) :: status
+      end function
+    end interface
+    status = c_frictional_block_f64(law, block, message, room(message))
+    call end_message(status, message)
+  end function
+
+  function toron_frictional_block_f32(law, block, message) result(status)
+    type(toron_frictional_f32), intent(in) :: law
+    type(toron_block_f32), target, intent(in) :: block
+    character(*), intent(out), optional :: message
+    integer(c_int32_t) :: status
+    interface
+      function c_frictional_block_f32(law, block, message, &
+        capacity) bind(c, name='toron_frictional_block_f32') result(status)
+        import
+        type(toron_frictional_f32), intent(in) :: law
+        type(toron_block_f32), target, intent(in) :: block
+        character(kind=c_char), intent(inout), optional :: message(*)
+        integer(c_size_t), value :: capacity
+        integer(c_int32_t) :: status
+      end function
+    end interface
+    status = c_frictional_block_f32(law, block, message, room(message))
+    call end_message(status, message)
+  end function
+
+  function toron_frictional_block_with_properties_f64(properties, block, message) result(status)
+    real(c_double), intent(in), contiguous :: properties(:)
+    type(toron_block_f64), target, intent(in) :: block
+    character(*), intent(out), optional :: message
+    integer(c_int32_t) :: status
+    interface
+      function c_frictional_block_with_properties_f64(properties, count, block, message, &
+        capacity) bind(c, name='toron_frictional_block_with_properties_f64') result(status)
+        import
+        real(c_double), intent(in) :: properties(*)
+        integer(c_size_t), value :: count
+        type(toron_block_f64), target, intent(in) :: block
+        character(kind=c_char), intent(inout), optional :: message(*)
+        integer(c_size_t), value :: capacity
+        integer(c_int32_t) :: status
+      end function
+    end interface
+    status = c_frictional_block_with_properties_f64(properties, size(properties, kind=c_size_t), block, message, &
+      room(message))
+    call end_message(status, message)
+  end function
+
+  function toron_frictional_block_with_properties_f32(properties, block, message) result(status)
+    real(c_float), intent(in), contiguous :: properties(:)
+    type(toron_block_f32), target, intent(in) :: block
+    character(*), intent(out), optional :: message
+    integer(c_int32_t) :: status
+    interface
+      function c_frictional_block_with_properties_f32(properties, count, block, message, &
+        capacity) bind(c, name='toron_frictional_block_with_properties_f32') result(status)
+        import
+        real(c_float), intent(in) :: properties(*)
+        integer(c_size_t), value :: count
+        type(toron_block_f32), target, intent(in) :: block
+        character(kind=c_char), intent(inout), optional :: message(*)
+        integer(c_size_t), value :: capacity
+        integer(c_int32_t) :: status
+      end function
+    end interface
+    status = c_frictional_block_with_properties_f32(properties, size(properties, kind=c_size_t), block, message, &
+      room(message))
+    call end_message(status, message)
+  end function
+
   function toron_linear_elastic_prepare_f64(law, properties, message) result(status)
     type(toron_linear_elastic_f64), intent(out) :: law
     real(c_double), intent(in), contiguous :: properties(:)
@@ -1300,6 +1577,39 @@ contains
     call end_message(status, message)
   end function
 
+  function toron_abaqus_frictional_umat_f64(stress, statev, ddsdde, sse, spd, pnewdt, dfgrd1, props, nprops, &
+    nstatv, ndi, nshr, nlgeom, message) result(status)
+    real(c_double), intent(inout) :: stress(*), statev(*)
+    real(c_double), intent(inout), optional :: ddsdde(*)
+    real(c_double), intent(inout) :: sse
+    real(c_double), intent(inout), optional :: spd
+    real(c_double), intent(inout) :: pnewdt
+    real(c_double), intent(in) :: dfgrd1(*), props(*)
+    integer(c_int32_t), intent(in) :: nprops, nstatv, ndi, nshr, nlgeom
+    character(*), intent(out), optional :: message
+    integer(c_int32_t) :: status
+    interface
+      function c_abaqus_frictional_umat_f64(stress, statev, ddsdde, sse, spd, pnewdt, dfgrd1, props, nprops, &
+        nstatv, ndi, nshr, nlgeom, message, &
+        capacity) bind(c, name='toron_abaqus_frictional_umat_f64') result(status)
+        import
+        real(c_double), intent(inout) :: stress(*), statev(*)
+        real(c_double), intent(inout), optional :: ddsdde(*)
+        real(c_double), intent(inout) :: sse
+        real(c_double), intent(inout), optional :: spd
+        real(c_double), intent(inout) :: pnewdt
+        real(c_double), intent(in) :: dfgrd1(*), props(*)
+        integer(c_int32_t), value :: nprops, nstatv, ndi, nshr, nlgeom
+        character(kind=c_char), intent(inout), optional :: message(*)
+        integer(c_size_t), value :: capacity
+        integer(c_int32_t) :: status
+      end function
+    end interface
+    status = c_abaqus_frictional_umat_f64(stress, statev, ddsdde, sse, spd, pnewdt, dfgrd1, props, nprops, nstatv, &
+      ndi, nshr, nlgeom, message, room(message))
+    call end_message(status, message)
+  end function
+
   function toron_abaqus_vumat_f64(block, message) result(status)
     type(toron_vumat_f64), target, intent(in) :: block
     character(*), intent(out), optional :: message
@@ -1367,6 +1677,42 @@ contains
       end function
     end interface
     status = c_abaqus_linear_vumat_f32(block, message, room(message))
+    call end_message(status, message)
+  end function
+
+  function toron_abaqus_frictional_vumat_f64(block, message) result(status)
+    type(toron_vumat_f64), target, intent(in) :: block
+    character(*), intent(out), optional :: message
+    integer(c_int32_t) :: status
+    interface
+      function c_abaqus_frictional_vumat_f64(block, message, &
+        capacity) bind(c, name='toron_abaqus_frictional_vumat_f64') result(status)
+        import
+        type(toron_vumat_f64), target, intent(in) :: block
+        character(kind=c_char), intent(inout), optional :: message(*)
+        integer(c_size_t), value :: capacity
+        integer(c_int32_t) :: status
+      end function
+    end interface
+    status = c_abaqus_frictional_vumat_f64(block, message, room(message))
+    call end_message(status, message)
+  end function
+
+  function toron_abaqus_frictional_vumat_f32(block, message) result(status)
+    type(toron_vumat_f32), target, intent(in) :: block
+    character(*), intent(out), optional :: message
+    integer(c_int32_t) :: status
+    interface
+      function c_abaqus_frictional_vumat_f32(block, message, &
+        capacity) bind(c, name='toron_abaqus_frictional_vumat_f32') result(status)
+        import
+        type(toron_vumat_f32), target, intent(in) :: block
+        character(kind=c_char), intent(inout), optional :: message(*)
+        integer(c_size_t), value :: capacity
+        integer(c_int32_t) :: status
+      end function
+    end interface
+    status = c_abaqus_frictional_vumat_f32(block, message, room(message))
     call end_message(status, message)
   end function
 
@@ -1785,6 +2131,216 @@ contains
       end function
     end interface
     status = c_lsdyna_linear_bulk_and_shear_f64(values, size(values, kind=c_size_t), bulk, shear, message, &
+      room(message))
+    call end_message(status, message)
+  end function
+
+  function toron_lsdyna_frictional_umat_f64(cm, sig, hsv, nhv, failel, message) result(status)
+    real(c_double), intent(in) :: cm(*)
+    real(c_double), intent(inout) :: sig(*), hsv(*)
+    integer(c_int32_t), intent(in) :: nhv
+    integer(c_int), intent(inout) :: failel
+    character(*), intent(out), optional :: message
+    integer(c_int32_t) :: status
+    interface
+      function c_lsdyna_frictional_umat_f64(cm, sig, hsv, nhv, failel, message, &
+        capacity) bind(c, name='toron_lsdyna_frictional_umat_f64') result(status)
+        import
+        real(c_double), intent(in) :: cm(*)
+        real(c_double), intent(inout) :: sig(*), hsv(*)
+        integer(c_int32_t), value :: nhv
+        integer(c_int), intent(inout) :: failel
+        character(kind=c_char), intent(inout), optional :: message(*)
+        integer(c_size_t), value :: capacity
+        integer(c_int32_t) :: status
+      end function
+    end interface
+    status = c_lsdyna_frictional_umat_f64(cm, sig, hsv, nhv, failel, message, room(message))
+    call end_message(status, message)
+  end function
+
+  function toron_lsdyna_frictional_umat_f32(cm, sig, hsv, nhv, failel, message) result(status)
+    real(c_float), intent(in) :: cm(*)
+    real(c_float), intent(inout) :: sig(*), hsv(*)
+    integer(c_int32_t), intent(in) :: nhv
+    integer(c_int), intent(inout) :: failel
+    character(*), intent(out), optional :: message
+    integer(c_int32_t) :: status
+    interface
+      function c_lsdyna_frictional_umat_f32(cm, sig, hsv, nhv, failel, message, &
+        capacity) bind(c, name='toron_lsdyna_frictional_umat_f32') result(status)
+        import
+        real(c_float), intent(in) :: cm(*)
+        real(c_float), intent(inout) :: sig(*), hsv(*)
+        integer(c_int32_t), value :: nhv
+        integer(c_int), intent(inout) :: failel
+        character(kind=c_char), intent(inout), optional :: message(*)
+        integer(c_size_t), value :: capacity
+        integer(c_int32_t) :: status
+      end function
+    end interface
+    status = c_lsdyna_frictional_umat_f32(cm, sig, hsv, nhv, failel, message, room(message))
+    call end_message(status, message)
+  end function
+
+  function toron_lsdyna_frictional_umat_vector_f64(cm, sig1, sig2, sig3, sig4, sig5, sig6, hsvs, nhv, lft, llt, &
+    nlq, failels, message) result(status)
+    real(c_double), intent(in) :: cm(*)
+    real(c_double), intent(inout) :: sig1(*), sig2(*), sig3(*), sig4(*), sig5(*), sig6(*), hsvs(*)
+    integer(c_int32_t), intent(in) :: nhv, lft, llt, nlq
+    integer(c_int), intent(inout) :: failels(*)
+    character(*), intent(out), optional :: message
+    integer(c_int32_t) :: status
+    interface
+      function c_lsdyna_frictional_umat_vector_f64(cm, sig1, sig2, sig3, sig4, sig5, sig6, hsvs, nhv, lft, llt, &
+        nlq, failels, message, capacity) bind(c, name='toron_lsdyna_frictional_umat_vector_f64') result(status)
+        import
+        real(c_double), intent(in) :: cm(*)
+        real(c_double), intent(inout) :: sig1(*), sig2(*), sig3(*), sig4(*), sig5(*), sig6(*), hsvs(*)
+        integer(c_int32_t), value :: nhv, lft, llt, nlq
+        integer(c_int), intent(inout) :: failels(*)
+        character(kind=c_char), intent(inout), optional :: message(*)
+        integer(c_size_t), value :: capacity
+        integer(c_int32_t) :: status
+      end function
+    end interface
+    status = c_lsdyna_frictional_umat_vector_f64(cm, sig1, sig2, sig3, sig4, sig5, sig6, hsvs, nhv, lft, llt, nlq, &
+      failels, message, room(message))
+    call end_message(status, message)
+  end function
+
+  function toron_lsdyna_frictional_umat_vector_f32(cm, sig1, sig2, sig3, sig4, sig5, sig6, hsvs, nhv, lft, llt, &
+    nlq, failels, message) result(status)
+    real(c_float), intent(in) :: cm(*)
+    real(c_float), intent(inout) :: sig1(*), sig2(*), sig3(*), sig4(*), sig5(*), sig6(*), hsvs(*)
+    integer(c_int32_t), intent(in) :: nhv, lft, llt, nlq
+    integer(c_int), intent(inout) :: failels(*)
+    character(*), intent(out), optional :: message
+    integer(c_int32_t) :: status
+    interface
+      function c_lsdyna_frictional_umat_vector_f32(cm, sig1, sig2, sig3, sig4, sig5, sig6, hsvs, nhv, lft, llt, &
+        nlq, failels, message, capacity) bind(c, name='toron_lsdyna_frictional_umat_vector_f32') result(status)
+        import
+        real(c_float), intent(in) :: cm(*)
+        real(c_float), intent(inout) :: sig1(*), sig2(*), sig3(*), sig4(*), sig5(*), sig6(*), hsvs(*)
+        integer(c_int32_t), value :: nhv, lft, llt, nlq
+        integer(c_int), intent(inout) :: failels(*)
+        character(kind=c_char), intent(inout), optional :: message(*)
+        integer(c_size_t), value :: capacity
+        integer(c_int32_t) :: status
+      end function
+    end interface
+    status = c_lsdyna_frictional_umat_vector_f32(cm, sig1, sig2, sig3, sig4, sig5, sig6, hsvs, nhv, lft, llt, nlq, &
+      failels, message, room(message))
+    call end_message(status, message)
+  end function
+
+  function toron_lsdyna_frictional_utan_f64(cm, hsv, nhv, es, message) result(status)
+    real(c_double), intent(in) :: cm(*), hsv(*)
+    integer(c_int32_t), intent(in) :: nhv
+    real(c_double), intent(inout) :: es(*)
+    character(*), intent(out), optional :: message
+    integer(c_int32_t) :: status
+    interface
+      function c_lsdyna_frictional_utan_f64(cm, hsv, nhv, es, message, &
+        capacity) bind(c, name='toron_lsdyna_frictional_utan_f64') result(status)
+        import
+        real(c_double), intent(in) :: cm(*), hsv(*)
+        integer(c_int32_t), value :: nhv
+        real(c_double), intent(inout) :: es(*)
+        character(kind=c_char), intent(inout), optional :: message(*)
+        integer(c_size_t), value :: capacity
+        integer(c_int32_t) :: status
+      end function
+    end interface
+    status = c_lsdyna_frictional_utan_f64(cm, hsv, nhv, es, message, room(message))
+    call end_message(status, message)
+  end function
+
+  function toron_lsdyna_frictional_utan_f32(cm, hsv, nhv, es, message) result(status)
+    real(c_float), intent(in) :: cm(*), hsv(*)
+    integer(c_int32_t), intent(in) :: nhv
+    real(c_float), intent(inout) :: es(*)
+    character(*), intent(out), optional :: message
+    integer(c_int32_t) :: status
+    interface
+      function c_lsdyna_frictional_utan_f32(cm, hsv, nhv, es, message, &
+        capacity) bind(c, name='toron_lsdyna_frictional_utan_f32') result(status)
+        import
+        real(c_float), intent(in) :: cm(*), hsv(*)
+        integer(c_int32_t), value :: nhv
+        real(c_float), intent(inout) :: es(*)
+        character(kind=c_char), intent(inout), optional :: message(*)
+        integer(c_size_t), value :: capacity
+        integer(c_int32_t) :: status
+      end function
+    end interface
+    status = c_lsdyna_frictional_utan_f32(cm, hsv, nhv, es, message, room(message))
+    call end_message(status, message)
+  end function
+
+  function toron_lsdyna_frictional_utan_vector_f64(cm, hsvs, nhv, lft, llt, nlq, dsave, message) result(status)
+    real(c_double), intent(in) :: cm(*), hsvs(*)
+    integer(c_int32_t), intent(in) :: nhv, lft, llt, nlq
+    real(c_double), intent(inout) :: dsave(*)
+    character(*), intent(out), optional :: message
+    integer(c_int32_t) :: status
+    interface
+      function c_lsdyna_frictional_utan_vector_f64(cm, hsvs, nhv, lft, llt, nlq, dsave, message, &
+        capacity) bind(c, name='toron_lsdyna_frictional_utan_vector_f64') result(status)
+        import
+        real(c_double), intent(in) :: cm(*), hsvs(*)
+        integer(c_int32_t), value :: nhv, lft, llt, nlq
+        real(c_double), intent(inout) :: dsave(*)
+        character(kind=c_char), intent(inout), optional :: message(*)
+        integer(c_size_t), value :: capacity
+        integer(c_int32_t) :: status
+      end function
+    end interface
+    status = c_lsdyna_frictional_utan_vector_f64(cm, hsvs, nhv, lft, llt, nlq, dsave, message, room(message))
+    call end_message(status, message)
+  end function
+
+  function toron_lsdyna_frictional_utan_vector_f32(cm, hsvs, nhv, lft, llt, nlq, dsave, message) result(status)
+    real(c_float), intent(in) :: cm(*), hsvs(*)
+    integer(c_int32_t), intent(in) :: nhv, lft, llt, nlq
+    real(c_float), intent(inout) :: dsave(*)
+    character(*), intent(out), optional :: message
+    integer(c_int32_t) :: status
+    interface
+      function c_lsdyna_frictional_utan_vector_f32(cm, hsvs, nhv, lft, llt, nlq, dsave, message, &
+        capacity) bind(c, name='toron_lsdyna_frictional_utan_vector_f32') result(status)
+        import
+        real(c_float), intent(in) :: cm(*), hsvs(*)
+        integer(c_int32_t), value :: nhv, lft, llt, nlq
+        real(c_float), intent(inout) :: dsave(*)
+        character(kind=c_char), intent(inout), optional :: message(*)
+        integer(c_size_t), value :: capacity
+        integer(c_int32_t) :: status
+      end function
+    end interface
+    status = c_lsdyna_frictional_utan_vector_f32(cm, hsvs, nhv, lft, llt, nlq, dsave, message, room(message))
+    call end_message(status, message)
+  end function
+
+  function toron_lsdyna_frictional_bulk_and_shear_f64(values, bulk, shear, message) result(status)
+    real(c_double), intent(in), contiguous :: values(:)
+    real(c_double), intent(inout) :: bulk, shear
+    character(*), intent(out), optional :: message
+    integer(c_int32_t) :: status
+    interface
+      function c_lsdyna_frictional_bulk_and_shear_f64(values, count, bulk, shear, message, &
+        capacity) bind(c, name='toron_lsdyna_frictional_bulk_and_shear_f64') result(status)
+        import
+        real(c_double), intent(in) :: values(*)
+        integer(c_size_t), value :: count
+        real(c_double), intent(inout) :: bulk, shear
+        character(kind=c_char), intent(inout), optional :: message(*)
+        integer(c_size_t), value :: capacity
+        integer(c_int32_t) :: status
+      end function
+    end interface
+    status = c_lsdyna_frictional_bulk_and_shear_f64(values, size(values, kind=c_size_t), bulk, shear, message, &
       room(message))
     call end_message(status, message)
   end function

@@ -167,6 +167,11 @@
 #define TORON_LINEAR_ELASTIC 1
 
 /*
+ Selects the yarn law with friction in these functions.
+ */
+#define TORON_FRICTIONAL 2
+
+/*
  Number of properties and of state variables of the hyperelastic law.
  */
 #define TORON_HYPERELASTIC_PROPERTIES 11
@@ -179,6 +184,13 @@
 #define TORON_LINEAR_ELASTIC_PROPERTIES 10
 
 #define TORON_LINEAR_ELASTIC_STATE 10
+
+/*
+ Number of properties and of state variables of the law with friction.
+ */
+#define TORON_FRICTIONAL_PROPERTIES 13
+
+#define TORON_FRICTIONAL_STATE 15
 
 /*
  Linear elastic law: the material frame follows the fibre.
@@ -320,8 +332,9 @@ typedef struct toron_hyperelastic_f32 {
 } toron_hyperelastic_f32;
 
 /*
- A point of the hyperelastic law. Set `size`, and what is wanted; the rest is 0: an array that is null is left out, and an
- output that is left out is not computed. The arrays of the old and the new state may be the same.
+ A point of the hyperelastic law or of the law with friction. Set `size`, and what is wanted; the rest is 0: an array
+ that is null is left out, and an output that is left out is not computed. The arrays of the old and the new state may
+ be the same.
  */
 typedef struct toron_point_f64 {
   /*
@@ -349,11 +362,11 @@ typedef struct toron_point_f64 {
    */
   const double *fibre;
   /*
-   In, 11: the old state; if null, all 0.
+   In, 11 (15 of the law with friction): the old state; if null, all 0.
    */
   const double *state_old;
   /*
-   Out, 11: the new state. If null, the point does not fail, but stays failed if its old state has the flag set.
+   Out, as many: the new state. If null, the point does not fail, but stays failed if its old state has the flag set.
    */
   double *state_new;
   /*
@@ -371,8 +384,9 @@ typedef struct toron_point_f64 {
   double *wave_speed;
   /*
    Out, 36 (81 for `TORON_TANGENT_NOMINAL`): the tangent, entry (row, column), counted from 0, at 6 row + column (9 row +
-   column); a symmetric matrix. Rows and columns are in the order 11 22 33 12 23 31, with derivatives with respect to
-   engineering shears; for `TORON_TANGENT_NOMINAL` 11 21 31 12 22 32 13 23 33.
+   column); a symmetric matrix, but where the fibres of the law with friction slide. Rows and columns are in the order
+   11 22 33 12 23 31, with derivatives with respect to engineering shears; for `TORON_TANGENT_NOMINAL`
+   11 21 31 12 22 32 13 23 33.
 
    The call that detects failure returns that of the intact material, later calls return zeros. At a kink (I_el = 0 or I_tc =
    0) it is that of loading.
@@ -386,8 +400,9 @@ typedef struct toron_point_f64 {
 } toron_point_f64;
 
 /*
- A point of the hyperelastic law. Set `size`, and what is wanted; the rest is 0: an array that is null is left out, and an
- output that is left out is not computed. The arrays of the old and the new state may be the same.
+ A point of the hyperelastic law or of the law with friction. Set `size`, and what is wanted; the rest is 0: an array
+ that is null is left out, and an output that is left out is not computed. The arrays of the old and the new state may
+ be the same.
  */
 typedef struct toron_point_f32 {
   /*
@@ -415,11 +430,11 @@ typedef struct toron_point_f32 {
    */
   const float *fibre;
   /*
-   In, 11: the old state; if null, all 0.
+   In, 11 (15 of the law with friction): the old state; if null, all 0.
    */
   const float *state_old;
   /*
-   Out, 11: the new state. If null, the point does not fail, but stays failed if its old state has the flag set.
+   Out, as many: the new state. If null, the point does not fail, but stays failed if its old state has the flag set.
    */
   float *state_new;
   /*
@@ -437,8 +452,9 @@ typedef struct toron_point_f32 {
   float *wave_speed;
   /*
    Out, 36 (81 for `TORON_TANGENT_NOMINAL`): the tangent, entry (row, column), counted from 0, at 6 row + column (9 row +
-   column); a symmetric matrix. Rows and columns are in the order 11 22 33 12 23 31, with derivatives with respect to
-   engineering shears; for `TORON_TANGENT_NOMINAL` 11 21 31 12 22 32 13 23 33.
+   column); a symmetric matrix, but where the fibres of the law with friction slide. Rows and columns are in the order
+   11 22 33 12 23 31, with derivatives with respect to engineering shears; for `TORON_TANGENT_NOMINAL`
+   11 21 31 12 22 32 13 23 33.
 
    The call that detects failure returns that of the intact material, later calls return zeros. At a kink (I_el = 0 or I_tc =
    0) it is that of loading.
@@ -468,13 +484,13 @@ typedef struct toron_layout {
 } toron_layout;
 
 /*
- A block of points of the hyperelastic law. Set `size`, `n`, and what is wanted; the rest is 0: an array that is null is left
- out, and an output that is left out is not computed.
+ A block of points of the hyperelastic law or of the law with friction. Set `size`, `n`, and what is wanted; the rest is
+ 0: an array that is null is left out, and an output that is left out is not computed.
 
  Component c of point i is at `c * leading_dimension + i`, unless the layout of the array says otherwise. F, fibre and stress
  have a pointer for each component, so that they may be in separate arrays; if only the first is set, the others follow it by
  the layout. The arrays of the old and the new state may be the same; otherwise arrays must not overlap. Energies, invariants
- and failure may be parts of one array of 11 components, starting at components 0, 4 and 8.
+ and failure may be parts of one array of 11 components (15 of the law with friction), starting at components 0, 4 and 8.
  */
 typedef struct toron_block_f64 {
   /*
@@ -511,7 +527,7 @@ typedef struct toron_block_f64 {
    */
   const double *fibre[3];
   /*
-   In, 4, 4 and 3 components: the old state; if null, all 0.
+   In, 4, 4 and 3 components: the old state; if null, all 0. The failure has 7 of the law with friction.
    */
   const double *energies_old;
   const double *invariants_old;
@@ -529,7 +545,8 @@ typedef struct toron_block_f64 {
    */
   double *invariants;
   /*
-   Out, 3: failure index, failed, alive. If null, no point fails, but a point whose old failure flag is set stays failed.
+   Out, 3: failure index, failed, alive; of the law with friction 7, before these the energy lost, I_te and the two components
+   of the slip. If null, no point fails, but a point whose old failure flag is set stays failed.
    */
   double *failure;
   /*
@@ -571,13 +588,13 @@ typedef struct toron_block_f64 {
 } toron_block_f64;
 
 /*
- A block of points of the hyperelastic law. Set `size`, `n`, and what is wanted; the rest is 0: an array that is null is left
- out, and an output that is left out is not computed.
+ A block of points of the hyperelastic law or of the law with friction. Set `size`, `n`, and what is wanted; the rest is
+ 0: an array that is null is left out, and an output that is left out is not computed.
 
  Component c of point i is at `c * leading_dimension + i`, unless the layout of the array says otherwise. F, fibre and stress
  have a pointer for each component, so that they may be in separate arrays; if only the first is set, the others follow it by
  the layout. The arrays of the old and the new state may be the same; otherwise arrays must not overlap. Energies, invariants
- and failure may be parts of one array of 11 components, starting at components 0, 4 and 8.
+ and failure may be parts of one array of 11 components (15 of the law with friction), starting at components 0, 4 and 8.
  */
 typedef struct toron_block_f32 {
   /*
@@ -614,7 +631,7 @@ typedef struct toron_block_f32 {
    */
   const float *fibre[3];
   /*
-   In, 4, 4 and 3 components: the old state; if null, all 0.
+   In, 4, 4 and 3 components: the old state; if null, all 0. The failure has 7 of the law with friction.
    */
   const float *energies_old;
   const float *invariants_old;
@@ -632,7 +649,8 @@ typedef struct toron_block_f32 {
    */
   float *invariants;
   /*
-   Out, 3: failure index, failed, alive. If null, no point fails, but a point whose old failure flag is set stays failed.
+   Out, 3: failure index, failed, alive; of the law with friction 7, before these the energy lost, I_te and the two components
+   of the slip. If null, no point fails, but a point whose old failure flag is set stays failed.
    */
   float *failure;
   /*
@@ -672,6 +690,30 @@ typedef struct toron_block_f32 {
   const float *limit;
   struct toron_layout limit_layout;
 } toron_block_f32;
+
+/*
+ The law with friction, prepared by `toron_frictional_prepare_f64` or `_f32`; as `toron_hyperelastic_f64` else.
+ */
+typedef struct toron_frictional_f64 {
+  /*
+   Tells law, precision and layout; the size of the structure; the library's own numbers.
+   */
+  uint64_t tag;
+  uint64_t size;
+  double values[62];
+} toron_frictional_f64;
+
+/*
+ The law with friction, prepared by `toron_frictional_prepare_f64` or `_f32`; as `toron_hyperelastic_f64` else.
+ */
+typedef struct toron_frictional_f32 {
+  /*
+   Tells law, precision and layout; the size of the structure; the library's own numbers.
+   */
+  uint64_t tag;
+  uint64_t size;
+  float values[62];
+} toron_frictional_f32;
 
 /*
  The linear elastic law, prepared by `toron_linear_elastic_prepare_f64` or `_f32`; as `toron_hyperelastic_f64` else.
@@ -1247,9 +1289,11 @@ int32_t toron_abi_version(void);
 int32_t toron_status_message(int32_t status, char *message, size_t capacity);
 
 /*
- The number of properties of a law (`TORON_HYPERELASTIC`, `TORON_LINEAR_ELASTIC`), or `TORON_UNKNOWN_NAME`.
+ The number of properties of a law (`TORON_HYPERELASTIC`, `TORON_LINEAR_ELASTIC`, `TORON_FRICTIONAL`), or `TORON_UNKNOWN_NAME`.
  */
-int32_t toron_property_count(int32_t law, char *message, size_t capacity);
+int32_t toron_property_count(int32_t law,
+                             char *message,
+                             size_t capacity);
 
 /*
  Writes the table row of property `index`, counted from 0, to `row`, whose `size` is set.
@@ -1428,6 +1472,105 @@ int32_t toron_hyperelastic_least_acoustic_eigenvalue_f64(const struct toron_hype
                                                          double *direction,
                                                          char *message,
                                                          size_t capacity);
+
+/*
+ Checks the properties of the law with friction, and prepares the law from them; as `toron_hyperelastic_prepare_f64`.
+ */
+int32_t toron_frictional_prepare_f64(struct toron_frictional_f64 *law,
+                                     size_t size,
+                                     const double *properties,
+                                     size_t count,
+                                     char *message,
+                                     size_t capacity);
+
+/*
+ As `toron_frictional_prepare_f64`, in single precision.
+ */
+int32_t toron_frictional_prepare_f32(struct toron_frictional_f32 *law,
+                                     size_t size,
+                                     const float *properties,
+                                     size_t count,
+                                     char *message,
+                                     size_t capacity);
+
+/*
+ The law with friction over a step at one point, with or without a tangent: see `toron_point_f64`; its arrays of the state have
+ 15 values. The step goes from the slip of the old state to the deformation gradient.
+
+ Returns 0, a −1xx or −2xx code (nothing is written), or a −3xx code (stress, modes and tangent are 0, the wave speed is that of
+ a yarn at rest, the state is unchanged but for `alive`, which is 1 - failed).
+ */
+int32_t toron_frictional_point_f64(const struct toron_frictional_f64 *law,
+                                   const struct toron_point_f64 *point,
+                                   char *message,
+                                   size_t capacity);
+
+/*
+ As `toron_frictional_point_f64`, in single precision.
+ */
+int32_t toron_frictional_point_f32(const struct toron_frictional_f32 *law,
+                                   const struct toron_point_f32 *point,
+                                   char *message,
+                                   size_t capacity);
+
+/*
+ As `toron_frictional_point_f64`, with the properties in the table's order in place of a law that has been prepared. The
+ results are the same bits.
+ */
+int32_t toron_frictional_point_with_properties_f64(const double *properties,
+                                                   size_t count,
+                                                   const struct toron_point_f64 *point,
+                                                   char *message,
+                                                   size_t capacity);
+
+/*
+ As `toron_frictional_point_with_properties_f64`, in single precision.
+ */
+int32_t toron_frictional_point_with_properties_f32(const float *properties,
+                                                   size_t count,
+                                                   const struct toron_point_f32 *point,
+                                                   char *message,
+                                                   size_t capacity);
+
+/*
+ The law with friction over a step at a block of points, with or without a tangent: see `toron_block_f64`; its arrays of the
+ failure have 7 components.
+
+ Returns the worst status code of the points: 0, or the most negative −3xx code (that point carries no stress and keeps
+ its state; the others are not affected; the message names the first one, without `status` only if its F and fibre still tell
+ it); or a −1xx or −2xx code, and nothing is written.
+ */
+int32_t toron_frictional_block_f64(const struct toron_frictional_f64 *law,
+                                   const struct toron_block_f64 *block,
+                                   char *message,
+                                   size_t capacity);
+
+/*
+ As `toron_frictional_block_f64`, in single precision.
+ */
+int32_t toron_frictional_block_f32(const struct toron_frictional_f32 *law,
+                                   const struct toron_block_f32 *block,
+                                   char *message,
+                                   size_t capacity);
+
+/*
+ As `toron_frictional_block_f64`, with the properties in the table's order in place of a law that has been prepared. The
+ results are the same bits.
+ */
+int32_t toron_frictional_block_with_properties_f64(const double *properties,
+                                                   size_t count,
+                                                   const struct toron_block_f64 *block,
+                                                   char *message,
+                                                   size_t capacity);
+
+/*
+ As `toron_frictional_block_with_properties_f64`, in single precision.
+ */
+int32_t toron_frictional_block_with_properties_f32(const float *properties,
+                                                   size_t count,
+                                                   const struct toron_block_f32 *block,
+                                                   char *message,
+                                                   size_t capacity);
 
 /*
  Checks the properties of the linear elastic law, and prepares the law from them; as `toron_hyperelastic_prepare_f64`.
@@ -1649,6 +1792,31 @@ int32_t toron_abaqus_linear_umat_f64(double *stress,
                                      size_t capacity);
 
 /*
+ The law with friction as a UMAT of Abaqus/Standard.
+
+ The arguments are those of `toron_abaqus_umat_tangent_f64`, and `spd` (out): the energy lost per current volume; `nstatv` ≥ 15,
+ `nprops` = 13, or 14: the last one is the number of the state variable that holds the point's own limit, or 0. DDSDDE is not
+ symmetric where the fibres slide: `*USER MATERIAL, UNSYMM`; Abaqus takes its symmetric part otherwise.
+
+ Returns as `toron_abaqus_umat_tangent_f64` does.
+ */
+int32_t toron_abaqus_frictional_umat_f64(double *stress,
+                                         double *statev,
+                                         double *ddsdde,
+                                         double *sse,
+                                         double *spd,
+                                         double *pnewdt,
+                                         const double *dfgrd1,
+                                         const double *props,
+                                         int32_t nprops,
+                                         int32_t nstatv,
+                                         int32_t ndi,
+                                         int32_t nshr,
+                                         int32_t nlgeom,
+                                         char *message,
+                                         size_t capacity);
+
+/*
  The hyperelastic law as a VUMAT of Abaqus/Explicit, for jobs in double precision.
 
  `block` holds the VUMAT's arguments; their shapes are given in `toron_vumat_f64`. All pointers are the caller's and not
@@ -1680,6 +1848,19 @@ int32_t toron_abaqus_linear_vumat_f64(const struct toron_vumat_f64 *block,
  As `toron_abaqus_linear_vumat_f64`, for jobs in single precision.
  */
 int32_t toron_abaqus_linear_vumat_f32(const struct toron_vumat_f32 *block, char *message, size_t capacity);
+
+/*
+ The law with friction as a VUMAT of Abaqus/Explicit, for jobs in double precision: as `toron_abaqus_vumat_f64`, with 13 properties
+ and 15 state variables or more, of which number 15, "alive", deletes the element. `ener_inelas_new` is the energy lost per mass.
+ */
+int32_t toron_abaqus_frictional_vumat_f64(const struct toron_vumat_f64 *block,
+                                          char *message,
+                                          size_t capacity);
+
+/*
+ As `toron_abaqus_frictional_vumat_f64`, for jobs in single precision.
+ */
+int32_t toron_abaqus_frictional_vumat_f32(const struct toron_vumat_f32 *block, char *message, size_t capacity);
 
 /*
  The hyperelastic law as a scalar user material of LS-DYNA, in double precision.
@@ -1958,10 +2139,135 @@ int32_t toron_lsdyna_linear_bulk_and_shear_f64(const double *values,
                                                size_t capacity);
 
 /*
+ The law with friction as a scalar user material of LS-DYNA, in double precision.
+
+ As `toron_lsdyna_umat_f64`, with `cm`: at least 13 values, the properties; `hsv`: `nhv` = 15 state variables, in and out, followed
+ by the 9 entries of F by columns, in.
+ */
+int32_t toron_lsdyna_frictional_umat_f64(const double *cm,
+                                         double *sig,
+                                         double *hsv,
+                                         int32_t nhv,
+                                         int *failel,
+                                         char *message,
+                                         size_t capacity);
+
+/*
+ As `toron_lsdyna_frictional_umat_f64`, in single precision.
+ */
+int32_t toron_lsdyna_frictional_umat_f32(const float *cm,
+                                         float *sig,
+                                         float *hsv,
+                                         int32_t nhv,
+                                         int *failel,
+                                         char *message,
+                                         size_t capacity);
+
+/*
+ The law with friction as a vectorised user material of LS-DYNA, in double precision: as `toron_lsdyna_umat_vector_f64`, with `hsvs`:
+ (`nlq`, 24), ordered as `hsv` of `toron_lsdyna_frictional_umat_f64`.
+ */
+int32_t toron_lsdyna_frictional_umat_vector_f64(const double *cm,
+                                                double *sig1,
+                                                double *sig2,
+                                                double *sig3,
+                                                double *sig4,
+                                                double *sig5,
+                                                double *sig6,
+                                                double *hsvs,
+                                                int32_t nhv,
+                                                int32_t lft,
+                                                int32_t llt,
+                                                int32_t nlq,
+                                                int *failels,
+                                                char *message,
+                                                size_t capacity);
+
+/*
+ As `toron_lsdyna_frictional_umat_vector_f64`, in single precision.
+ */
+int32_t toron_lsdyna_frictional_umat_vector_f32(const float *cm,
+                                                float *sig1,
+                                                float *sig2,
+                                                float *sig3,
+                                                float *sig4,
+                                                float *sig5,
+                                                float *sig6,
+                                                float *hsvs,
+                                                int32_t nhv,
+                                                int32_t lft,
+                                                int32_t llt,
+                                                int32_t nlq,
+                                                int *failels,
+                                                char *message,
+                                                size_t capacity);
+
+/*
+ The tangent of the law with friction for LS-DYNA's scalar user routine `utan`, in double precision: as `toron_lsdyna_utan_f64`, with
+ `hsv` of `toron_lsdyna_frictional_umat_f64`.
+
+ It is that of a further, infinitesimal step from the state that the material routine has written, where the fibres hold: that of
+ unloading where they have slid in the step.
+ */
+int32_t toron_lsdyna_frictional_utan_f64(const double *cm,
+                                         const double *hsv,
+                                         int32_t nhv,
+                                         double *es,
+                                         char *message,
+                                         size_t capacity);
+
+/*
+ As `toron_lsdyna_frictional_utan_f64`, in single precision.
+ */
+int32_t toron_lsdyna_frictional_utan_f32(const float *cm,
+                                         const float *hsv,
+                                         int32_t nhv,
+                                         float *es,
+                                         char *message,
+                                         size_t capacity);
+
+/*
+ As `toron_lsdyna_frictional_utan_f64`, for LS-DYNA's vectorised `utan`: arguments as of `toron_lsdyna_utan_vector_f64`, with `hsvs`:
+ (`nlq`, 24).
+ */
+int32_t toron_lsdyna_frictional_utan_vector_f64(const double *cm,
+                                                const double *hsvs,
+                                                int32_t nhv,
+                                                int32_t lft,
+                                                int32_t llt,
+                                                int32_t nlq,
+                                                double *dsave,
+                                                char *message,
+                                                size_t capacity);
+
+/*
+ As `toron_lsdyna_frictional_utan_vector_f64`, in single precision.
+ */
+int32_t toron_lsdyna_frictional_utan_vector_f32(const float *cm,
+                                                const float *hsvs,
+                                                int32_t nhv,
+                                                int32_t lft,
+                                                int32_t llt,
+                                                int32_t nlq,
+                                                float *dsave,
+                                                char *message,
+                                                size_t capacity);
+
+/*
+ As `toron_lsdyna_bulk_and_shear_f64`, for the law with friction: cm(14) and cm(15), IBULK = 14 and IG = 15.
+ */
+int32_t toron_lsdyna_frictional_bulk_and_shear_f64(const double *values,
+                                                   size_t count,
+                                                   double *bulk,
+                                                   double *shear,
+                                                   char *message,
+                                                   size_t capacity);
+
+/*
  The starter's routine of a user material of OpenRadioss, `LECMUSERnn`, in double precision.
 
- `number`: nn, 1 for the hyperelastic law and 2 for the linear elastic one; `values`: `count` numbers of the card behind the
- density, the law's properties and then the options; `uparam`: `maxuparam` values, out; `nuparam`, `nuvar`: out; `parmat`: out, 1
+ `number`: nn, 1 for the hyperelastic law, 2 for the linear elastic one and 3 for that with friction; `values`: `count` numbers
+ of the card behind the density, the law's properties and then the options; `uparam`: `maxuparam` values, out; `nuparam`, `nuvar`: out; `parmat`: out, 1
  value, the modulus of the fastest wave at rest. None may be null.
 
  Returns 0, or a code with which the starter is to be stopped, and nothing is written: a −1xx code

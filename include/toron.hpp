@@ -76,6 +76,24 @@ struct hyperelastic_f32 {
     static constexpr auto at_point = toron_hyperelastic_point_f32;
     static constexpr auto at_block = toron_hyperelastic_block_f32;
 };
+struct frictional_f64 {
+    using real = double;
+    using law = toron_frictional_f64;
+    using point = toron_point_f64;
+    using block = toron_block_f64;
+    static constexpr auto prepare = toron_frictional_prepare_f64;
+    static constexpr auto at_point = toron_frictional_point_f64;
+    static constexpr auto at_block = toron_frictional_block_f64;
+};
+struct frictional_f32 {
+    using real = float;
+    using law = toron_frictional_f32;
+    using point = toron_point_f32;
+    using block = toron_block_f32;
+    static constexpr auto prepare = toron_frictional_prepare_f32;
+    static constexpr auto at_point = toron_frictional_point_f32;
+    static constexpr auto at_block = toron_frictional_block_f32;
+};
 struct linear_elastic_f64 {
     using real = double;
     using law = toron_linear_elastic_f64;
@@ -151,6 +169,8 @@ public:
 
 using hyperelastic = detail::prepared<detail::hyperelastic_f64>;
 using hyperelastic_f32 = detail::prepared<detail::hyperelastic_f32>;
+using frictional = detail::prepared<detail::frictional_f64>;
+using frictional_f32 = detail::prepared<detail::frictional_f32>;
 using linear_elastic = detail::prepared<detail::linear_elastic_f64>;
 using linear_elastic_f32 = detail::prepared<detail::linear_elastic_f32>;
 

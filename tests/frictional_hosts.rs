@@ -42,7 +42,7 @@ fn a_umat_says_what_the_law_says() {
     for i in 1..=40 {
         let f = path(i);
         let expected = step(&law, &f, &mut own);
-        let (mut stress, mut ddsdde, mut sse, mut pnewdt) = ([0.0; 6], [0.0; 36], 0.0, 1.0);
+        let (mut stress, mut ddsdde, mut sse, mut spd, mut pnewdt) = ([0.0; 6], [0.0; 36], 0.0, f64::NAN, 1.0);
         let call = abaqus::Umat {
             stress: stress.as_mut_ptr(),
             statev: statev.as_mut_ptr(),
@@ -59,7 +59,7 @@ fn a_umat_says_what_the_law_says() {
             nlgeom: 1,
         };
         // SAFETY: arrays as long as the call says.
-        assert_eq!(unsafe { Frictional::<f64>::umat(&call, null_mut(), 0) }, 0);
+        assert_eq!(unsafe { Frictional::<f64>::umat_with_losses(&call, &mut spd, null_mut(), 0) }, 0);
         let [s11, s22, s33, s12, s23, s31] = expected;
         // A tangent goes through the general kernel, whose axes are those of any fibre: the last digits differ.
         for (value, expected) in statev.iter().zip(own) {
@@ -70,6 +70,8 @@ fn a_umat_says_what_the_law_says() {
         }
         let stored: f64 = own[..4].iter().sum();
         assert!((sse * f.determinant() - stored).abs() <= 1e-14 * stored);
+        let lost = own[FRICTIONAL_LOST];
+        assert!((spd * f.determinant() - lost).abs() <= 1e-11 * (1.0 + lost), "step {i}: {spd}");
     }
     assert!(own[FRICTIONAL_LOST] > 0.0);
 }
@@ -169,4 +171,53 @@ fn mgis_gets_the_dissipated_energy() {
 /// F as MGIS has it: 11 22 33 12 21 13 31 23 32.
 fn by_mgis(f: &Matrix3<f64>) -> [f64; 9] {
     [f.m11, f.m22, f.m33, f.m12, f.m21, f.m13, f.m31, f.m23, f.m32]
+}
+
+/// A law that loses nothing leaves SPD as it is, and so does a call that is refused.
+#[test]
+fn spd_is_written_by_a_law_that_loses_energy_alone() {
+    let f = path(40);
+    let (mut stress, mut statev, mut sse, mut pnewdt) = ([0.0; 6], [0.0; FRICTIONAL_STATE], 0.0, 1.0);
+    for nprops in [11, 10] {
+        let mut spd = 7.0;
+        let call = abaqus::Umat {
+            stress: stress.as_mut_ptr(),
+            statev: statev.as_mut_ptr(),
+            ddsdde: null_mut(),
+            sse: &mut sse,
+            pnewdt: &mut pnewdt,
+            dfgrd0: f.as_ptr(),
+            dfgrd1: f.as_ptr(),
+            props: PROPERTIES.as_ptr(),
+            nprops,
+            nstatv: 15,
+            ndi: 3,
+            nshr: 3,
+            nlgeom: 1,
+        };
+        // SAFETY: arrays as long as the call says.
+        unsafe { toron::Hyperelastic::<f64>::umat_with_losses(&call, &mut spd, null_mut(), 0) };
+        assert_eq!(spd, 7.0);
+    }
+}
+
+#[test]
+fn a_material_of_abaqus_has_the_law_of_its_counts() {
+    use toron::host::laws::by_counts;
+    for (counts, number) in [
+        ([11, 11], 1),
+        ([12, 12], 1),
+        ([11, 20], 1),
+        ([10, 10], 2),
+        // Cards that lack a property or a variable.
+        ([10, 11], 1),
+        ([13, 15], 3),
+        ([13, 11], 3),
+        // With a limit variable, and with variables of the user's own.
+        ([14, 16], 3),
+        ([13, 20], 3),
+        ([15, 15], 1),
+    ] {
+        assert_eq!(by_counts(counts), number, "{counts:?}");
+    }
 }

@@ -33,6 +33,13 @@ const LINEAR: [[f64; L]; 3] = [
     [f64::NAN; L],
 ];
 
+/// The same for the law with friction, the second one without a meaning for µ.
+const FRICTIONAL: [[f64; TORON_FRICTIONAL_PROPERTIES]; 3] = [
+    [82.341, 1.055, 2.2, 0.64974, 0.1, 0.0458, 1.8, 0.0, 1.0, 0.0, 0.0, 0.25, 0.0],
+    [82.341, 1.055, 2.2, 0.64974, 0.1, 0.0458, 1.8, 0.0, 1.0, 0.0, 0.0, 1.0, 0.0],
+    [f64::NAN; TORON_FRICTIONAL_PROPERTIES],
+];
+
 /// The same for a law of one's own, the second one without a shear modulus.
 const REINFORCED: [[f64; 7]; 3] = [[0.8, 1.2, 20.0, 0.0, 1.0, 0.0, 0.0], [0.0; 7], [f64::NAN; 7]];
 
@@ -71,6 +78,7 @@ fn entries() -> Vec<String> {
         include_str!("../functions/src/tables.rs"),
         include_str!("../functions/src/hyperelastic.rs"),
         include_str!("../functions/src/linear_elastic.rs"),
+        include_str!("../functions/src/frictional.rs"),
     ];
     let functions = functions.into_iter().flat_map(|source| defined(source, "#[unsafe(no_mangle)]").map(str::to_owned));
     let hosts = [
@@ -787,3 +795,107 @@ openradioss!(
     openradioss::write_line_f32,
     openradioss::group_f32
 );
+
+/// The entries of the law with friction.
+macro_rules! frictional {
+    ($test:ident, $t:ty, $prepare:path, $point:path, $point_with_properties:path, $block:path, $block_with_properties:path) => {
+        #[test]
+        fn $test() {
+            const Q: usize = TORON_FRICTIONAL_PROPERTIES;
+            const K: usize = TORON_FRICTIONAL_STATE;
+            let mut text = [0 as c_char; ROOM];
+            let t = text.as_mut_ptr();
+            for yarn in FRICTIONAL.map(|yarn| yarn.map(|x| x as $t)) {
+                let yarn = yarn.as_ptr();
+                // SAFETY: numbers, which may be 0.
+                let mut law = unsafe { std::mem::zeroed::<FrictionalLaw<$t>>() };
+                quiet!($prepare, &mut law, size_of_val(&law), yarn, Q, t, ROOM);
+                quiet!($prepare, &mut law, 0, yarn, Q, null_mut(), 0);
+                // Pressed as well, so that the fibres slide.
+                for f in deformations().map(|f| [f[0], 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.8].map(|x| x as $t)) {
+                    let (mut stress, mut state, mut c) = ([0.0 as $t; 6], [0.0 as $t; K], [0.0 as $t; 81]);
+                    let (s, h, c, mut code) = (stress.as_mut_ptr(), state.as_mut_ptr(), c.as_mut_ptr(), 0);
+                    let point = Point {
+                        deformation_gradient: f.as_ptr(),
+                        state_old: h,
+                        state_new: h,
+                        stress: s,
+                        ..Point::empty()
+                    };
+                    let tangents = (-1..5).map(|measure| Point { measure, tangent: c, ..point });
+                    for point in
+                        [point, Point { size: 0, ..point }, Point { level: 9, ..point }].into_iter().chain(tangents)
+                    {
+                        quiet!($point, &law, &point, t, ROOM);
+                        quiet!($point_with_properties, yarn, Q, &point, t, ROOM);
+                        quiet!($point_with_properties, yarn, 3, &point, t, ROOM);
+                    }
+                    quiet!($point, null(), null(), null_mut(), 0);
+                    let mut block = Block { n: 1, status: &mut code, failure: h.wrapping_add(8), ..Block::empty() };
+                    (block.deformation_gradient[0], block.stress[0]) = (f.as_ptr(), s);
+                    let tangents = (-1..5).map(|measure| Block { measure, tangent: c, ..block });
+                    let in_rows = Layout { leading_dimension: 1, stride: 9 };
+                    let blocks =
+                        [block, Block { deformation_gradient_layout: in_rows, ..block }, Block { size: 16, ..block }];
+                    for block in blocks.into_iter().chain(tangents) {
+                        quiet!($block, &law, &block, t, ROOM);
+                        quiet!($block, &law, &Block { status: null_mut(), ..block }, t, ROOM);
+                        quiet!($block_with_properties, yarn, Q, &block, t, ROOM);
+                        quiet!($block_with_properties, null(), Q, null(), t, ROOM);
+                    }
+                }
+            }
+        }
+    };
+}
+
+frictional!(
+    frictional_in_double_precision,
+    f64,
+    toron_frictional_prepare_f64,
+    toron_frictional_point_f64,
+    toron_frictional_point_with_properties_f64,
+    toron_frictional_block_f64,
+    toron_frictional_block_with_properties_f64
+);
+frictional!(
+    frictional_in_single_precision,
+    f32,
+    toron_frictional_prepare_f32,
+    toron_frictional_point_f32,
+    toron_frictional_point_with_properties_f32,
+    toron_frictional_block_f32,
+    toron_frictional_block_with_properties_f32
+);
+
+#[test]
+fn a_umat_that_tells_its_losses() {
+    let mut text = [0 as c_char; ROOM];
+    let t = text.as_mut_ptr();
+    for yarn in &FRICTIONAL {
+        for f in deformations() {
+            let (mut stress, mut state, mut energies, mut step) =
+                ([0.0; 6], [0.0; TORON_FRICTIONAL_STATE], [0.0; 2], 1.0);
+            let [sse, spd] = &mut energies;
+            let call = abaqus::Umat {
+                stress: stress.as_mut_ptr(),
+                statev: state.as_mut_ptr(),
+                ddsdde: null_mut(),
+                sse,
+                pnewdt: &mut step,
+                dfgrd0: null(),
+                dfgrd1: f.as_ptr(),
+                props: yarn.as_ptr(),
+                nprops: yarn.len() as i32,
+                nstatv: TORON_FRICTIONAL_STATE as i32,
+                ndi: 3,
+                nshr: 3,
+                nlgeom: 1,
+            };
+            for call in [call, abaqus::Umat { nlgeom: 0, ..call }] {
+                quiet!(<toron::Frictional as StandardLaw>::umat_with_losses, &call, spd, t, ROOM);
+                quiet!(<toron::Frictional as StandardLaw>::umat_with_losses, &call, null_mut(), null_mut(), 0);
+            }
+        }
+    }
+}

@@ -94,13 +94,14 @@ static void tables(void)
 {
     check_tables(TORON_HYPERELASTIC, TORON_HYPERELASTIC_PROPERTIES, TORON_HYPERELASTIC_STATE);
     check_tables(TORON_LINEAR_ELASTIC, TORON_LINEAR_ELASTIC_PROPERTIES, TORON_LINEAR_ELASTIC_STATE);
+    check_tables(TORON_FRICTIONAL, TORON_FRICTIONAL_PROPERTIES, TORON_FRICTIONAL_STATE);
     toron_table_row row = {.size = sizeof row};
-    REFUSED(TORON_UNKNOWN_NAME, "argument law is 2; allowed: 0 to 1", toron_property_count, 2);
-    REFUSED(TORON_UNKNOWN_NAME, "argument law is -1; allowed: 0 to 1", toron_state_count, -1);
-    REFUSED(TORON_UNKNOWN_NAME, "argument law is 2; allowed: 0 to 1", toron_property, 2, 0, &row);
-    REFUSED(TORON_UNKNOWN_NAME, "argument law is 2; allowed: 0 to 1", toron_state_variable, 2, 0, &row);
-    REFUSED(TORON_UNKNOWN_NAME, "argument law is 2; allowed: 0 to 1", toron_property_index, 2, "p");
-    REFUSED(TORON_UNKNOWN_NAME, "argument law is 2; allowed: 0 to 1", toron_state_index, 2, "alive");
+    REFUSED(TORON_UNKNOWN_NAME, "argument law is 3; allowed: 0 to 2", toron_property_count, 3);
+    REFUSED(TORON_UNKNOWN_NAME, "argument law is -1; allowed: 0 to 2", toron_state_count, -1);
+    REFUSED(TORON_UNKNOWN_NAME, "argument law is 3; allowed: 0 to 2", toron_property, 3, 0, &row);
+    REFUSED(TORON_UNKNOWN_NAME, "argument law is 3; allowed: 0 to 2", toron_state_variable, 3, 0, &row);
+    REFUSED(TORON_UNKNOWN_NAME, "argument law is 3; allowed: 0 to 2", toron_property_index, 3, "p");
+    REFUSED(TORON_UNKNOWN_NAME, "argument law is 3; allowed: 0 to 2", toron_state_index, 3, "alive");
     REFUSED(TORON_UNKNOWN_NAME,
             "there is no property \"K_EL\"; allowed: k_el, k_tc, p, k_td, k_ld, eps_lim, alpha, beta, m_1, m_2, m_3",
             toron_property_index, TORON_HYPERELASTIC, "K_EL");
@@ -150,7 +151,8 @@ static void presets(void)
     enum { LINEAR = TORON_LINEAR_ELASTIC_PROPERTIES };
     real *values = reals(PROPERTIES);
 #define PRESET ENTRY(toron_preset)
-    REFUSED(TORON_UNKNOWN_NAME, "there is no preset \"nylon\"; allowed: kevlar-km2-600, kevlar-km2-600-linear", PRESET, "nylon",
+    REFUSED(TORON_UNKNOWN_NAME, "there is no preset \"nylon\"; allowed: kevlar-km2-600, kevlar-km2-600-linear, "
+            "kevlar-km2-600-frictional", PRESET, "nylon",
             "si", values, PROPERTIES, NULL);
     CHECK(TOLD(PRESET, "kevlar-km2-600", "m-kg", values, PROPERTIES, NULL) == TORON_UNKNOWN_NAME, "units");
     CHECK(strstr(text, "there is no system of units \"m-kg\"; allowed: ") == text, "%s", text);

@@ -9,6 +9,7 @@
  *     --trace ENTRY   with --sums: the sum after each call of this entry too
  */
 #define _GNU_SOURCE /* sigaction, fork, feenableexcept */
+#include "environment_frictional.h"
 #include "environment_hosts.h"
 #include "environment_laws.h"
 #include "environment_linear_hosts.h"
@@ -37,6 +38,8 @@ static const struct {
     {"toron_lsdyna_bulk_and_shear_f64", lsdyna_bulk_and_shear},
     {"toron_abaqus_linear_umat_f64", abaqus_linear_umat},
     {"toron_lsdyna_linear_bulk_and_shear_f64", lsdyna_linear_bulk_and_shear},
+    {"toron_abaqus_frictional_umat_f64", abaqus_frictional_umat},
+    {"toron_lsdyna_frictional_bulk_and_shear_f64", lsdyna_frictional_bulk_and_shear},
 #endif
     {IN_BOTH(toron_preset), preset},
     {IN_BOTH(toron_hyperelastic_prepare), hyperelastic_prepare},
@@ -51,6 +54,11 @@ static const struct {
     {IN_BOTH(toron_linear_elastic_increment), linear_elastic_increment},
     {IN_BOTH(toron_linear_elastic_block), linear_elastic_block},
     {IN_BOTH(toron_linear_elastic_block_with_properties), linear_elastic_block_with_properties},
+    {IN_BOTH(toron_frictional_prepare), frictional_prepare},
+    {IN_BOTH(toron_frictional_point), frictional_point},
+    {IN_BOTH(toron_frictional_point_with_properties), frictional_point_with_properties},
+    {IN_BOTH(toron_frictional_block), frictional_block},
+    {IN_BOTH(toron_frictional_block_with_properties), frictional_block_with_properties},
     {IN_BOTH(toron_abaqus_vumat), abaqus_vumat},
     {IN_BOTH(toron_lsdyna_umat), lsdyna_umat},
     {IN_BOTH(toron_lsdyna_utan), lsdyna_utan},
@@ -61,6 +69,11 @@ static const struct {
     {IN_BOTH(toron_lsdyna_linear_utan), lsdyna_linear_utan},
     {IN_BOTH(toron_lsdyna_linear_umat_vector), lsdyna_linear_umat_vector},
     {IN_BOTH(toron_lsdyna_linear_utan_vector), lsdyna_linear_utan_vector},
+    {IN_BOTH(toron_abaqus_frictional_vumat), abaqus_frictional_vumat},
+    {IN_BOTH(toron_lsdyna_frictional_umat), lsdyna_frictional_umat},
+    {IN_BOTH(toron_lsdyna_frictional_utan), lsdyna_frictional_utan},
+    {IN_BOTH(toron_lsdyna_frictional_umat_vector), lsdyna_frictional_umat_vector},
+    {IN_BOTH(toron_lsdyna_frictional_utan_vector), lsdyna_frictional_utan_vector},
     {IN_BOTH(toron_openradioss_lecm), openradioss_lecm},
     {IN_BOTH(toron_openradioss_listing), openradioss_listing},
     {IN_BOTH(toron_openradioss_luser), openradioss_luser},
@@ -71,9 +84,13 @@ static const struct {
     {"ToronLinearElastic_Tridimensional", mgis_linear_elastic},
     {"ToronLinearElastic_PlaneStrain", mgis_linear_elastic_in_plane_strain},
     {"ToronLinearElastic_Axisymmetrical", mgis_linear_elastic_of_revolution},
+    {"ToronFrictional_Tridimensional", mgis_frictional},
+    {"ToronFrictional_PlaneStrain", mgis_frictional_in_plane_strain},
+    {"ToronFrictional_Axisymmetrical", mgis_frictional_of_revolution},
     /* The last ones, since they may end the process. */
     {"HYPERELASTIC", calculix},
     {"LINEARELASTIC", calculix_linear},
+    {"FRICTIONAL", calculix_frictional},
 #endif
 };
 

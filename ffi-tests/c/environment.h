@@ -50,7 +50,7 @@ static size_t environment_count = ENVIRONMENTS;
 
 /* ---- What went wrong, for each entry and environment: how often, and the first time. */
 
-enum { TRAPPED, DIFFERENT, MXCSR_CHANGED, X87_CHANGED, KINDS, MOST_ENTRIES = 64 };
+enum { TRAPPED, DIFFERENT, MXCSR_CHANGED, X87_CHANGED, KINDS, MOST_ENTRIES = 96 };
 static const char *const kinds[KINDS] = {"SIGFPE", "different bits", "flags changed", "x87 changed"};
 
 static struct {

@@ -199,23 +199,50 @@ static void lsdyna_utan_vector(void)
 
 enum { RADIOSS_PARAMETERS = 16, RADIOSS_VARIABLES = 23 };
 
-/* UPARAM of the hyperelastic law (1) or the linear elastic one (2), with one of its yarns. */
+/* Of each law, by its number, those of properties, state variables and variables, of yarns, good ones and all, and of states. */
+static const struct {
+    size_t properties, state;
+    int32_t variables;
+    size_t good_yarns, yarns, states;
+} radioss_laws[] = {
+    {0},
+    {PROPERTIES, STATE, 18, GOOD_YARNS, COUNT(yarns), COUNT(states)},
+    {LINEAR, LINEAR_STATE, 26, GOOD_LINEAR_YARNS, COUNT(linear_yarns), COUNT(linear_states)},
+    {RUBBING, SLIP_STATE, 22, GOOD_RUBBING_YARNS, RUBBING_YARNS, COUNT(slip_states)},
+};
+
+static real *radioss_yarn(int law, size_t yarn)
+{
+    return law == 1 ? given(yarns[yarn], PROPERTIES) : law == 2 ? given(linear_yarns[yarn], LINEAR) : rubbing_yarn(yarn);
+}
+
+/* Old states, component-major. */
+static real *radioss_states(int law, size_t rows, size_t next, size_t n)
+{
+    const double *table = law == 1 ? states[0] : law == 2 ? linear_states[0] : slip_states[0];
+    return by_component(table, radioss_laws[law].state, rows, next, n);
+}
+
+/* UPARAM of a law with one of its yarns. */
 static real *radioss_parameters(int law, size_t yarn, double fibre_from)
 {
-    const size_t count = law == 1 ? PROPERTIES : LINEAR;
+    const size_t count = radioss_laws[law].properties;
     const double number = law;
     real *uparam = filled(0, RADIOSS_PARAMETERS);
     put(uparam, number);
-    memcpy(uparam + 1, law == 1 ? given(yarns[yarn], count) : given(linear_yarns[yarn], count), count * sizeof(real));
+    memcpy(uparam + 1, radioss_yarn(law, yarn), count * sizeof(real));
     put(uparam + 1 + count, fibre_from);
     return uparam;
 }
+
+/* NUPARAM: the law's number, the properties and the options. */
+#define RADIOSS_COUNT(law) ((law) < 3 ? (law) + 13 : 16)
 
 static void openradioss_lecm(void)
 {
 #define LECM ENTRY(toron_openradioss_lecm)
     for (int law = 1; law < 4; law++)
-        for (size_t y = 0; y < (law == 1 ? COUNT(yarns) : COUNT(linear_yarns)); y++) {
+        for (size_t y = 0; y < radioss_laws[law].yarns; y++) {
             real *card = radioss_parameters(law, y, 0) + 1, *uparam = reals(RADIOSS_PARAMETERS), *parmat = reals(1);
             int32_t *counts = guarded(2 * sizeof *counts);
             ARGUMENTS("law %d, yarn %zu", law, y);
@@ -223,7 +250,9 @@ static void openradioss_lecm(void)
             CALL(LECM(law, card, 9, uparam, RADIOSS_PARAMETERS, counts, counts + 1, parmat, MESSAGE));
             CALL(LECM(law, card, 12, uparam, 5, counts, counts + 1, parmat, MESSAGE));
             CALL(LECM(law, NULL, 12, uparam, RADIOSS_PARAMETERS, counts, counts + 1, parmat, MESSAGE));
-            put(&card[law == 1 ? 11 : 10], 0.5); /* the option */
+            CALL(LECM(law, card, 15, uparam, RADIOSS_PARAMETERS, counts, counts + 1, parmat, MESSAGE));
+            CALL(LECM(law + 3, card, 12, uparam, RADIOSS_PARAMETERS, counts, counts + 1, parmat, MESSAGE));
+            put(&card[radioss_laws[law].properties], 0.5); /* the option */
             CALL(LECM(law, card, 12, uparam, RADIOSS_PARAMETERS, counts, counts + 1, parmat, MESSAGE));
             release();
         }
@@ -232,12 +261,12 @@ static void openradioss_lecm(void)
 static void openradioss_listing(void)
 {
 #define LISTING ENTRY(toron_openradioss_listing)
-    for (int law = 1; law < 3; law++) {
+    for (int law = 1; law < 4; law++) {
         real *uparam = radioss_parameters(law, 0, 0), *wrong = radioss_parameters(law, 0, 0.25);
         for (int32_t line = -1; line < 45; line++)
-            CALL(LISTING(uparam, law + 13, line, MESSAGE));
+            CALL(LISTING(uparam, RADIOSS_COUNT(law), line, MESSAGE));
         CALL(LISTING(uparam, 3, 0, MESSAGE));
-        CALL(LISTING(wrong, law + 13, 0, MESSAGE));
+        CALL(LISTING(wrong, RADIOSS_COUNT(law), 0, MESSAGE));
         CALL(LISTING(NULL, 13, 0, MESSAGE));
         release();
     }
@@ -247,25 +276,22 @@ static void openradioss_luser(void)
 {
 #define LUSER ENTRY(toron_openradioss_luser)
 #define LUSER_WITH(nuvar, time, density, f0, stress, nodes)                                                                          \
-    CALL(LUSER(n, law + 13, nuvar, times[time], uparam, ngl, density, f0, f[4], f[8], f[3], f[7], f[2], f[1], f[5], f[6], s, s + n,   \
+    CALL(LUSER(n, RADIOSS_COUNT(law), nuvar, times[time], uparam, ngl, density, f0, f[4], f[8], f[3], f[7], f[2], f[1], f[5], f[6], s, s + n,   \
                s + 2 * n, s + 3 * n, s + 4 * n, stress, v, v + n, v + 2 * n, v + 3 * n, v + 4 * n, v + 5 * n, sound, v + 6 * n, uvar, \
                off, nodes, MESSAGE))
     static const real times[] = {0, 1, (real)SUBNORMAL, NAN};
     block_case b;
-    for (int law = 1; law < 3; law++)
-        for (size_t next = 0; next_block(&next, law == 1 ? GOOD_YARNS : GOOD_LINEAR_YARNS,
-                                         law == 1 ? COUNT(yarns) : COUNT(linear_yarns), &b);) {
-            const int32_t n = (int32_t)b.size, variables = law == 1 ? 18 : 26;
-            const size_t rows = b.points == 0 ? (law == 1 ? COUNT(states) : COUNT(linear_states)) : 3;
+    for (int law = 1; law < 4; law++)
+        for (size_t next = 0; next_block(&next, radioss_laws[law].good_yarns, radioss_laws[law].yarns, &b);) {
+            const int32_t n = (int32_t)b.size, variables = radioss_laws[law].variables;
+            const size_t rows = b.points == 0 ? radioss_laws[law].states : 3;
             real *f[9], *all = by_component(deformations[0], 9, points_of[b.points], next, b.size), *density = filled(2, 1);
             real *s = reals(6 * b.size), *v = reals(7 * b.size), *sound = reals(b.size), *off = filled(1, b.size);
             real *uvar = filled(0, (size_t)variables * b.size), *nodes = by_component(deformations[0], 24, 3, next, b.size);
             int32_t *ngl = guarded(b.size * sizeof *ngl);
             for (int c = 0; c < 9; c++)
                 f[c] = all + (size_t)c * b.size;
-            memcpy(uvar, law == 1 ? by_component(states[0], STATE, rows, next, b.size)
-                                  : by_component(linear_states[0], LINEAR_STATE, rows, next, b.size),
-                   (law == 1 ? STATE : LINEAR_STATE) * b.size * sizeof(real));
+            memcpy(uvar, radioss_states(law, rows, next, b.size), radioss_laws[law].state * b.size * sizeof(real));
             memset(ngl, 0, b.size * sizeof *ngl);
             put(&off[b.size - 1], next % 3 == 0 ? 0.5 : 1);
             for (int fibre_from = 0; fibre_from < 3; fibre_from++) {
@@ -309,7 +335,7 @@ typedef void behaviour(const char *amat, const int32_t *iel, const int32_t *iint
                        const int32_t *nstate, const double *xstateini, double *xstate, double *stre, double *stiff,
                        const int32_t *iorien, const double *pgauss, const double *orab, double *pnewdt, const int32_t *ipkon,
                        int32_t amat_length);
-extern behaviour HYPERELASTIC, LINEARELASTIC;
+extern behaviour HYPERELASTIC, LINEARELASTIC, FRICTIONAL;
 
 typedef struct {
     behaviour *law;
@@ -325,20 +351,32 @@ typedef struct {
 static const int32_t one = 1, zero = 0;
 static const double unused[9] = {0};
 
-static deck new_deck(int linear, size_t yarn, size_t f, size_t state)
+/* Of each law the function, the numbers of properties and state variables, of variables with F, of yarns and states that are good, and
+ * a state that is none. */
+static const struct {
+    const char *call;
+    behaviour *law;
+    int properties, state, variables, good_yarns, bad_state;
+} calculix_laws[] = {
+    {"HYPERELASTIC()", HYPERELASTIC, PROPERTIES, STATE, STATE, GOOD_YARNS, 6},
+    {"LINEARELASTIC()", LINEARELASTIC, LINEAR, LINEAR_STATE, LINEAR_STATE + 9, GOOD_LINEAR_YARNS, 5},
+    {"FRICTIONAL()", FRICTIONAL, RUBBING, SLIP_STATE, SLIP_STATE, GOOD_RUBBING_YARNS, 5},
+};
+
+static deck new_deck(int law, size_t yarn, size_t f, size_t state)
 {
     const double nowhere[3] = {1, 2, 3}, axes[7] = {1, 1, 0, 0, 2, 1, 1};
-    const int properties = linear ? LINEAR : PROPERTIES, variables = linear ? LINEAR_STATE + 9 : STATE;
-    deck d = {.law = linear ? LINEARELASTIC : HYPERELASTIC, .kode = -100 - properties, .state_count = variables,
-              .yarn = linear ? given(linear_yarns[yarn], LINEAR) : given(yarns[yarn], PROPERTIES),
+    const double *old = law == 0 ? states[state] : law == 1 ? linear_states[state] : slip_states[state];
+    const int properties = calculix_laws[law].properties, variables = calculix_laws[law].variables;
+    deck d = {.law = calculix_laws[law].law, .kode = -100 - properties, .state_count = variables,
+              .yarn = law == 0 ? given(yarns[yarn], PROPERTIES) : law == 1 ? given(linear_yarns[yarn], LINEAR) : rubbing_yarn(yarn),
               .strain = reals(6), .initial_stress = filled(0, 6), .f = given(deformations[f], 9),
               .old = filled(0, (size_t)variables), .new = reals((size_t)variables), .stress = reals(6), .stiffness = reals(21),
               .orab = given(axes, 7), .place = given(nowhere, 3),
               .pnewdt = given(&time_increments[(yarn + f) % COUNT(time_increments)], 1)};
     memset(d.name, ' ', sizeof d.name);
     /* F of the last increment stays 0, as at the start. */
-    memcpy(d.old, linear ? given(linear_states[state], LINEAR_STATE) : given(states[state], STATE),
-           (linear ? LINEAR_STATE : STATE) * sizeof(real));
+    memcpy(d.old, given(old, (size_t)calculix_laws[law].state), (size_t)calculix_laws[law].state * sizeof(real));
     /* Lagrange's, as in an analysis with NLGEOM: 11 22 33 12 13 23. */
     const int first[6] = {0, 1, 2, 0, 0, 1}, second[6] = {0, 1, 2, 1, 2, 2};
     for (int c = 0; c < 6; c++) {
@@ -361,13 +399,13 @@ static void at_exit(void)
 }
 
 /* What a deck may have wrong ends the process, with CalculiX's code, and not by SIGFPE. */
-static void calculix_refuses(int linear)
+static void calculix_refuses(int law)
 {
-    const size_t bad_yarn = linear ? GOOD_LINEAR_YARNS : GOOD_YARNS, bad_state = linear ? 5 : 6;
+    const size_t bad_yarn = (size_t)calculix_laws[law].good_yarns, bad_state = (size_t)calculix_laws[law].bad_state;
     enum { EXIT_CODE = 201, ERRORS = 8 };
     for (int error = 0; error < ERRORS; error++)
         for (where = 0; where < environment_count; where++) {
-            deck d = new_deck(linear, error == 0 ? bad_yarn : 0, 3, error == 1 ? bad_state : 0);
+            deck d = new_deck(law, error == 0 ? bad_yarn : 0, 3, error == 1 ? bad_state : 0);
             d.state_count -= error == 2;
             d.kode += error == 3;
             put(&d.initial_stress[2], error == 4 ? 0.5 : error == 5 ? SIGNALLING : error == 6 ? SUBNORMAL : 0);
@@ -397,21 +435,21 @@ static void calculix_refuses(int linear)
         }
 }
 
-static void calculix_law(int linear)
+static void calculix_law(int law)
 {
     enum { STATES = 5, ORIENTATIONS = 3 }; /* another state is an error in the deck */
-    const size_t good = linear ? GOOD_LINEAR_YARNS : GOOD_YARNS;
+    const size_t good = (size_t)calculix_laws[law].good_yarns;
     for (size_t next = 0; next < good * DEFORMATIONS * STATES * ORIENTATIONS; next += stride) {
         size_t rest = next, orientation = rest % ORIENTATIONS, state = (rest /= ORIENTATIONS) % STATES;
         size_t f = (rest /= STATES) % DEFORMATIONS, y = rest / DEFORMATIONS;
-        deck d = new_deck(linear, y, f, state);
+        deck d = new_deck(law, y, f, state);
         d.orientation = orientation > 0;
         d.orab[6] = orientation == 1 ? 1 : -1; /* rectangular, cylindrical */
         ARGUMENTS("yarn %zu, F %zu, old state %zu, orientation %zu", y, f, state, orientation);
-        RUN(linear ? "LINEARELASTIC()" : "HYPERELASTIC()", CALCULIX(&d); answer = 0);
+        RUN(calculix_laws[law].call, CALCULIX(&d); answer = 0);
         release();
     }
-    calculix_refuses(linear);
+    calculix_refuses(law);
 }
 
 static void calculix(void)

@@ -162,6 +162,43 @@ static const double axes_in_space[][9] = {
     {0, 0, 0, 0, 0, 0, 0, 0, 0}, {1, 0, 0, 0, SIGNALLING, 0, 0, 0, NAN},
 };
 
+/* ---- The law with friction: yarns of the hyperelastic law, and friction. */
+
+enum {
+    RUBBING = TORON_FRICTIONAL_PROPERTIES, SLIP_STATE = TORON_FRICTIONAL_STATE, GOOD_FRICTIONS = 4, BAD_FRICTIONS = 4,
+    GOOD_RUBBING_YARNS = GOOD_YARNS, RUBBING_YARNS = GOOD_YARNS + BAD_FRICTIONS + 1,
+};
+
+/* mu and cohesion: good ones, and such as are refused. */
+static const double frictions[GOOD_FRICTIONS + BAD_FRICTIONS][2] = {
+    {0.25, 0}, {0.1, 1e-3}, {0, 0}, {0.9, SUBNORMAL}, {1, 0}, {-0.1, 0}, {NAN, 0}, {0.2, SIGNALLING},
+};
+
+/* A yarn of the hyperelastic law with friction; the last one is refused whatever its friction. */
+static real *rubbing_yarn(size_t k)
+{
+    const size_t refused = k - GOOD_YARNS;
+    const double *yarn = yarns[k < GOOD_YARNS ? k : refused < BAD_FRICTIONS ? 0 : GOOD_YARNS];
+    const double *friction = frictions[k < GOOD_YARNS ? k % GOOD_FRICTIONS : refused < BAD_FRICTIONS ? GOOD_FRICTIONS + refused : 0];
+    double values[RUBBING];
+    memcpy(values, yarn, PROPERTIES * sizeof *values);
+    memcpy(values + PROPERTIES, friction, 2 * sizeof *values);
+    return given(values, RUBBING);
+}
+
+/* W_el W_tc W_td W_ld, I_el I_tc I_td I_ld, w_fr I_te d1 d2, failure index, failed, alive. */
+static const double slip_states[][SLIP_STATE] = {
+    {0},
+    {0.1, 0.2, 0.3, 0.4, 0.01, 0.02, 0.03, 0.04, 0.01, 0.02, 0.3, -0.2, 0.5, 0, 1},
+    {0.1, 0.2, 0.3, 0.4, 0.01, 0.02, 0.03, 0.04, 0.02, 0.03, -5, 0.7, 1.5, 1, 0},
+    {SUBNORMAL, TINY, 0, 0, SUBNORMAL, -SUBNORMAL, 0, 0, SUBNORMAL, 0, -SUBNORMAL, TINY, SUBNORMAL, 0, 1},
+    {HUGE_NUMBER, HUGE_NUMBER, 0, 0, HUGE_NUMBER, 0, 0, 0, HUGE_NUMBER, HUGE_NUMBER, HUGE_NUMBER, -HUGE_NUMBER, 0, SUBNORMAL, 1},
+    {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, NAN, 0, 0, 0, 1},
+    {0, 0, 0, 0, 0, 0, 0, 0, SIGNALLING, 0, 0, 0, 0, 1, 0},
+    {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, SIGNALLING, 0, 0, 1},
+    {0, 0, 0, 0, 0, 0, 0, 0, 0, -1, 0, INFINITY, 0, 0, 1},
+};
+
 /* ---- Blocks */
 
 /* Component-major arrays of n points, a row of the table each; point i has row (first + 5 i) mod rows. */

@@ -84,12 +84,12 @@ static void state_index(void)
 
 static void preset(void)
 {
-    const char *const names[] = {"kevlar-km2-600", "kevlar-km2-600-linear", "nylon", NULL};
+    const char *const names[] = {"kevlar-km2-600", "kevlar-km2-600-linear", "kevlar-km2-600-frictional", "nylon", NULL};
     const char *const units[] = {"si", "mm-tonne-s", "mm-kg-ms", "cm-g-us", "ft-lb-s", NULL};
-    real *values = reals(PROPERTIES), *density = reals(1);
+    real *values = reals(RUBBING), *density = reals(1);
     for (size_t i = 0; i < COUNT(names); i++)
         for (size_t k = 0; k < COUNT(units); k++)
-            for (size_t count = 9; count < 13; count++) {
+            for (size_t count = 9; count < 14; count++) {
                 CALL(ENTRY(toron_preset)(names[i], units[k], values, count, density, MESSAGE));
                 CALL(ENTRY(toron_preset)(names[i], units[k], NULL, count, NULL, MESSAGE));
             }

@@ -551,7 +551,7 @@ static void openradioss_wrong_calls(void)
         static const char *const of_card[] = {"argument count is -1; allowed: 0 to " MOST_TEXT, "MAXUPARAM: 5 given, 14 needed",
                                               "number of values on the card, five a line: 3 given, 11 needed",
                                               "argument nn of /MAT/USERnn is 9; allowed: 1 (USER01, hyperelastic yarn law), 2 (USER02, "
-                                              "linear elastic law)"};
+                                              "linear elastic law), 3 (USER03, yarn law with friction)"};
         static const int32_t codes[] = {TORON_BAD_COUNT, TORON_PROPERTY_COUNT, TORON_PROPERTY_COUNT, TORON_BAD_ARGUMENT};
         real *values = filled(1, CARD), *uparam = reals(20), *parmat = reals(1);
         int32_t *counts = guarded(2 * sizeof *counts);

@@ -245,7 +245,7 @@ contains
     status = toron_hyperelastic_point(law, p, message)
     call check(status == toron_status_bad_size .and. index(message, 'toron_point_f64') > 0, message, 9)
     status = toron_property_count(7, message)
-    call check(status == toron_status_unknown_name .and. message == 'argument law is 7; allowed: 0 to 1', message, 10)
+    call check(status == toron_status_unknown_name .and. message == 'argument law is 7; allowed: 0 to 2', message, 10)
     status = toron_property(toron_hyperelastic, 11, row, message)
     call check(status == toron_status_unknown_name, message, 11)
     call check(message == 'argument index is 11; allowed: 0 to 10', message, 11)

@@ -76,8 +76,8 @@ static void refusals(void)
     wrong[4] = 0, wrong[7] = 1, wrong[10] = 1; /* and the second axis is the first one */
     m = read_card(2, card_of(wrong, 13));
     CHECK(stops == 0 && m.uparam[5] == 0 && m.uparam[6] == 1, "%s", said);
-    read_card(3, card_of(yarn, 12));
-    STOPPED_WITH("nn of /MAT/USERnn is 3", "1 (USER01", "2 (USER02");
+    read_card(4, card_of(yarn, 12));
+    STOPPED_WITH("nn of /MAT/USERnn is 4", "1 (USER01", "2 (USER02", "3 (USER03");
 }
 
 int main(int argc, char **argv)

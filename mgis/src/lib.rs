@@ -50,3 +50,9 @@ bounds! {
     "ToronLinearElastic", toron::law::description::LINEAR_ELASTIC:
     "e_1", "e_2", "g", "sigma_lim"
 }
+
+#[cfg(target_arch = "x86_64")]
+bounds! {
+    "ToronFrictional", toron::law::description::FRICTIONAL:
+    "k_el", "k_tc", "p", "k_td", "k_ld", "eps_lim", "alpha", "beta", "mu", "cohesion"
+}

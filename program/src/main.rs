@@ -5,7 +5,7 @@ use std::process::ExitCode;
 
 use clap::{CommandFactory, Parser, Subcommand};
 use clap_complete::Shell;
-use toron_materials::eval::command::Entry;
+use toron_materials::eval::command::{Entry, Law};
 use toron_materials::material::laws::Laws;
 use toron_materials::{bench, deck, eval, load_path, params};
 use toron_parameters::{cell, fibres, identify};
@@ -113,10 +113,13 @@ enum Command {
     /// Evaluate one JSON object a line of the standard input: {"F": rows, "m": [3], "params": {kel, ktc, p, ktd, kld,
     /// eps_lim, alpha, beta}}.
     Eval {
+        /// Whose points the lines are.
+        #[arg(long, value_enum, default_value = "hyperelastic")]
+        law: Law,
         /// The C entry to go through, as its host would call it.
         #[arg(long, value_enum, default_value = "law")]
         via: Entry,
-        /// Add "ddsdde", rows of the Jaumann modulus as Abaqus wants it; refused for the VUMATs, which have none.
+        /// Add "ddsdde", rows of the Jaumann modulus as Abaqus wants it, of a path's last step; refused for entries that have none.
         #[arg(long)]
         tangent: bool,
     },
@@ -183,7 +186,7 @@ fn run(command: Command) -> Result<(), Error> {
         #[cfg(target_os = "linux")]
         Command::CheckChild { request } => umat_check::child::run(&request),
         Command::Compare(arguments) => compare::command::run(&arguments),
-        Command::Eval { via, tangent } => eval::command::lines(via, tangent),
+        Command::Eval { law, via, tangent } => eval::command::lines(law, via, tangent),
         Command::Bench { output } => bench::command::run(output.as_deref()),
         Command::Completions { shell } => {
             completions(shell);

@@ -24,7 +24,12 @@ eps_lim = 0.045635661473110205 # 95 %: 0.045196 to 0.046075
 alpha = 1.7652840038098718 # 95 %: 1.6818 to 1.8487
 beta = 0.0
 """
-LAWS = {"kevlar-km2-600": toron.Hyperelastic, "kevlar-km2-600-linear": toron.LinearElastic}
+LAWS = {
+    "kevlar-km2-600": toron.Hyperelastic,
+    "kevlar-km2-600-linear": toron.LinearElastic,
+    "kevlar-km2-600-frictional": toron.Frictional,
+}
+NAMES = {toron.Hyperelastic: "hyperelastic", toron.LinearElastic: "linear-elastic", toron.Frictional: "frictional"}
 UNITS = ("si", "mm-tonne-s", "mm-kg-ms", "cm-g-us", "um-mg-ns", "in-slinch-s", "ft-slug-ms")
 
 
@@ -64,8 +69,7 @@ def test_a_file_in_any_units_is_the_preset_in_any_others(write, preset, own):
     law = kind.from_preset(preset, own)
     dimension = {row.name: row.unit for row in kind.properties_table()}
     given = "".join(f"{name} = {value!r}\n" for name, value in law.properties.items())
-    name = "hyperelastic" if kind is toron.Hyperelastic else "linear-elastic"
-    path = write(f'units = "{own}"\nlaw = "{name}"\ndensity = {law.density!r}\n[properties]\n{given}')
+    path = write(f'units = "{own}"\nlaw = "{NAMES[kind]}"\ndensity = {law.density!r}\n[properties]\n{given}')
     for units in UNITS:
         expected, found = kind.from_preset(preset, units), kind.from_file(path, units)
         assert found.density == pytest.approx(expected.density, rel=1e-15)
@@ -94,7 +98,7 @@ WRONG = {
     "units that are a number": ("units = 3", "units is 3; allowed: text in quotes"),
     "units with a null": ('units = "si\\u0000"', r"units is 'si\\x00'"),
     "name": ('units = "si"\nname = 3', "name is 3; allowed: text in quotes"),
-    "law": ('units = "si"\nlaw = "elastic"', "law is 'elastic'; allowed: hyperelastic or linear-elastic"),
+    "law": ('units = "si"\nlaw = "elastic"', "law is 'elastic'; allowed: hyperelastic or linear-elastic or frictional"),
     "law that is a list": ('units = "si"\nlaw = ["hyperelastic"]', "law is .'hyperelastic'.; allowed: hyperelastic or"),
     "other law": ('units = "si"\nlaw = "linear-elastic"', "law is 'linear-elastic'; allowed: 'hyperelastic' for this class"),
     "density": ('units = "si"\ndensity = 0', "density is 0; allowed: a finite number > 0"),

@@ -193,7 +193,7 @@ macro_rules! abaqus_umat {
             statev: *mut f64,
             ddsdde: *mut f64,
             sse: *mut f64,
-            _spd: *mut f64,
+            spd: *mut f64,
             _scd: *mut f64,
             _rpl: *mut f64,
             _ddsddt: *mut f64,
@@ -252,8 +252,8 @@ macro_rules! abaqus_umat {
                 #[allow(unreachable_patterns)] // where every material has a law
                 let status = match $choice {
                     $($pattern => {
-                        <<$law as $crate::toron::host::Material<f64>>::Law as $crate::toron::host::abaqus::StandardLaw>::umat(
-                            &call, text, CAPACITY,
+                        <<$law as $crate::toron::host::Material<f64>>::Law as $crate::toron::host::abaqus::StandardLaw>::umat_with_losses(
+                            &call, spd, text, CAPACITY,
                         )
                     })+
                     _ => return $crate::abaqus::refuse_name($cmname, &$names, c"xit_"),

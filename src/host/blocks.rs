@@ -26,13 +26,13 @@ use crate::law::tangent::Measure;
 use crate::law::voigt::Moduli;
 use crate::law::wave_speed;
 
-/// A block of points of the hyperelastic law. Set `size`, `n`, and what is wanted; the rest is 0: an array that is null is left
-/// out, and an output that is left out is not computed.
+/// A block of points of the hyperelastic law or of the law with friction. Set `size`, `n`, and what is wanted; the rest is
+/// 0: an array that is null is left out, and an output that is left out is not computed.
 ///
 /// Component c of point i is at `c * leading_dimension + i`, unless the layout of the array says otherwise. F, fibre and stress
 /// have a pointer for each component, so that they may be in separate arrays; if only the first is set, the others follow it by
 /// the layout. The arrays of the old and the new state may be the same; otherwise arrays must not overlap. Energies, invariants
-/// and failure may be parts of one array of 11 components, starting at components 0, 4 and 8.
+/// and failure may be parts of one array of 11 components (15 of the law with friction), starting at components 0, 4 and 8.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct Block<T> {
@@ -53,7 +53,7 @@ pub struct Block<T> {
     pub deformation_gradient: [*const T; 9],
     /// In, 3 components: the fibre direction of each point, of any length; if null, that of the properties.
     pub fibre: [*const T; 3],
-    /// In, 4, 4 and 3 components: the old state; if null, all 0.
+    /// In, 4, 4 and 3 components: the old state; if null, all 0. The failure has 7 of the law with friction.
     pub energies_old: *const T,
     pub invariants_old: *const T,
     pub failure_old: *const T,
@@ -63,7 +63,8 @@ pub struct Block<T> {
     pub energies: *mut T,
     /// Out, 4: I_el I_tc I_td I_ld.
     pub invariants: *mut T,
-    /// Out, 3: failure index, failed, alive. If null, no point fails, but a point whose old failure flag is set stays failed.
+    /// Out, 3: failure index, failed, alive; of the law with friction 7, before these the energy lost, I_te and the two components
+    /// of the slip. If null, no point fails, but a point whose old failure flag is set stays failed.
     pub failure: *mut T,
     /// Out, 24: S_el, S_tc, S_td, S_ld, second Piola-Kirchhoff, each 11 22 33 12 23 31.
     pub modes: *mut T,
@@ -143,7 +144,7 @@ impl<T: Scalar> Block<T> {
 
     /// Checks what the law itself does not check, but for the layouts.
     #[inline(always)]
-    fn check(&self) -> Result<(), Error> {
+    pub(super) fn check(&self) -> Result<(), Error> {
         check_points(self.n)?;
         check_density::<T>(self.density, !self.wave_speed.is_null() && self.n > 0)?;
         level(self.level)?;
@@ -154,7 +155,7 @@ impl<T: Scalar> Block<T> {
     }
 
     /// Checks where the entries of the arrays are that have a pointer for each component; the law checks the others.
-    fn check_layouts(&self) -> Result<(), Error> {
+    pub(super) fn check_layouts(&self) -> Result<(), Error> {
         let (n, leading_dimension) = (self.n, leading_dimension(self.leading_dimension, self.n));
         let [f, fibre, stress] = [self.deformation_gradient_layout, self.fibre_layout, self.stress_layout];
         f.or(leading_dimension).check(
@@ -194,7 +195,7 @@ impl<T: Scalar> Block<T> {
     }
 
     /// The block as the law takes it, whose layouts [have been checked](Self::check_layouts).
-    fn points(&self) -> Points<T> {
+    pub(super) fn points(&self) -> Points<T> {
         let leading_dimension = leading_dimension(self.leading_dimension, self.n);
         let [f, fibre] = [self.deformation_gradient_layout, self.fibre_layout].map(|x| x.or(leading_dimension));
         let [state, stress] = [self.state_layout, self.stress_layout].map(|x| x.or(leading_dimension));

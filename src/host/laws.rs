@@ -18,6 +18,9 @@ macro_rules! library_laws {
             LinearElastic {
                 "linear-elastic", "linear elastic law", "LINEARELASTIC", "ToronLinearElastic", user 2, umat 43
             }
+            Frictional {
+                "frictional", "yarn law with friction", "FRICTIONAL", "ToronFrictional", user 3, umat 44
+            }
         }
     };
 }
@@ -64,10 +67,16 @@ impl LibraryLaw {
     }
 }
 
-/// The number, `/MAT/USERnn`, of the law whose properties and state variables are as many as a material has in Abaqus;
-/// that of the first law if there is none, so that its message says what a card lacks.
+/// The number, `/MAT/USERnn`, of the law whose properties and state variables are as many as a material has in Abaqus, or
+/// that has so many constants as the first law cannot have, a limit variable included; that of the first law if there is
+/// none. So the message of the right law says what a card lacks.
 #[inline]
 pub fn by_counts(counts: [i32; 2]) -> i32 {
     let [first, others @ ..] = &LAWS;
-    others.iter().find(|law| law.counts() == counts).unwrap_or(first).user
+    let [constants, most] = [counts[0], first.counts()[0] + 1];
+    let is_meant = |law: &&LibraryLaw| {
+        let own = law.counts();
+        own == counts || constants > most && (own[0]..=own[0] + 1).contains(&constants)
+    };
+    others.iter().find(is_meant).unwrap_or(first).user
 }

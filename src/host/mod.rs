@@ -20,6 +20,7 @@ pub mod calculix;
 pub mod constants;
 pub mod entry_points;
 pub mod environment;
+pub mod frictional;
 pub mod laws;
 mod limit_variable;
 pub mod linear_elastic;

@@ -24,8 +24,9 @@ use crate::law::tangent::Measure;
 use crate::law::voigt::Moduli;
 use crate::law::wave_speed;
 
-/// A point of the hyperelastic law. Set `size`, and what is wanted; the rest is 0: an array that is null is left out, and an
-/// output that is left out is not computed. The arrays of the old and the new state may be the same.
+/// A point of the hyperelastic law or of the law with friction. Set `size`, and what is wanted; the rest is 0: an array
+/// that is null is left out, and an output that is left out is not computed. The arrays of the old and the new state may
+/// be the same.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct Point<T> {
@@ -41,9 +42,9 @@ pub struct Point<T> {
     pub deformation_gradient: *const T,
     /// In, 3: the fibre direction, of any length; if null, that of the properties.
     pub fibre: *const T,
-    /// In, 11: the old state; if null, all 0.
+    /// In, 11 (15 of the law with friction): the old state; if null, all 0.
     pub state_old: *const T,
-    /// Out, 11: the new state. If null, the point does not fail, but stays failed if its old state has the flag set.
+    /// Out, as many: the new state. If null, the point does not fail, but stays failed if its old state has the flag set.
     pub state_new: *mut T,
     /// Out, 6: Cauchy stress 11 22 33 12 23 31.
     pub stress: *mut T,
@@ -53,8 +54,9 @@ pub struct Point<T> {
     /// rest. It is meant for the stable time step; a bulk viscosity computed with it damps more than with the exact speed.
     pub wave_speed: *mut T,
     /// Out, 36 (81 for `TORON_TANGENT_NOMINAL`): the tangent, entry (row, column), counted from 0, at 6 row + column (9 row +
-    /// column); a symmetric matrix. Rows and columns are in the order 11 22 33 12 23 31, with derivatives with respect to
-    /// engineering shears; for `TORON_TANGENT_NOMINAL` 11 21 31 12 22 32 13 23 33.
+    /// column); a symmetric matrix, but where the fibres of the law with friction slide. Rows and columns are in the order
+    /// 11 22 33 12 23 31, with derivatives with respect to engineering shears; for `TORON_TANGENT_NOMINAL`
+    /// 11 21 31 12 22 32 13 23 33.
     ///
     /// The call that detects failure returns that of the intact material, later calls return zeros. At a kink (I_el = 0 or I_tc =
     /// 0) it is that of loading.

@@ -197,29 +197,13 @@ pub const fn place(table: &[Property], name: &str) -> usize {
     i
 }
 
-/// The laws of the library.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum LawName {
-    Hyperelastic,
-    LinearElastic,
-}
-
-impl LawName {
-    /// The law's properties.
-    pub(crate) const fn properties(self) -> &'static [Property] {
-        match self {
-            LawName::Hyperelastic => &HYPERELASTIC,
-            LawName::LinearElastic => &LINEAR_ELASTIC,
-        }
-    }
-}
-
 /// A named set of properties in SI units, and the density of the same yarn.
 #[derive(Debug)]
 pub struct Preset {
     pub name: &'static str,
-    pub law: LawName,
-    /// One value for each of the law's properties.
+    /// The properties of its law.
+    pub properties: &'static [Property],
+    /// One value for each of them.
     pub values: &'static [f64],
     /// Reference density in kg/m³.
     pub density: f64,
@@ -229,25 +213,32 @@ pub struct Preset {
 impl Preset {
     /// The rows of which `values` has the values.
     pub fn table(&self) -> &'static [Property] {
-        self.law.properties()
+        self.properties
     }
 }
 
 /// The presets of the library.
-pub static PRESETS: [Preset; 2] = [
+pub static PRESETS: [Preset; 3] = [
     Preset {
         name: "kevlar-km2-600",
-        law: LawName::Hyperelastic,
+        properties: &HYPERELASTIC,
         values: &[82.341e9, 1.055e9, 2.2, 0.64974e9, 0.0, 0.0458, 1.8, 0.0, 1.0, 0.0, 0.0],
         density: 1351.4,
         source: "Kevlar KM2 600 denier: del Sorbo 2019, Tab. 4.3, 4.5 (multiaxial failure); woven: k_ld 5 to 20 MPa",
     },
     Preset {
         name: "kevlar-km2-600-linear",
-        law: LawName::LinearElastic,
+        properties: &LINEAR_ELASTIC,
         values: &[79.414e9, 0.794e9, 0.126e9, 3.637e9, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0],
         density: 1351.4,
         source: "Kevlar KM2 600 denier, 400 fibres: del Sorbo 2019, Tab. 4.4",
+    },
+    Preset {
+        name: "kevlar-km2-600-frictional",
+        properties: &FRICTIONAL,
+        values: &[82.341e9, 1.055e9, 2.2, 0.64974e9, 0.0, 0.0458, 1.8, 0.0, 1.0, 0.0, 0.0, 0.25, 0.0],
+        density: 1351.4,
+        source: "Kevlar KM2 600 denier: del Sorbo 2019, Tab. 4.3, 4.5 (multiaxial failure); friction: a guess, mu 0.25 without cohesion",
     },
 ];
 

@@ -7,6 +7,9 @@
 //! - compaction: W″/4 + |W′|. |W′| is the sum of the Kirchhoff stresses across, and W″ = (p − 1) |W′|/|I_tc| is no more
 //!   than (p − 1) |W′| from |I_tc| = 1 on, where |W′| is p k_tc, and less than (p − 1) p k_tc before;
 //! - distortion: ¼ k_td ((a/sinh a) eᵃ + a) ≤ ¾ k_td cosh a;
+//! - distortion that friction limits to I_te, a = 2 I_te: a eᵃ/sinh a ≤ 1 + 2 a, so that this is ¼ k_td (1 + 3 a) at
+//!   most, and a ≤ 4 (µ p_t + c)/k_td, p_t = ½ |W′|: ¼ k_td + 3 (µ ½ |W′| + c); where the fibres slide, the pressure that
+//!   grows adds µ W″/4;
 //! - longitudinal shear: (k_ld/λ²)(2 J_t eᵃ + 4 |P b e|).
 //!
 //! Roots of x are replaced by (1 + x)/2, no less. Of the linear elastic law, which has no Poisson's ratios, A is E1,
@@ -49,6 +52,8 @@ pub enum WaveBounds {
         p: f64,
         k_td: f64,
         k_ld: f64,
+        /// µ and c, of a law whose distortion is limited by them.
+        friction: Option<[f64; 2]>,
     },
     LinearElastic {
         along: f64,
@@ -73,7 +78,18 @@ impl WaveBounds {
     /// By direction where that is known: a compaction with p below 2 is infinitely stiff at first.
     pub fn hyperelastic(properties: &hyperelastic::Properties<f64>) -> WaveBounds {
         let hyperelastic::Properties { k_el, k_tc, p, k_td, k_ld, .. } = *properties;
-        if p >= 2.0 { WaveBounds::Hyperelastic { k_el, k_tc, p, k_td, k_ld } } else { WaveBounds::Isotropic }
+        let friction = None;
+        if p >= 2.0 { WaveBounds::Hyperelastic { k_el, k_tc, p, k_td, k_ld, friction } } else { WaveBounds::Isotropic }
+    }
+
+    /// The same with friction between the fibres.
+    pub fn frictional(properties: &hyperelastic::Properties<f64>, mu: f64, cohesion: f64) -> WaveBounds {
+        match Self::hyperelastic(properties) {
+            WaveBounds::Hyperelastic { k_el, k_tc, p, k_td, k_ld, .. } => {
+                WaveBounds::Hyperelastic { k_el, k_tc, p, k_td, k_ld, friction: Some([mu, cohesion]) }
+            }
+            other => other,
+        }
     }
 
     /// By direction where the first axis stays the fibre's.
@@ -92,17 +108,23 @@ impl WaveBounds {
         let Deformed { columns: [u, v, w], stress, volume_ratio: ratio, .. } = *point;
         match *self {
             WaveBounds::Isotropic => None,
-            WaveBounds::Hyperelastic { k_el, k_tc, p, k_td, k_ld } => {
+            WaveBounds::Hyperelastic { k_el, k_tc, p, k_td, k_ld, friction } => {
                 let per_square = one / point.stretch_square;
                 let along = dot(u, times(stress, u)) * per_square;
                 let slope = size(ratio * (stress[0] + stress[1] + stress[2] - along));
-                let compaction = constant(0.25 * (p - 1.0)) * slope.larger(constant(p * k_tc)) + slope;
+                let curvature = constant(0.25 * (p - 1.0)) * slope.larger(constant(p * k_tc));
+                let compaction = curvature + slope;
                 let [c22, c33] = point.section;
                 // cosh a = (c22 + c33)/(2 J_t), J_t² = J²/λ².
                 let area_square = ratio * ratio * per_square;
                 let mean = half * (c22 + c33);
                 let cosh = half * (one + mean * mean / area_square);
-                let distortion = constant(0.75 * k_td) * cosh;
+                let distortion = match friction {
+                    None => constant(0.75 * k_td) * cosh,
+                    Some([mu, cohesion]) => {
+                        constant(0.25 * k_td + 3.0 * cohesion) + constant(1.5 * mu) * slope + constant(mu) * curvature
+                    }
+                };
                 let mut across = compaction + distortion;
                 if k_ld > 0.0 {
                     let (h2, h3) = (dot(u, v), dot(u, w));

@@ -4,7 +4,7 @@ use core::ptr::{null, null_mut};
 
 use libc::{c_char, size_t};
 use toron::host::abaqus::{ExplicitLaw, StandardLaw, Umat, Vumat};
-use toron::{Hyperelastic, LinearElastic};
+use toron::{Frictional, Hyperelastic, LinearElastic};
 
 /// The hyperelastic law as a UMAT of Abaqus/Standard.
 ///
@@ -114,6 +114,38 @@ pub unsafe extern "C" fn toron_abaqus_linear_umat_f64(
     unsafe { <LinearElastic>::umat(&call, message, capacity) }
 }
 
+/// The law with friction as a UMAT of Abaqus/Standard.
+///
+/// The arguments are those of `toron_abaqus_umat_tangent_f64`, and `spd` (out): the energy lost per current volume; `nstatv` ≥ 15,
+/// `nprops` = 13, or 14: the last one is the number of the state variable that holds the point's own limit, or 0. DDSDDE is not
+/// symmetric where the fibres slide: `*USER MATERIAL, UNSYMM`; Abaqus takes its symmetric part otherwise.
+///
+/// Returns as `toron_abaqus_umat_tangent_f64` does.
+#[unsafe(no_mangle)]
+#[allow(clippy::too_many_arguments)]
+pub unsafe extern "C" fn toron_abaqus_frictional_umat_f64(
+    stress: *mut f64,
+    statev: *mut f64,
+    ddsdde: *mut f64,
+    sse: *mut f64,
+    spd: *mut f64,
+    pnewdt: *mut f64,
+    dfgrd1: *const f64,
+    props: *const f64,
+    nprops: i32,
+    nstatv: i32,
+    ndi: i32,
+    nshr: i32,
+    nlgeom: i32,
+    message: *mut c_char,
+    capacity: size_t,
+) -> i32 {
+    let call =
+        Umat { stress, statev, ddsdde, sse, pnewdt, dfgrd0: null(), dfgrd1, props, nprops, nstatv, ndi, nshr, nlgeom };
+    // SAFETY: the caller's arguments, as lib.rs says.
+    unsafe { <Frictional>::umat_with_losses(&call, spd, message, capacity) }
+}
+
 /// The hyperelastic law as a VUMAT of Abaqus/Explicit, for jobs in double precision.
 ///
 /// `block` holds the VUMAT's arguments; their shapes are given in `toron_vumat_f64`. All pointers are the caller's and not
@@ -167,4 +199,27 @@ pub unsafe extern "C" fn toron_abaqus_linear_vumat_f32(
 ) -> i32 {
     // SAFETY: the caller's arguments, as lib.rs says.
     unsafe { <LinearElastic<f32>>::vumat(block, message, capacity) }
+}
+
+/// The law with friction as a VUMAT of Abaqus/Explicit, for jobs in double precision: as `toron_abaqus_vumat_f64`, with 13 properties
+/// and 15 state variables or more, of which number 15, "alive", deletes the element. `ener_inelas_new` is the energy lost per mass.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn toron_abaqus_frictional_vumat_f64(
+    block: *const Vumat<f64>,
+    message: *mut c_char,
+    capacity: size_t,
+) -> i32 {
+    // SAFETY: the caller's arguments, as lib.rs says.
+    unsafe { <Frictional<f64>>::vumat(block, message, capacity) }
+}
+
+/// As `toron_abaqus_frictional_vumat_f64`, for jobs in single precision.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn toron_abaqus_frictional_vumat_f32(
+    block: *const Vumat<f32>,
+    message: *mut c_char,
+    capacity: size_t,
+) -> i32 {
+    // SAFETY: the caller's arguments, as lib.rs says.
+    unsafe { <Frictional<f32>>::vumat(block, message, capacity) }
 }

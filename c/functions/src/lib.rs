@@ -23,6 +23,7 @@
 mod abaqus;
 mod about;
 mod constants;
+mod frictional;
 mod hyperelastic;
 mod linear_elastic;
 mod lsdyna;
@@ -33,6 +34,7 @@ mod tables;
 pub use abaqus::*;
 pub use about::*;
 pub use constants::*;
+pub use frictional::*;
 pub use hyperelastic::*;
 pub use linear_elastic::*;
 pub use lsdyna::*;

@@ -4,7 +4,7 @@ use core::ffi::c_int;
 
 use libc::{c_char, size_t};
 use toron::host::lsdyna::{Umat, UmatVector, UserRoutines, Utan, UtanVector};
-use toron::{Hyperelastic, LinearElastic};
+use toron::{Frictional, Hyperelastic, LinearElastic};
 
 /// The hyperelastic law as a scalar user material of LS-DYNA, in double precision.
 ///
@@ -372,4 +372,175 @@ pub unsafe extern "C" fn toron_lsdyna_linear_bulk_and_shear_f64(
 ) -> i32 {
     // SAFETY: the caller's arguments, as lib.rs says.
     unsafe { <LinearElastic<f64>>::card_moduli(values, count, bulk, shear, message, capacity) }
+}
+
+/// The law with friction as a scalar user material of LS-DYNA, in double precision.
+///
+/// As `toron_lsdyna_umat_f64`, with `cm`: at least 13 values, the properties; `hsv`: `nhv` = 15 state variables, in and out, followed
+/// by the 9 entries of F by columns, in.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn toron_lsdyna_frictional_umat_f64(
+    cm: *const f64,
+    sig: *mut f64,
+    hsv: *mut f64,
+    nhv: i32,
+    failel: *mut c_int,
+    message: *mut c_char,
+    capacity: size_t,
+) -> i32 {
+    let call = Umat { cm, sig, hsv, nhv, failel };
+    // SAFETY: the caller's arguments, as lib.rs says.
+    unsafe { <Frictional<f64>>::umat(&call, message, capacity) }
+}
+
+/// As `toron_lsdyna_frictional_umat_f64`, in single precision.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn toron_lsdyna_frictional_umat_f32(
+    cm: *const f32,
+    sig: *mut f32,
+    hsv: *mut f32,
+    nhv: i32,
+    failel: *mut c_int,
+    message: *mut c_char,
+    capacity: size_t,
+) -> i32 {
+    let call = Umat { cm, sig, hsv, nhv, failel };
+    // SAFETY: the caller's arguments, as lib.rs says.
+    unsafe { <Frictional<f32>>::umat(&call, message, capacity) }
+}
+
+/// The law with friction as a vectorised user material of LS-DYNA, in double precision: as `toron_lsdyna_umat_vector_f64`, with `hsvs`:
+/// (`nlq`, 24), ordered as `hsv` of `toron_lsdyna_frictional_umat_f64`.
+#[unsafe(no_mangle)]
+#[allow(clippy::too_many_arguments)]
+pub unsafe extern "C" fn toron_lsdyna_frictional_umat_vector_f64(
+    cm: *const f64,
+    sig1: *mut f64,
+    sig2: *mut f64,
+    sig3: *mut f64,
+    sig4: *mut f64,
+    sig5: *mut f64,
+    sig6: *mut f64,
+    hsvs: *mut f64,
+    nhv: i32,
+    lft: i32,
+    llt: i32,
+    nlq: i32,
+    failels: *mut c_int,
+    message: *mut c_char,
+    capacity: size_t,
+) -> i32 {
+    let call = UmatVector { cm, sig: [sig1, sig2, sig3, sig4, sig5, sig6], hsvs, nhv, lft, llt, nlq, failels };
+    // SAFETY: the caller's arguments, as lib.rs says.
+    unsafe { <Frictional<f64>>::umat_vector(&call, message, capacity) }
+}
+
+/// As `toron_lsdyna_frictional_umat_vector_f64`, in single precision.
+#[unsafe(no_mangle)]
+#[allow(clippy::too_many_arguments)]
+pub unsafe extern "C" fn toron_lsdyna_frictional_umat_vector_f32(
+    cm: *const f32,
+    sig1: *mut f32,
+    sig2: *mut f32,
+    sig3: *mut f32,
+    sig4: *mut f32,
+    sig5: *mut f32,
+    sig6: *mut f32,
+    hsvs: *mut f32,
+    nhv: i32,
+    lft: i32,
+    llt: i32,
+    nlq: i32,
+    failels: *mut c_int,
+    message: *mut c_char,
+    capacity: size_t,
+) -> i32 {
+    let call = UmatVector { cm, sig: [sig1, sig2, sig3, sig4, sig5, sig6], hsvs, nhv, lft, llt, nlq, failels };
+    // SAFETY: the caller's arguments, as lib.rs says.
+    unsafe { <Frictional<f32>>::umat_vector(&call, message, capacity) }
+}
+
+/// The tangent of the law with friction for LS-DYNA's scalar user routine `utan`, in double precision: as `toron_lsdyna_utan_f64`, with
+/// `hsv` of `toron_lsdyna_frictional_umat_f64`.
+///
+/// It is that of a further, infinitesimal step from the state that the material routine has written, where the fibres hold: that of
+/// unloading where they have slid in the step.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn toron_lsdyna_frictional_utan_f64(
+    cm: *const f64,
+    hsv: *const f64,
+    nhv: i32,
+    es: *mut f64,
+    message: *mut c_char,
+    capacity: size_t,
+) -> i32 {
+    let call = Utan { cm, hsv, nhv, es };
+    // SAFETY: the caller's arguments, as lib.rs says.
+    unsafe { <Frictional<f64>>::utan(&call, message, capacity) }
+}
+
+/// As `toron_lsdyna_frictional_utan_f64`, in single precision.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn toron_lsdyna_frictional_utan_f32(
+    cm: *const f32,
+    hsv: *const f32,
+    nhv: i32,
+    es: *mut f32,
+    message: *mut c_char,
+    capacity: size_t,
+) -> i32 {
+    let call = Utan { cm, hsv, nhv, es };
+    // SAFETY: the caller's arguments, as lib.rs says.
+    unsafe { <Frictional<f32>>::utan(&call, message, capacity) }
+}
+
+/// As `toron_lsdyna_frictional_utan_f64`, for LS-DYNA's vectorised `utan`: arguments as of `toron_lsdyna_utan_vector_f64`, with `hsvs`:
+/// (`nlq`, 24).
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn toron_lsdyna_frictional_utan_vector_f64(
+    cm: *const f64,
+    hsvs: *const f64,
+    nhv: i32,
+    lft: i32,
+    llt: i32,
+    nlq: i32,
+    dsave: *mut f64,
+    message: *mut c_char,
+    capacity: size_t,
+) -> i32 {
+    let call = UtanVector { cm, hsvs, nhv, lft, llt, nlq, dsave };
+    // SAFETY: the caller's arguments, as lib.rs says.
+    unsafe { <Frictional<f64>>::utan_vector(&call, message, capacity) }
+}
+
+/// As `toron_lsdyna_frictional_utan_vector_f64`, in single precision.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn toron_lsdyna_frictional_utan_vector_f32(
+    cm: *const f32,
+    hsvs: *const f32,
+    nhv: i32,
+    lft: i32,
+    llt: i32,
+    nlq: i32,
+    dsave: *mut f32,
+    message: *mut c_char,
+    capacity: size_t,
+) -> i32 {
+    let call = UtanVector { cm, hsvs, nhv, lft, llt, nlq, dsave };
+    // SAFETY: the caller's arguments, as lib.rs says.
+    unsafe { <Frictional<f32>>::utan_vector(&call, message, capacity) }
+}
+
+/// As `toron_lsdyna_bulk_and_shear_f64`, for the law with friction: cm(14) and cm(15), IBULK = 14 and IG = 15.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn toron_lsdyna_frictional_bulk_and_shear_f64(
+    values: *const f64,
+    count: usize,
+    bulk: *mut f64,
+    shear: *mut f64,
+    message: *mut c_char,
+    capacity: size_t,
+) -> i32 {
+    // SAFETY: the caller's arguments, as lib.rs says.
+    unsafe { <Frictional<f64>>::card_moduli(values, count, bulk, shear, message, capacity) }
 }

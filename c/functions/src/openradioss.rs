@@ -8,8 +8,8 @@ use toron::host::openradioss::{read_card_f32, read_card_f64, write_line_f32, wri
 
 /// The starter's routine of a user material of OpenRadioss, `LECMUSERnn`, in double precision.
 ///
-/// `number`: nn, 1 for the hyperelastic law and 2 for the linear elastic one; `values`: `count` numbers of the card behind the
-/// density, the law's properties and then the options; `uparam`: `maxuparam` values, out; `nuparam`, `nuvar`: out; `parmat`: out, 1
+/// `number`: nn, 1 for the hyperelastic law, 2 for the linear elastic one and 3 for that with friction; `values`: `count` numbers
+/// of the card behind the density, the law's properties and then the options; `uparam`: `maxuparam` values, out; `nuparam`, `nuvar`: out; `parmat`: out, 1
 /// value, the modulus of the fastest wave at rest. None may be null.
 ///
 /// Returns 0, or a code with which the starter is to be stopped, and nothing is written: a −1xx code

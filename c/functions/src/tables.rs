@@ -88,7 +88,7 @@ unsafe fn preset<T: Precision>(
     unsafe { look_up(message, write) }
 }
 
-/// The number of properties of a law (`TORON_HYPERELASTIC`, `TORON_LINEAR_ELASTIC`), or `TORON_UNKNOWN_NAME`.
+/// The number of properties of a law (`TORON_HYPERELASTIC`, `TORON_LINEAR_ELASTIC`, `TORON_FRICTIONAL`), or `TORON_UNKNOWN_NAME`.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn toron_property_count(law: i32, message: *mut c_char, capacity: size_t) -> i32 {
     // SAFETY: the caller's arguments, as lib.rs says.

@@ -179,6 +179,15 @@ fn shims_of_lsdyna_in_other_releases_and_under_other_numbers() {
     }
 }
 
+/// The law with friction, as another material.
+#[test]
+fn shims_of_lsdyna_with_friction() {
+    let law = ["-DTORON_FRICTIONAL", "-DTORON_MT=44"];
+    for kinds in [&[][..], &[INTEGERS_64, REALS_64], &[INTEGERS_64, REALS_64, TRAPS]] {
+        fortran_program("lsdyna_frictional.f90", &[kinds, &law].concat(), &LSDYNA.map(shim));
+    }
+}
+
 /// A law of one's own, which the shims take by its name.
 #[test]
 fn shims_of_lsdyna_with_a_law_of_ones_own() {

@@ -185,7 +185,7 @@ impl<'a> Variable<'a> {
 
     /// Whether a pointer may be null.
     fn optional(&self) -> &'static str {
-        let may_be_null = ["ddsdde", "density", "direction", "fibre", "message", "ngl", "nodes", "second_axis"];
+        let may_be_null = ["ddsdde", "density", "direction", "fibre", "message", "ngl", "nodes", "second_axis", "spd"];
         if may_be_null.contains(&self.name) { ", optional" } else { "" }
     }
 
@@ -199,7 +199,7 @@ impl<'a> Variable<'a> {
     /// The shape of what a pointer points to.
     fn shape(&self) -> &'static str {
         match self.name {
-            "density" | "sse" | "pnewdt" | "failel" | "bulk" | "shear" | "least" => "",
+            "density" | "sse" | "spd" | "pnewdt" | "failel" | "bulk" | "shear" | "least" => "",
             "nuparam" | "nuvar" if self.pointer => "",
             "direction" | "fibre" | "second_axis" => "(3)",
             "axes" => "(9)",
@@ -405,6 +405,7 @@ fn every_exported_function_is_in_the_module() {
         include_str!("../../functions/src/about.rs"),
         include_str!("../../functions/src/tables.rs"),
         include_str!("../../functions/src/hyperelastic.rs"),
+        include_str!("../../functions/src/frictional.rs"),
         include_str!("../../functions/src/linear_elastic.rs"),
         include_str!("../../functions/src/abaqus.rs"),
         include_str!("../../functions/src/lsdyna.rs"),

@@ -8,7 +8,7 @@ use toron_test_support::update::is_asked;
 use toron::law::status;
 
 /// Constants and structures, then what is exported.
-const SOURCES: [&str; 17] = [
+const SOURCES: [&str; 18] = [
     "src/law/status.rs",
     "c/functions/src/constants.rs",
     "src/host/constants.rs",
@@ -22,6 +22,7 @@ const SOURCES: [&str; 17] = [
     "c/functions/src/about.rs",
     "c/functions/src/tables.rs",
     "c/functions/src/hyperelastic.rs",
+    "c/functions/src/frictional.rs",
     "c/functions/src/linear_elastic.rs",
     "c/functions/src/abaqus.rs",
     "c/functions/src/lsdyna.rs",

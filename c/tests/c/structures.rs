@@ -9,7 +9,8 @@ use std::process::Command;
 
 use toron::host::abaqus::Vumat;
 use toron_c::{
-    Block, HyperelasticLaw, Layout, LinearBlock, LinearElasticLaw, LinearIncrement, LinearPoint, Point, TableRow,
+    Block, FrictionalLaw, HyperelasticLaw, Layout, LinearBlock, LinearElasticLaw, LinearIncrement, LinearPoint, Point,
+    TableRow,
 };
 
 use toron_test_support::library::{ROOT, folder, run};
@@ -55,6 +56,7 @@ macro_rules! precision {
     ($assertions:expr, $t:ty) => {
         let (assertions, t): (&mut Assertions, &str) = ($assertions, stringify!($t));
         structure!(assertions, format!("toron_hyperelastic_{t}"), HyperelasticLaw<$t>: tag size values);
+        structure!(assertions, format!("toron_frictional_{t}"), FrictionalLaw<$t>: tag size values);
         structure!(assertions, format!("toron_linear_elastic_{t}"), LinearElasticLaw<$t>: tag size values);
         structure!(assertions, format!("toron_point_{t}"), Point<$t>: size measure level density deformation_gradient fibre
             state_old state_new stress modes wave_speed tangent limit);

@@ -12,9 +12,11 @@ use super::solid::{self, SOLID_VON_MISES, SOLID_WORK};
 use super::stress::{Points, nominal_stress};
 use super::viscosity::Viscosity;
 use super::wave_bounds::{Section, bounds_at};
-use toron::law::state::{FAILURE_INDEX, INVARIANTS, LINEAR_LARGEST, LINEAR_STRESS, LINEAR_WORK};
+use toron::law::state::{
+    FAILURE_INDEX, FRICTIONAL_FAILED, FRICTIONAL_LOST, INVARIANTS, LINEAR_LARGEST, LINEAR_STRESS, LINEAR_WORK,
+};
 use toron::law::status;
-use toron_c::{HyperelasticLaw, LinearElasticLaw, TORON_CRITERION_FIBRE};
+use toron_c::{LinearElasticLaw, TORON_CRITERION_FIBRE};
 use toron_materials::entries::blocks::{LinearFrame, LinearSolverBlock, SolverBlock, linear_elastic_block};
 use toron_materials::entries::hosts::Given;
 
@@ -224,7 +226,12 @@ impl<T: Number> ElementBlock<T> {
     /// From the deformation gradients to stresses and wave speeds; updates the history. Returns the entry's code.
     fn call_law(&mut self, medium: &Medium<T>, scratch: &mut Scratch<T>, options: StepOptions) -> i32 {
         match &medium.entry {
-            Entry::Hyperelastic(law) => self.call_hyperelastic(law, medium, scratch, options),
+            Entry::Hyperelastic(law) => self.solver_block(medium, scratch, options).arrays().call(Given::Prepared(law)),
+            // The slip is remembered whether elements may fail or not, and the kernels are compiled for all of the state.
+            Entry::Frictional(law) => {
+                let all = SolverBlock { energies: true, failure: true, ..self.solver_block(medium, scratch, options) };
+                all.call_frictional(law)
+            }
             Entry::LinearElastic { law, frame, criterion, .. } => {
                 let code = self.call_linear_elastic(law, *frame, *criterion, scratch);
                 scratch.wave_speed.fill(T::from_f64(medium.wave_speed));
@@ -240,15 +247,15 @@ impl<T: Number> ElementBlock<T> {
         }
     }
 
-    fn call_hyperelastic(
-        &mut self,
-        law: &HyperelasticLaw<T>,
+    /// The arrays of a yarn law.
+    fn solver_block<'a>(
+        &'a mut self,
         medium: &Medium<T>,
-        scratch: &mut Scratch<T>,
+        scratch: &'a mut Scratch<T>,
         options: StepOptions,
-    ) -> i32 {
+    ) -> SolverBlock<'a, T> {
         let wave_speed = &mut scratch.wave_speed[..];
-        let arrays = SolverBlock {
+        SolverBlock {
             n: self.shapes.n,
             leading_dimension: self.shapes.stride,
             deformation_gradient: &scratch.deformation_gradient,
@@ -261,8 +268,7 @@ impl<T: Number> ElementBlock<T> {
             wave_speed: Some((T::from_f64(medium.density), wave_speed)),
             tangent: None,
             status: &mut scratch.status,
-        };
-        arrays.arrays().call(Given::Prepared(law))
+        }
     }
 
     fn call_linear_elastic(
@@ -375,10 +381,12 @@ impl<T: Number> ElementBlock<T> {
         refused(code).map_or_else(|| Ok((0..n).map(of).collect()), Err)
     }
 
-    /// The hyperelastic law's invariants; other laws have none, and 0 here.
+    /// The yarn laws' invariants; other laws have none, and 0 here.
     pub fn invariants(&self, medium: &Medium<T>, i: usize) -> [f64; 4] {
         match medium.entry {
-            Entry::Hyperelastic(_) => std::array::from_fn(|mode| self.variable(INVARIANTS + mode, i)),
+            Entry::Hyperelastic(_) | Entry::Frictional(_) => {
+                std::array::from_fn(|mode| self.variable(INVARIANTS + mode, i))
+            }
             Entry::LinearElastic { .. } | Entry::Solid(_) => [0.0; 4],
         }
     }
@@ -386,7 +394,7 @@ impl<T: Number> ElementBlock<T> {
     /// Energy densities, as [`ENERGY_NAMES`](super::medium::ENERGY_NAMES) has them.
     pub fn energies(&self, medium: &Medium<T>, i: usize) -> [f64; 5] {
         match medium.entry {
-            Entry::Hyperelastic(_) => {
+            Entry::Hyperelastic(_) | Entry::Frictional(_) => {
                 let [el, tc, td, ld] = std::array::from_fn(|mode| self.variable(mode, i));
                 [el, tc, td, ld, 0.0]
             }
@@ -395,10 +403,19 @@ impl<T: Number> ElementBlock<T> {
         }
     }
 
+    /// The density of the energy that friction between the fibres has taken.
+    pub fn lost(&self, medium: &Medium<T>, i: usize) -> f64 {
+        match medium.entry {
+            Entry::Frictional(_) => self.variable(FRICTIONAL_LOST, i),
+            Entry::Hyperelastic(_) | Entry::LinearElastic { .. } | Entry::Solid(_) => 0.0,
+        }
+    }
+
     /// 1 at the failure limit, 0 without one.
     pub fn failure_index(&self, medium: &Medium<T>, i: usize) -> f64 {
         match medium.entry {
             Entry::Hyperelastic(_) => self.variable(FAILURE_INDEX, i),
+            Entry::Frictional(_) => self.variable(FRICTIONAL_FAILED - 1, i),
             Entry::LinearElastic { .. } if !medium.fails => 0.0,
             Entry::Solid(_) => 0.0,
             Entry::LinearElastic { criterion: TORON_CRITERION_FIBRE, .. } => {
@@ -427,7 +444,7 @@ impl<T: Number> ElementBlock<T> {
     /// does not keep it.
     pub fn elongation(&self, medium: &Medium<T>, i: usize) -> f64 {
         match &medium.entry {
-            Entry::Hyperelastic(_) => self.variable(INVARIANTS, i),
+            Entry::Hyperelastic(_) | Entry::Frictional(_) => self.variable(INVARIANTS, i),
             Entry::LinearElastic { modulus, .. } => self.variable(LINEAR_STRESS, i) / modulus,
             Entry::Solid(_) => 0.0,
         }

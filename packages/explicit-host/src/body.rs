@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::archive::Archive;
 use super::block::{BLOCK, ElementBlock, Scratch, StepOptions, Sums};
 use super::lanes::{Number, largest};
-use super::medium::Medium;
+use super::medium::{Entry, Medium};
 use super::mesh::Mesh;
 use super::tie::{self, Tie};
 
@@ -282,6 +282,15 @@ impl<T: Number> Body<T> {
             }
         }
         internal
+    }
+
+    /// What friction between the fibres has taken.
+    pub fn lost_energy(&self, media: &[Medium<T>]) -> f64 {
+        let blocks = self.blocks.iter().filter(|block| matches!(media[block.medium].entry, Entry::Frictional(_)));
+        let of = |block: &ElementBlock<T>| -> f64 {
+            (0..block.shapes.n).map(|i| block.lost(&media[block.medium], i) * block.shapes.volume(i)).sum()
+        };
+        blocks.map(of).sum()
     }
 
     /// The current position of a node.

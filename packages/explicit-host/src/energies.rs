@@ -19,6 +19,8 @@ pub struct Energies {
     pub hourglass: f64,
     pub viscosity: f64,
     pub friction: f64,
+    /// Lost by friction between the fibres of sections, deleted elements' included.
+    pub fibres: f64,
     /// Stored in the penalty, including that of nodes that have left the contact.
     pub contact: f64,
     /// Work done from outside, through supports that move and a striker that is held.
@@ -35,12 +37,12 @@ impl Energies {
 
     /// All energies but the striker's, the kinetic and the internal one.
     pub fn other(&self) -> f64 {
-        self.hourglass + self.viscosity + self.friction + self.contact
+        self.hourglass + self.viscosity + self.friction + self.fibres + self.contact
     }
 
     /// All of them, multiplied.
     pub fn times(&self, factor: f64) -> Energies {
-        let Energies { striker, kinetic, internal, hourglass, viscosity, friction, contact, external } = *self;
+        let Energies { striker, kinetic, internal, hourglass, viscosity, friction, fibres, contact, external } = *self;
         Energies {
             striker: factor * striker,
             kinetic: factor * kinetic,
@@ -48,6 +50,7 @@ impl Energies {
             hourglass: factor * hourglass,
             viscosity: factor * viscosity,
             friction: factor * friction,
+            fibres: factor * fibres,
             contact: factor * contact,
             external: factor * external,
         }

@@ -4,12 +4,12 @@
 use super::lanes::Number;
 use super::solid::{SOLID_FAILED, SOLID_STATE, Solid};
 use super::wave_bounds::wave_bounds;
-use toron::law::parameters::{HYPERELASTIC_PROPERTIES, LINEAR_ELASTIC_PROPERTIES};
+use toron::law::parameters::LINEAR_ELASTIC_PROPERTIES;
 use toron::law::wave_bounds::WaveBounds;
 use toron::law::{description, hyperelastic, linear_elastic};
 use toron::{Criterion, Rotation};
-use toron_c::{HyperelasticLaw, LinearElasticLaw, TORON_CRITERION_FIBRE, TORON_CRITERION_PRINCIPAL};
-use toron_materials::entries::blocks::{LinearFrame, prepared, prepared_linear};
+use toron_c::{FrictionalLaw, HyperelasticLaw, LinearElasticLaw, TORON_CRITERION_FIBRE, TORON_CRITERION_PRINCIPAL};
+use toron_materials::entries::blocks::{LinearFrame, prepared, prepared_frictional, prepared_linear};
 use toron_materials::material::model::{Law, Material};
 use toron_shared::error::Error;
 
@@ -34,6 +34,7 @@ pub const ENERGY_NAMES: [&str; 5] = ["w_el", "w_tc", "w_td", "w_ld", "work"];
 #[derive(Clone, Debug)]
 pub enum Entry<T> {
     Hyperelastic(HyperelasticLaw<T>),
+    Frictional(FrictionalLaw<T>),
     /// With the modulus along the fibre.
     LinearElastic {
         law: LinearElasticLaw<T>,
@@ -63,22 +64,34 @@ pub struct Medium<T> {
     pub distortion_speed: f64,
 }
 
+/// A yarn law, prepared.
+///
+/// # Errors
+/// A property is wrong.
+fn yarn_entry<T: Number>(material: &Material) -> Result<Entry<T>, Error> {
+    let values: Vec<T> = material.values().into_iter().map(T::from_f64).collect();
+    let entry = match &material.law {
+        Law::Own(_) => prepared_frictional(&values).map(Entry::Frictional),
+        _ => prepared(&values).map(Entry::Hyperelastic),
+    };
+    entry.map_err(Error::Input)
+}
+
 impl<T: Number> Medium<T> {
     /// # Errors
     /// The frame is the spin's, which needs axes of its own; a property that is wrong.
     pub fn new(material: &Material, density: f64, control: Control) -> Result<Self, Error> {
         // What resists a section's distortion: the modes bend and shear elements mostly across the fibre.
-        let (entry, along, across, shear, distortion, strength) = match material.law {
-            Law::Hyperelastic { properties, .. } => {
-                let values = <[f64; HYPERELASTIC_PROPERTIES]>::from(properties);
+        let (entry, along, across, shear, distortion, strength) = match (&material.law, material.law.yarn()) {
+            (_, Some(yarn)) => {
                 // W = k_tc |I_tc|^p + ½ k_td I_td² by one transverse logarithmic strain, of which I_tc and I_td are
                 // half; with p >= 2 this is its stiffness at |I_tc| = 1, and less before. I_td is half of a shear, too.
-                let hyperelastic::Properties { k_el, k_tc, p, k_td, .. } = properties;
+                // Fibres that slide hold less.
+                let hyperelastic::Properties { k_el, k_tc, p, k_td, .. } = yarn;
                 let across = (p * (p - 1.0) * k_tc + k_td) / 4.0;
-                let law = prepared(&values.map(T::from_f64)).map_err(Error::Input)?;
-                (Entry::Hyperelastic(law), k_el, across, k_td / 4.0, k_td, 0.0)
+                (yarn_entry(material)?, k_el, across, k_td / 4.0, k_td, 0.0)
             }
-            Law::LinearElastic { law, properties, frame, criterion } => {
+            (&Law::LinearElastic { law, properties, frame, criterion }, None) => {
                 let values = <[f64; LINEAR_ELASTIC_PROPERTIES]>::from(properties);
                 let frame = match frame {
                     Rotation::Fibre => LinearFrame::Fibre,
@@ -96,9 +109,9 @@ impl<T: Number> Medium<T> {
                 let entry = Entry::LinearElastic { law: prepared, modulus: e_1, frame, criterion };
                 (entry, law.wave_modulus(), e_2, g, e_2, sigma_lim)
             }
-            Law::Own(_) => {
-                let message = format!("the law is {}; allowed here: hyperelastic, linear-elastic", material.law_name());
-                return Err(Error::Input(message));
+            (Law::Hyperelastic { .. } | Law::Own(_), None) => {
+                let allowed = "hyperelastic, linear-elastic, frictional";
+                return Err(Error::Input(format!("the law is {}; allowed here: {allowed}", material.law_name())));
             }
         };
         Ok(Medium {
@@ -136,6 +149,7 @@ impl<T: Number> Medium<T> {
     pub fn state(&self) -> (usize, usize) {
         let law = match self.entry {
             Entry::Hyperelastic(_) => &description::HYPERELASTIC,
+            Entry::Frictional(_) => &description::FRICTIONAL,
             Entry::LinearElastic { .. } => &description::LINEAR_ELASTIC,
             Entry::Solid(_) => return (SOLID_STATE, SOLID_FAILED),
         };

@@ -275,6 +275,7 @@ impl<T: Number> Solver<T> {
             internal: self.bodies.iter().map(|body| body.internal_energy(&self.media)).sum(),
             hourglass: self.bodies.iter().map(|body| body.sums.hourglass + body.state.released).sum(),
             friction: striker.map_or(0.0, Striker::dissipated) + mutual.map_or(0.0, |contact| contact.state.dissipated),
+            fibres: self.bodies.iter().map(|body| body.lost_energy(&self.media)).sum(),
             viscosity: self.state.viscosity,
             contact: striker.map_or(0.0, Striker::stored) + mutual.map_or(0.0, |contact| contact.state.stored),
             ..Energies::default()

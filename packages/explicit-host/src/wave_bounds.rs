@@ -1,6 +1,7 @@
 //! The laws' bounds of wave speeds by direction, of neighbouring elements at once.
 
 use super::lanes::{Lanes, Number, load};
+use toron::law::parameters::HYPERELASTIC_PROPERTIES;
 use toron::law::wave_bounds::{Arithmetic, Deformed, WaveBounds};
 use toron_materials::material::model::{Law, Material};
 
@@ -16,7 +17,10 @@ pub fn wave_bounds(material: &Material) -> WaveBounds {
     match &material.law {
         Law::Hyperelastic { properties, .. } => WaveBounds::hyperelastic(properties),
         Law::LinearElastic { properties, frame, .. } => WaveBounds::linear_elastic(properties, *frame),
-        Law::Own(_) => WaveBounds::Isotropic,
+        Law::Own(own) => match (material.law.yarn(), own.values.get(HYPERELASTIC_PROPERTIES..)) {
+            (Some(yarn), Some(&[mu, cohesion])) => WaveBounds::frictional(&yarn, mu, cohesion),
+            _ => WaveBounds::Isotropic,
+        },
     }
 }
 
@@ -81,7 +85,7 @@ mod tests {
                 _ => {}
             }
         }
-        let law = Law::new(preset.law.into(), &values, rotation, Criterion::LargestPrincipal).expect("valid");
+        let law = Law::new(preset.into(), &values, rotation, Criterion::LargestPrincipal).expect("valid");
         Material {
             law,
             density: Some(preset.density),
@@ -143,6 +147,15 @@ mod tests {
         for k_ld in [0.0, 126e6] {
             for spread in [0.02, 0.3, 0.6] {
                 assert!(check(&material("kevlar-km2-600", k_ld), spread) > 0.5);
+            }
+        }
+    }
+
+    #[test]
+    fn no_wave_of_the_law_with_friction_is_faster() {
+        for k_ld in [0.0, 126e6] {
+            for spread in [0.02, 0.3, 0.6] {
+                assert!(check(&material("kevlar-km2-600-frictional", k_ld), spread) > 0.5);
             }
         }
     }

@@ -19,6 +19,7 @@ pub mod confidence;
 pub mod fabric;
 pub mod impact;
 pub mod layers;
+mod losses;
 pub mod root;
 pub mod scene_deck;
 pub mod scene_keys;

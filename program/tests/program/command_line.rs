@@ -420,7 +420,7 @@ fn wrong_arguments_of_a_card_are_named() {
     refused(&["--host", "mtest"], "--units is missing, and kevlar-km2-600 has none; allowed: length-mass-time");
     let dyna = ["--host", "ls-dyna", "--units", "si"];
     for (arguments, message) in [
-        (&["--law", "elastic"][..], "--law elastic; allowed: hyperelastic, linear-elastic"),
+        (&["--law", "elastic"][..], "--law elastic; allowed: hyperelastic, linear-elastic, frictional"),
         (&["--preset", "nylon"], "--preset: preset \"nylon\"; allowed: kevlar-km2-600"),
         (&["--properties", "nylon.txt"], "--properties nylon.txt: No such file"),
         (&["--preset", "kevlar-km2-600", "--law", "linear-elastic"], "kevlar-km2-600 is of the law hyperelastic"),

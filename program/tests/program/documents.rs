@@ -303,6 +303,8 @@ fn generate(name: &str) -> String {
         "hyperelastic state" => state_variables(&state::HYPERELASTIC),
         "linear elastic properties" => properties(&parameters::LINEAR_ELASTIC),
         "linear elastic state" => state_variables(&state::LINEAR_ELASTIC),
+        "frictional properties" => properties(&parameters::FRICTIONAL),
+        "frictional state" => state_variables(&state::FRICTIONAL),
         "presets" => presets(),
         "status codes" => status_codes(),
         "message" => message(),

@@ -623,7 +623,7 @@ fn types_are_told_by_key_and_value() {
         ("speed = \"fast\"", "speed is \"fast\"; allowed: a number"),
         ("held = 1", "held is 1; allowed: true or false"),
         ("name = 1", "name is 1; allowed: text in quotes"),
-        ("law = \"elastic\"", "law is \"elastic\"; allowed: hyperelastic, linear-elastic, hybrid"),
+        ("law = \"elastic\"", "law is \"elastic\"; allowed: hyperelastic, linear-elastic, frictional, hybrid"),
         ("precision = \"f16\"", "precision is \"f16\"; allowed: f64 or f32"),
         ("law = 3", "law is 3; allowed: a word in quotes"),
         ("viscosity = 0.1", "viscosity is 0.1; allowed: a list"),

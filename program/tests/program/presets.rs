@@ -230,7 +230,7 @@ fn a_file_prints_as_a_deck() {
         nothing.starts_with("toron: --preset: preset \"nothing.toml\": nothing.toml cannot be read: "),
         "{nothing}"
     );
-    let known = "kevlar-km2-600, kevlar-km2-600-linear, or a file NAME.toml";
+    let known = "kevlar-km2-600, kevlar-km2-600-linear, kevlar-km2-600-frictional, or a file NAME.toml";
     assert_eq!(deck(&["nylon"]), Err(format!("toron: --preset: preset \"nylon\"; allowed: {known}\n")));
 }
 

@@ -11,7 +11,7 @@ from toron._library import lib, text
 from toron.benchmark import bench
 from toron.call import Call
 from toron.errors import ArgumentError, Error, PointError, PropertyError, status_message
-from toron.hyperelastic import Hyperelastic
+from toron.hyperelastic import Frictional, Hyperelastic
 from toron.law import Law
 from toron.linear_elastic import LinearElastic
 from toron.measures import first_piola_kirchhoff, matrix, second_piola_kirchhoff
@@ -23,6 +23,7 @@ __all__ = [
     "ArgumentError",
     "Call",
     "Error",
+    "Frictional",
     "Hyperelastic",
     "Law",
     "LinearElastic",

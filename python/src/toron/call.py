@@ -63,7 +63,7 @@ class _Memory:
 class Call:
     """A law bound to arrays: every call evaluates it on what they hold then, and returns the mapping of the outputs.
 
-    Made by `Hyperelastic.bind` and `LinearElastic.bind`. It holds the arrays, and must not be used by two threads at a time.
+    Made by `bind` of a law. It holds the arrays, and must not be used by two threads at a time.
     """
 
     __slots__ = ("_function", "_law", "_block", "_copies", "_status", "_reported", "_arrays", "_memory", "_shape", "outputs", "points")

@@ -1,4 +1,4 @@
-"""The hyperelastic yarn law."""
+"""The hyperelastic yarn law, alone and with friction between its fibres."""
 
 from collections.abc import Iterable, Mapping
 from typing import Any
@@ -16,36 +16,33 @@ from toron.placement import Member
 _F = Member("deformation_gradient", (3, 3), "deformation_gradient", separate=True, order=(1, 0))
 _FIBRE = Member("fibre", (3,), "fibre", separate=True)
 _LIMIT = Member("limit", (), "limit")
-_OUTPUTS = {
-    "stress": Member("stress", (6,), "stress", separate=True, written=True),
-    "modes": Member("modes", (4, 6), "modes", written=True),
-    "tangent": Member("tangent", (6, 6), "tangent", written=True),
-    "state": Member("state", (lib.TORON_HYPERELASTIC_STATE,), "state", written=True),
-    "energies": Member("energies", (4,), "state", written=True),
-    "invariants": Member("invariants", (4,), "state", written=True),
-    "failure": Member("failure", (3,), "state", written=True),
-    "wave_speed": Member("wave_speed", (), written=True),
-    "active": Member("active", (), written=True),
-    "status": STATUS,
-}
-_NOMINAL = Member("tangent", (3, 3, 3, 3), "tangent", written=True, order=(1, 0, 3, 2))
 #: The parts of the state, in its order.
 _PARTS = ("energies", "invariants", "failure")
-_OLD = [_OUTPUTS[name]._replace(name=f"{name}_old", written=False) for name in _PARTS]
 
 
-class Hyperelastic(Law):
-    """Del Sorbo's hyperelastic law of a yarn, prepared from its properties by name.
+def _outputs_with(variables: int) -> dict[str, Member]:
+    """The outputs of a law with so many state variables: its failure is what is behind energies and invariants."""
+    return {
+        "stress": Member("stress", (6,), "stress", separate=True, written=True),
+        "modes": Member("modes", (4, 6), "modes", written=True),
+        "tangent": Member("tangent", (6, 6), "tangent", written=True),
+        "state": Member("state", (variables,), "state", written=True),
+        "energies": Member("energies", (4,), "state", written=True),
+        "invariants": Member("invariants", (4,), "state", written=True),
+        "failure": Member("failure", (variables - 8,), "state", written=True),
+        "wave_speed": Member("wave_speed", (), written=True),
+        "active": Member("active", (), written=True),
+        "status": STATUS,
+    }
 
-    `toron.Hyperelastic(k_el=82341.0, k_tc=1055.0, p=2.2, k_td=649.74, eps_lim=0.0458, alpha=1.8)`: stiffnesses in a unit of your
-    own, which is that of the stresses; `properties_table()` has all properties with their dimensions and defaults. `density`, which
-    only the wave speed needs, must fit the units.
 
-    Raises `PropertyError` for a property that is missing or out of bounds, `ArgumentError` for a name that is none.
-    """
+_NOMINAL = Member("tangent", (3, 3, 3, 3), "tangent", written=True, order=(1, 0, 3, 2))
 
-    _number = lib.TORON_HYPERELASTIC
-    _structure = "toron_hyperelastic"
+
+class _Yarn(Law):
+    """What both yarn laws have: their points are the same structure of the library."""
+
+    _outputs: dict[str, Member]
 
     def evaluate(
         self,
@@ -73,8 +70,8 @@ class Hyperelastic(Law):
         - modes: (4, 6), second Piola-Kirchhoff stress of elongation, compaction, distortion and longitudinal shear;
         - tangent: (6, 6) for "material" dS/dE, "truesdell" or "jaumann" (DDSDDE), order as the stress, derivatives with respect to
           engineering shears; (3, 3, 3, 3) for "nominal", entry [i, J, k, L] = dP_iJ/dF_kL;
-        - state: (11,), see `state_table()`; energies: (4,), energy per reference volume, invariants: (4,), failure: (3,) failure
-          index, failed, alive, which are parts of it;
+        - state: (11,), of `Frictional` (15,), see `state_table()`; energies: (4,), energy per reference volume, invariants: (4,),
+          failure: (3,) failure index, failed, alive, of `Frictional` (7,), which are parts of it;
         - wave_speed: (), an upper bound, to be used with current element lengths; needs the density;
         - active: (), 1, or 0 if the point has failed or cannot be evaluated;
         - status: (), int32, 0 or the code of a point that cannot be evaluated. Without it such points raise `PointError`.
@@ -129,6 +126,44 @@ class Hyperelastic(Law):
         self.evaluate(F, out={name: out}, **arguments)
         return out
 
+    def _bind(self, inputs: tuple[Any, ...], out: Any, outputs: Any, options: tuple[Any, ...], frozen: bool = True) -> Call:
+        F, state, state_old, fibre, limit = inputs
+        tangent, density, points, level = options
+        wanted = arrays.names(outputs, out, self._outputs)
+        given = dict(out or {})
+        placed = arrays.Arrays("F", _F, F, choice("points", points, POINTS) == 1, frozen)
+        if fibre is not None:
+            placed.put(_FIBRE, placed.one_for_all("fibre", _FIBRE, fibre))
+        if limit is not None:
+            placed.put(_LIMIT, placed.one_for_all("limit", _LIMIT, limit))
+        block = structure(f"toron_block_{SUFFIX[placed.dtype]}")
+        block.level = choice("level", level, LEVELS)
+        block.measure = choice("tangent", tangent, TANGENTS)
+        self._set_density(block, density, wanted)
+        results = _states(placed, self._outputs, given, wanted, state, state_old)
+        for name in wanted:
+            if name not in results:
+                member = _NOMINAL if name == "tangent" and tangent == "nominal" else self._outputs[name]
+                results[name] = placed.output(name, member, given.get(name))
+                placed.put(member, results[name])
+        outputs = {name: results[name] for name in wanted}
+        return self._call(f"{self._structure}_block_{SUFFIX[placed.dtype]}", block, placed, outputs)
+
+
+class Hyperelastic(_Yarn):
+    """Del Sorbo's hyperelastic law of a yarn, prepared from its properties by name.
+
+    `toron.Hyperelastic(k_el=82341.0, k_tc=1055.0, p=2.2, k_td=649.74, eps_lim=0.0458, alpha=1.8)`: stiffnesses in a unit of your
+    own, which is that of the stresses; `properties_table()` has all properties with their dimensions and defaults. `density`, which
+    only the wave speed needs, must fit the units.
+
+    Raises `PropertyError` for a property that is missing or out of bounds, `ArgumentError` for a name that is none.
+    """
+
+    _number = lib.TORON_HYPERELASTIC
+    _structure = "toron_hyperelastic"
+    _outputs = _outputs_with(lib.TORON_HYPERELASTIC_STATE)
+
     def least_acoustic_eigenvalue(self, F: ArrayLike, fibre: ArrayLike | None = None) -> tuple[float, NDArray[np.float64]]:
         """Stability at one point: the smallest eigenvalue of the acoustic tensor times the density, and the normal of that wave.
 
@@ -149,48 +184,42 @@ class Hyperelastic(Law):
         raise_for_point(code)
         return least[0], normal
 
-    def _bind(self, inputs: tuple[Any, ...], out: Any, outputs: Any, options: tuple[Any, ...], frozen: bool = True) -> Call:
-        F, state, state_old, fibre, limit = inputs
-        tangent, density, points, level = options
-        wanted = arrays.names(outputs, out, _OUTPUTS)
-        given = dict(out or {})
-        placed = arrays.Arrays("F", _F, F, choice("points", points, POINTS) == 1, frozen)
-        if fibre is not None:
-            placed.put(_FIBRE, placed.one_for_all("fibre", _FIBRE, fibre))
-        if limit is not None:
-            placed.put(_LIMIT, placed.one_for_all("limit", _LIMIT, limit))
-        block = structure(f"toron_block_{SUFFIX[placed.dtype]}")
-        block.level = choice("level", level, LEVELS)
-        block.measure = choice("tangent", tangent, TANGENTS)
-        self._set_density(block, density, wanted)
-        results = _states(placed, given, wanted, state, state_old)
-        for name in wanted:
-            if name not in results:
-                member = _NOMINAL if name == "tangent" and tangent == "nominal" else _OUTPUTS[name]
-                results[name] = placed.output(name, member, given.get(name))
-                placed.put(member, results[name])
-        outputs = {name: results[name] for name in wanted}
-        return self._call(f"toron_hyperelastic_block_{SUFFIX[placed.dtype]}", block, placed, outputs)
+
+class Frictional(_Yarn):
+    """The hyperelastic law with friction between the fibres of a section, prepared from its properties by name.
+
+    `toron.Frictional(k_el=82341.0, k_tc=1055.0, p=2.2, k_td=649.74, mu=0.25, cohesion=0.2)`: the properties of `Hyperelastic`, and the
+    friction. Its answer depends on the state: pass `state`, or `state_old` from the step before. The state has 15 variables, and
+    "failure" 7: the energy lost, I_te, the slip, then failure index, failed, alive. The tangent is not symmetric where the fibres slide.
+
+    Raises `PropertyError` for a property that is missing or out of bounds, `ArgumentError` for a name that is none.
+    """
+
+    _number = lib.TORON_FRICTIONAL
+    _structure = "toron_frictional"
+    _outputs = _outputs_with(lib.TORON_FRICTIONAL_STATE)
 
 
-def _states(placed: arrays.Arrays, given: dict[str, Any], wanted: tuple[str, ...], state: Any, old: Any) -> dict[str, np.ndarray]:
+def _states(
+    placed: arrays.Arrays, members: dict[str, Member], given: dict[str, Any], wanted: tuple[str, ...], state: Any, old: Any
+) -> dict[str, np.ndarray]:
     """Places the old and the new state, and parts of the state that are wanted without it; returns those that are outputs."""
     if state is not None and (old is not None or "state" in wanted):
         raise ArgumentError("state is the old and the new one; give state_old for an old one of its own", lib.TORON_BAD_ARGUMENT)
     if old is not None:
-        old = placed.input("state_old", _OUTPUTS["state"], old)
+        old = placed.input("state_old", members["state"], old)
     parts = [name for name in _PARTS if name in wanted]
     results: dict[str, np.ndarray] = {}
     if state is not None or "state" in wanted:
         twice = [name for name in parts if name in given]
         if twice:
             raise ArgumentError(f"out has {', '.join(twice)}: parts of the state, which is given", lib.TORON_BAD_ARGUMENT)
-        new = placed.output("state", _OUTPUTS["state"], given.get("state") if state is None else state)
+        new = placed.output("state", members["state"], given.get("state") if state is None else state)
         old = old if state is None else new
-        results = {"state": new, **placed.put_parts([_OUTPUTS[name] for name in _PARTS], new)}
+        results = {"state": new, **placed.put_parts([members[name] for name in _PARTS], new)}
     elif not any(name in given for name in parts):
         # One array for them all, since they have one layout.
-        results = placed.parts([_OUTPUTS[name] for name in parts])
+        results = placed.parts([members[name] for name in parts])
     if old is not None:
-        placed.put_parts(_OLD, old)
+        placed.put_parts([members[name]._replace(name=f"{name}_old", written=False) for name in _PARTS], old)
     return results

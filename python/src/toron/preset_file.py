@@ -11,7 +11,7 @@ from toron.arrays import number
 from toron.errors import ArgumentError, Error, PropertyError, shown
 
 _KEYS = ("name", "source", "units", "law", "density", "properties")
-_LAWS = {"hyperelastic": lib.TORON_HYPERELASTIC, "linear-elastic": lib.TORON_LINEAR_ELASTIC}
+_LAWS = {"hyperelastic": lib.TORON_HYPERELASTIC, "linear-elastic": lib.TORON_LINEAR_ELASTIC, "frictional": lib.TORON_FRICTIONAL}
 
 Dimension = tuple[int, int, int]
 _DENSITY: Dimension = (1, -3, 0)

@@ -117,6 +117,21 @@ pub trait StandardLaw: Law<f64> {
         // SAFETY: the arrays are those that `Umat` promises, and the message is the caller's.
         unsafe { entry(Message { text: message, capacity }, || step::<Self>(call)) }
     }
+
+    /// The UMAT, and SPD: of a law that loses energy, what it has lost per current volume. Another law leaves SPD as it is.
+    ///
+    /// # Safety
+    /// As for [`umat`](Self::umat); `spd` is null or can be written.
+    #[inline(always)]
+    unsafe fn umat_with_losses(call: &Umat, spd: *mut f64, message: *mut c_char, capacity: size_t) -> i32 {
+        // SAFETY: as for `umat`.
+        unsafe {
+            match Self::DESCRIPTION.lost {
+                None => Self::umat(call, message, capacity),
+                Some(lost) => entry(Message { text: message, capacity }, || step_with_losses::<Self>(call, lost, spd)),
+            }
+        }
+    }
 }
 
 impl<L: ByStep + Law<f64>> StandardLaw for L {}
@@ -375,6 +390,24 @@ unsafe fn step<L: Law<f64>>(call: &Umat) -> Result<i32, Error> {
         }
     }
     L::DESCRIPTION.told(code)
+}
+
+/// The UMAT of a law by its step, and the energy lost per current volume, variable `lost` of its state, to `spd`.
+///
+/// # Errors
+/// The first argument that is wrong.
+///
+/// # Safety
+/// As for [`StandardLaw::umat_with_losses`].
+unsafe fn step_with_losses<L: Law<f64>>(call: &Umat, lost: usize, spd: *mut f64) -> Result<i32, Error> {
+    // SAFETY: the arrays are those that `Umat` promises; `step` has refused those that are null and counts that are too small.
+    unsafe {
+        let code = step::<L>(call)?;
+        if code == status::OK && !spd.is_null() {
+            *spd = current_density(*call.statev.add(lost), determinant(&*call.dfgrd1.cast()));
+        }
+        Ok(code)
+    }
 }
 
 /// The law's components 11 22 33 12 23 31 in Abaqus's order.

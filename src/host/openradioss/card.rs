@@ -47,7 +47,7 @@ pub static OPTIONS: [CardOption; 3] = [
 pub static OWN_OPTION: CardOption = CardOption {
     name: "limit_from",
     greatest: 1,
-    allowed: "0 (the failure limit of the card), 1 (of each element, from its initial user variable limit, 16 of USER01 and 24 of USER02; 0 there is that of the card)",
+    allowed: "0 (the failure limit of the card), 1 (of each element, from its initial user variable limit, 16 of USER01, 24 of USER02, 20 of USER03; 0 there is that of the card)",
 };
 
 /// The names of the variables of an element's diagonal.

@@ -23,7 +23,7 @@ fn media_with(k_ld: f64) -> Vec<Medium<f64>> {
     let mut values = preset.values.to_vec();
     values[4] = k_ld;
     values[5..8].fill(0.0);
-    let law = Law::new(preset.law.into(), &values, Rotation::Fibre, Criterion::LargestPrincipal).expect("valid");
+    let law = Law::new(preset.into(), &values, Rotation::Fibre, Criterion::LargestPrincipal).expect("valid");
     let material = Material {
         law,
         density: Some(preset.density),

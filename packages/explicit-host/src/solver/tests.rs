@@ -16,7 +16,7 @@ fn cube(support_of: impl Fn([f64; 3]) -> Support) -> Solver<f64> {
 
 fn cube_of(values: Vec<f64>, support_of: impl Fn([f64; 3]) -> Support) -> Solver<f64> {
     let preset = parameters::preset("kevlar-km2-600").expect("it exists");
-    let law = Law::new(preset.law.into(), &values, Rotation::Fibre, Criterion::LargestPrincipal).expect("valid");
+    let law = Law::new(preset.into(), &values, Rotation::Fibre, Criterion::LargestPrincipal).expect("valid");
     let density = preset.density;
     let material =
         Material { law, density: Some(density), label: String::new(), own: String::new(), origin: Origin::default() };

@@ -5,7 +5,7 @@
 use std::fmt::Write;
 
 use super::material::{Material, WIDE};
-use crate::material::laws::LawName;
+use crate::material::laws::{LawName, Names};
 use crate::material::preset::LONGEST_NAME;
 use toron_shared::error::Error;
 use toron_shared::short_number::short;
@@ -29,7 +29,7 @@ pub fn card(material: &Material, solver: Solver) -> Result<String, Error> {
     match solver {
         Solver::Standard => {
             card += "** Abaqus/Standard: *STEP, NLGEOM=YES. It deletes no failed elements.\n";
-            if let LawName::Own(_) = material.law {
+            if matches!(material.law, LawName::Own(_)) && !unsymmetric(material.law) {
                 card += UNSYMMETRIC;
             }
         }
@@ -37,16 +37,17 @@ pub fn card(material: &Material, solver: Solver) -> Result<String, Error> {
         Solver::Both => {
             card += "** Abaqus/Standard: *STEP, NLGEOM=YES. It deletes no failed elements; DELETE is for Explicit.\n";
             match material.law {
-                LawName::Hyperelastic => {}
-                LawName::LinearElastic => card += "** Abaqus/Standard: *USER MATERIAL, CONSTANTS=..., UNSYMM.\n",
+                _ if unsymmetric(material.law) => {
+                    card += "** Abaqus/Standard: *USER MATERIAL, CONSTANTS=..., UNSYMM.\n"
+                }
+                LawName::Hyperelastic | LawName::LinearElastic => {}
                 LawName::Own(_) => card += UNSYMMETRIC,
             }
             card += &deletion(material);
         }
     }
     let _ = write!(card, "*MATERIAL, NAME={}\n*DENSITY\n{},\n", name(material), short(material.density()?, WIDE));
-    // The tangent of the linear elastic law is not symmetric.
-    let unsymmetric = solver == Solver::Standard && material.law == LawName::LinearElastic;
+    let unsymmetric = solver == Solver::Standard && unsymmetric(material.law);
     card += &constants(material, if unsymmetric { ", UNSYMM" } else { "" });
     let delete = match solver {
         Solver::Standard => String::new(),
@@ -58,6 +59,11 @@ pub fn card(material: &Material, solver: Solver) -> Result<String, Error> {
         let _ = writeln!(card, "{}, {}, \"{}\"", i + 1, variable.name.to_uppercase(), variable.meaning);
     }
     Ok(card)
+}
+
+/// Whether the law is one of the library's whose tangent is not symmetric: all but the hyperelastic law.
+fn unsymmetric(law: LawName) -> bool {
+    law != LawName::Hyperelastic && matches!(law.names(), Names::Library(_))
 }
 
 pub fn comments(material: &Material) -> String {

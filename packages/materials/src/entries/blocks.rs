@@ -7,8 +7,10 @@ use std::ptr::{null, null_mut};
 
 use super::hosts::Given;
 use super::precision::{BlockPrecision, PrepareEntry};
-use toron::law::state::{ENERGIES, FAILURE_INDEX, HYPERELASTIC_STATE, INVARIANTS, LINEAR_ELASTIC_STATE};
-use toron_c::{Block, HyperelasticLaw, LinearBlock, LinearElasticLaw};
+use toron::law::state::{
+    ENERGIES, FAILURE_INDEX, FRICTIONAL_STATE, HYPERELASTIC_STATE, INVARIANTS, LINEAR_ELASTIC_STATE,
+};
+use toron_c::{Block, FrictionalLaw, HyperelasticLaw, LinearBlock, LinearElasticLaw};
 
 /// The hyperelastic law, prepared through `toron_hyperelastic_prepare_f64` or `_f32`.
 ///
@@ -24,6 +26,14 @@ pub fn prepared<T: BlockPrecision>(properties: &[T]) -> Result<HyperelasticLaw<T
 /// The properties are wrong: the entry's message.
 pub fn prepared_linear<T: BlockPrecision>(properties: &[T]) -> Result<LinearElasticLaw<T>, String> {
     prepare(T::PREPARE_LINEAR, properties)
+}
+
+/// The same for the law with friction.
+///
+/// # Errors
+/// The properties are wrong: the entry's message.
+pub fn prepared_frictional<T: BlockPrecision>(properties: &[T]) -> Result<FrictionalLaw<T>, String> {
+    prepare(T::PREPARE_FRICTIONAL, properties)
 }
 
 fn prepare<L: Copy, T>(entry: PrepareEntry<L, T>, properties: &[T]) -> Result<L, String> {
@@ -76,14 +86,31 @@ impl<'a, T: BlockPrecision> SolverBlock<'a, T> {
     /// # Panics
     /// An array is shorter than its components need.
     pub fn arrays(self) -> BlockArrays<'a, T> {
+        self.of_state(HYPERELASTIC_STATE)
+    }
+
+    /// The law with friction over a step at the points through `toron_frictional_block_f64` or `_f32`, with its 15 state
+    /// variables; returns the entry's code.
+    ///
+    /// # Panics
+    /// As for [`arrays`](Self::arrays).
+    pub fn call_frictional(self, law: &FrictionalLaw<T>) -> i32 {
+        let BlockArrays { arrays, .. } = self.of_state(FRICTIONAL_STATE);
+        // SAFETY: the arrays have the sizes that the structure tells; the new state replaces the old one exactly, or is
+        // elsewhere.
+        unsafe { T::FRICTIONAL_BLOCK(law, &arrays, null_mut(), 0) }
+    }
+
+    /// The structure for a law with so many state variables: its failure is what is behind energies and invariants.
+    fn of_state(self, variables: usize) -> BlockArrays<'a, T> {
         let SolverBlock { n, leading_dimension: stride, deformation_gradient, state, stress, status, tangent, .. } =
             self;
         let holds = |length: usize, components: usize| length >= (components - 1) * stride + n;
         let (density, wave_speed) = self.wave_speed.map_or((T::default(), None), |(density, to)| (density, Some(to)));
-        assert!(n <= stride && holds(deformation_gradient.len(), 9) && holds(state.len(), HYPERELASTIC_STATE));
+        assert!(n <= stride && holds(deformation_gradient.len(), 9) && holds(state.len(), variables));
         assert!(holds(stress.len(), 6) && status.len() >= n && wave_speed.as_ref().is_none_or(|to| to.len() >= n));
         assert!(tangent.as_ref().is_none_or(|to| holds(to.len(), 36)));
-        assert!(self.state_old.is_none_or(|old| holds(old.len(), HYPERELASTIC_STATE)));
+        assert!(self.state_old.is_none_or(|old| holds(old.len(), variables)));
         assert!(self.limit.is_none_or(|limit| limit.len() >= n));
         let state = state.as_mut_ptr();
         let old = self.state_old.map_or(state.cast_const(), <[T]>::as_ptr);

@@ -8,9 +8,10 @@ use nalgebra::Matrix3;
 use super::aligned::Aligned;
 use super::precision::BlockPrecision;
 use toron::host::abaqus::StandardLaw;
-use toron::host::calculix::Behaviour;
-use toron::host::mgis::{self, BehaviourDataView, StateView};
-use toron::host::openradioss::{self, card};
+use toron::host::calculix::{Behaviour, CalculixLaw};
+use toron::host::mgis::{self, BehaviourDataView, MgisLaw, StateView};
+use toron::host::openradioss;
+use toron::host::openradioss::card::{self, Layout};
 use toron::host::{abaqus, calculix, lsdyna};
 use toron::law::parameters::HYPERELASTIC_PROPERTIES;
 use toron::law::state::HYPERELASTIC_STATE;
@@ -214,13 +215,13 @@ impl<T: BlockPrecision> VumatArrays<T> {
 
 /// One integration point as CalculiX hands it over: F and E, the old and the new state, second Piola–Kirchhoff stress
 /// and dS/dE.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct CalculixPoint {
+#[derive(Clone, Copy, Debug)]
+pub struct CalculixPoint<const STATE: usize = HYPERELASTIC_STATE> {
     pub deformation_gradient: [f64; 9],
     /// E, 11 22 33 12 13 23.
     pub strain: [f64; 6],
-    pub state_old: [f64; HYPERELASTIC_STATE],
-    pub state: [f64; HYPERELASTIC_STATE],
+    pub state_old: [f64; STATE],
+    pub state: [f64; STATE],
     /// 11 22 33 12 13 23.
     pub stress: [f64; 6],
     /// The upper triangle in that order, by columns.
@@ -228,20 +229,21 @@ pub struct CalculixPoint {
     pub pnewdt: f64,
 }
 
-impl CalculixPoint {
+impl<const STATE: usize> CalculixPoint<STATE> {
     /// A point at the start of an analysis.
     pub fn new(deformation_gradient: [f64; 9]) -> Self {
         let f = Matrix3::from_column_slice(&deformation_gradient);
         let strain = 0.5 * (f.tr_mul(&f) - Matrix3::identity());
         let strain = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)].map(|component| strain[component]);
-        CalculixPoint { deformation_gradient, strain, ..CalculixPoint::default() }
+        let (state, stress, stiffness) = ([0.0; STATE], [0.0; 6], [0.0; 21]);
+        CalculixPoint { deformation_gradient, strain, state_old: state, state, stress, stiffness, pnewdt: 0.0 }
     }
 
-    /// Calls the entry. It ends the process where the properties are wrong, as CalculiX wants.
-    #[inline]
-    pub fn call(&mut self, properties: &[f64; HYPERELASTIC_PROPERTIES]) {
-        let (name, kode, zeros) = ([b' ' as c_char; 80], -100 - HYPERELASTIC_PROPERTIES as i32, [0.0; 9]);
-        let (one, none, state_count) = (1, 0, HYPERELASTIC_STATE as i32);
+    /// Calls a law's entry. It ends the process where the properties are wrong, as CalculiX wants.
+    #[inline(always)]
+    fn with(&mut self, properties: &[f64], entry: impl FnOnce(&Behaviour)) {
+        let (name, kode, zeros) = ([b' ' as c_char; 80], -100 - properties.len() as i32, [0.0; 9]);
+        let (one, none, state_count) = (1, 0, STATE as i32);
         let call = Behaviour {
             amat: name.as_ptr(),
             iel: &one,
@@ -262,32 +264,54 @@ impl CalculixPoint {
             orab: zeros.as_ptr(),
             pnewdt: &mut self.pnewdt,
         };
+        entry(&call);
+    }
+
+    /// Calls the entry of another law than the hyperelastic one.
+    ///
+    /// # Panics
+    /// The law has another number of state variables.
+    pub fn call_law<L: CalculixLaw>(&mut self, properties: &[f64]) {
+        assert_eq!(L::DESCRIPTION.history(), STATE);
         // SAFETY: the arrays have the sizes that CalculiX promises.
-        unsafe { calculix::hyperelastic(&call) }
+        self.with(properties, |call| unsafe { L::behaviour(call) });
+    }
+}
+
+impl CalculixPoint {
+    /// Calls the entry of the hyperelastic law.
+    #[inline]
+    pub fn call(&mut self, properties: &[f64; HYPERELASTIC_PROPERTIES]) {
+        // SAFETY: the arrays have the sizes that CalculiX promises.
+        self.with(properties, |call| unsafe { calculix::hyperelastic(call) });
     }
 }
 
 /// What a UMAT gets from Abaqus beside deformation gradient and properties, and gives back, in Abaqus's order.
 #[derive(Clone, Copy, Debug)]
-pub struct Umat {
+pub struct Umat<const STATE: usize = HYPERELASTIC_STATE> {
     pub stress: [f64; 6],
-    pub statev: [f64; HYPERELASTIC_STATE],
+    pub statev: [f64; STATE],
     pub sse: f64,
     pub pnewdt: f64,
 }
 
-impl Umat {
+impl<const STATE: usize> Umat<STATE> {
     /// A point at the start of an analysis.
-    pub const FRESH: Umat = Umat { stress: [0.0; 6], statev: [0.0; HYPERELASTIC_STATE], sse: 0.0, pnewdt: 1.0 };
+    pub const FRESH: Self = Umat { stress: [0.0; 6], statev: [0.0; STATE], sse: 0.0, pnewdt: 1.0 };
 
-    /// Calls the UMAT, without a place for DDSDDE with a null one; returns its status.
-    #[inline]
-    pub fn call(
+    /// Calls the UMAT of a law, without a place for DDSDDE with a null one; returns its status.
+    ///
+    /// # Panics
+    /// The law has another number of properties or of state variables.
+    #[inline(always)]
+    pub fn call_law<L: StandardLaw>(
         &mut self,
-        properties: &[f64; HYPERELASTIC_PROPERTIES],
+        properties: &[f64],
         f: &[f64; 9],
         ddsdde: Option<&mut [[f64; 6]; 6]>,
     ) -> i32 {
+        assert!(L::DESCRIPTION.state.len() == STATE && L::DESCRIPTION.properties.len() == properties.len());
         let call = abaqus::Umat {
             stress: self.stress.as_mut_ptr(),
             statev: self.statev.as_mut_ptr(),
@@ -297,14 +321,27 @@ impl Umat {
             dfgrd0: null(),
             dfgrd1: f.as_ptr(),
             props: properties.as_ptr(),
-            nprops: HYPERELASTIC_PROPERTIES as i32,
-            nstatv: HYPERELASTIC_STATE as i32,
+            nprops: properties.len() as i32,
+            nstatv: STATE as i32,
             ndi: 3,
             nshr: 3,
             nlgeom: 1,
         };
         // SAFETY: the arrays have the sizes that the structure tells.
-        unsafe { Hyperelastic::umat(&call, null_mut(), 0) }
+        unsafe { L::umat(&call, null_mut(), 0) }
+    }
+}
+
+impl Umat {
+    /// Calls the UMAT of the hyperelastic law.
+    #[inline]
+    pub fn call(
+        &mut self,
+        properties: &[f64; HYPERELASTIC_PROPERTIES],
+        f: &[f64; 9],
+        ddsdde: Option<&mut [[f64; 6]; 6]>,
+    ) -> i32 {
+        self.call_law::<Hyperelastic>(properties, f, ddsdde)
     }
 }
 
@@ -320,40 +357,47 @@ pub enum MgisTangent {
 
 /// One integration point in three dimensions as MGIS hands it over, in MFront's orders.
 #[derive(Clone, Copy, Debug)]
-pub struct MgisPoint {
+pub struct MgisPoint<const STATE: usize = HYPERELASTIC_STATE> {
     /// 11 22 33 12 21 13 31 23 32.
     pub gradients: [f64; 9],
-    pub state_old: [f64; HYPERELASTIC_STATE],
-    pub state: [f64; HYPERELASTIC_STATE],
+    pub state_old: [f64; STATE],
+    pub state: [f64; STATE],
     /// Cauchy stress 11 22 33 √2·12 √2·13 √2·23.
     pub stress: [f64; 6],
     pub stored_energy: f64,
+    pub dissipated_energy: f64,
     /// The request, and the tangent by rows.
     pub k: [f64; 54],
 }
 
-impl MgisPoint {
+impl<const STATE: usize> MgisPoint<STATE> {
     /// A point at the start of an analysis.
-    pub const FRESH: MgisPoint = MgisPoint {
+    pub const FRESH: Self = MgisPoint {
         gradients: [1.0, 1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
-        state_old: [0.0; HYPERELASTIC_STATE],
-        state: [0.0; HYPERELASTIC_STATE],
+        state_old: [0.0; STATE],
+        state: [0.0; STATE],
         stress: [0.0; 6],
         stored_energy: 0.0,
+        dissipated_energy: 0.0,
         k: [0.0; 54],
     };
 
     /// A point at the start of an analysis, but for its F, given by columns.
     pub fn new(&[f11, f21, f31, f12, f22, f32, f13, f23, f33]: &[f64; 9]) -> Self {
-        MgisPoint { gradients: [f11, f22, f33, f12, f21, f13, f31, f23, f32], ..MgisPoint::FRESH }
+        MgisPoint { gradients: [f11, f22, f33, f12, f21, f13, f31, f23, f32], ..Self::FRESH }
     }
 
-    /// Calls the behaviour; returns what it returns: 1, or −1 if the point is not integrated.
-    #[inline]
-    pub fn call(&mut self, properties: &[f64; HYPERELASTIC_PROPERTIES], tangent: MgisTangent) -> i32 {
+    /// Calls a law's behaviour; returns what it returns: 1, or −1 if the point is not integrated.
+    #[inline(always)]
+    fn with(
+        &mut self,
+        properties: &[f64],
+        tangent: MgisTangent,
+        behaviour: impl FnOnce(&mut BehaviourDataView) -> i32,
+    ) -> i32 {
         /// Neither the old stress nor the external state variables are read, nor the first gradients for these
         /// tangents.
-        const AT_REST: &[f64; 9] = &MgisPoint::FRESH.gradients;
+        const AT_REST: &[f64; 9] = &MgisPoint::<0>::FRESH.gradients;
         (self.k[0], self.k[1], self.k[2]) = match tangent {
             MgisTangent::None => (0.0, 0.0, 0.0),
             MgisTangent::CauchyByGradient => (4.0, 0.0, 0.0),
@@ -383,12 +427,30 @@ impl MgisPoint {
                 material_properties: properties.as_ptr(),
                 internal_state_variables: self.state.as_mut_ptr(),
                 stored_energy: &mut self.stored_energy,
-                dissipated_energy: nothing,
+                dissipated_energy: &mut self.dissipated_energy,
                 external_state_variables: nothing,
             },
         };
+        behaviour(&mut view)
+    }
+
+    /// Calls the behaviour of another law than the hyperelastic one.
+    ///
+    /// # Panics
+    /// The law has another number of state variables.
+    pub fn call_law<L: MgisLaw>(&mut self, properties: &[f64], tangent: MgisTangent) -> i32 {
+        assert_eq!(L::DESCRIPTION.history(), STATE);
         // SAFETY: the arrays have the sizes that the symbols of the behaviour tell.
-        unsafe { mgis::hyperelastic(&mut view) }
+        self.with(properties, tangent, |view| unsafe { L::integrate(view) })
+    }
+}
+
+impl MgisPoint {
+    /// Calls the behaviour of the hyperelastic law.
+    #[inline]
+    pub fn call(&mut self, properties: &[f64; HYPERELASTIC_PROPERTIES], tangent: MgisTangent) -> i32 {
+        // SAFETY: the arrays have the sizes that the symbols of the behaviour tell.
+        self.with(properties, tangent, |view| unsafe { mgis::hyperelastic(view) })
     }
 }
 
@@ -404,6 +466,7 @@ pub struct OpenradiossGroup<T> {
     sound_speed: Aligned<T>,
     uparam: Aligned<T>,
     density: T,
+    layout: Layout,
 }
 
 impl<T: BlockPrecision> OpenradiossGroup<T> {
@@ -416,11 +479,18 @@ impl<T: BlockPrecision> OpenradiossGroup<T> {
     /// # Errors
     /// The properties are wrong: the status code.
     pub fn new(n: usize, properties: &[T; HYPERELASTIC_PROPERTIES], fibre_in_uvar: bool) -> Result<Self, i32> {
-        let (array, layout) =
-            (|components: usize, length: usize| Aligned::new(T::default(), components * length), &card::HYPERELASTIC);
+        Self::of(card::HYPERELASTIC, n, properties, fibre_in_uvar)
+    }
+
+    /// The same of any law with a fibre.
+    ///
+    /// # Errors
+    /// The properties are wrong: the status code.
+    pub fn of(layout: Layout, n: usize, properties: &[T], fibre_in_uvar: bool) -> Result<Self, i32> {
+        let array = |components: usize, length: usize| Aligned::new(T::default(), components * length);
         let mut uparam = array(1, layout.parameters());
         let option = [T::from_f64(if fibre_in_uvar { 2.0 } else { 0.0 })];
-        let values = [&properties[..], &option].concat();
+        let values = [properties, &option].concat();
         openradioss::read(&T::TORON, layout.number, &values, &mut uparam).map_err(|error| error.code())?;
         Ok(OpenradiossGroup {
             n,
@@ -431,6 +501,7 @@ impl<T: BlockPrecision> OpenradiossGroup<T> {
             sound_speed: array(1, n),
             uparam,
             density: T::from_f64(1.0),
+            layout,
         })
     }
 
@@ -444,7 +515,7 @@ impl<T: BlockPrecision> OpenradiossGroup<T> {
         let group = openradioss::Group {
             elements: self.n as i32,
             parameters: self.uparam.len() as i32,
-            variables: card::HYPERELASTIC.variables() as i32,
+            variables: self.layout.variables() as i32,
             time: T::from_f64(1e-6),
             uparam: self.uparam.as_ptr(),
             numbers: null(),

@@ -3,5 +3,6 @@
 pub mod aligned;
 pub mod blocks;
 pub mod evaluation;
+pub mod frictional;
 pub mod hosts;
 pub mod precision;

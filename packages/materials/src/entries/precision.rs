@@ -6,7 +6,7 @@ use toron::Hyperelastic;
 use toron::host::abaqus::ExplicitLaw;
 use toron::host::lsdyna::UserRoutines;
 use toron::host::{abaqus, lsdyna, openradioss};
-use toron_c::{Block, HyperelasticLaw, LinearBlock, LinearElasticLaw, Point};
+use toron_c::{Block, FrictionalLaw, HyperelasticLaw, LinearBlock, LinearElasticLaw, Point};
 
 /// Rounding to the precision of an entry.
 pub trait FromF64 {
@@ -31,9 +31,13 @@ impl FromF64 for f32 {
 pub trait BlockPrecision: openradioss::MyReal + Default + FromF64 + Send + Sync + 'static {
     const PREPARE: PrepareEntry<HyperelasticLaw<Self>, Self>;
     const PREPARE_LINEAR: PrepareEntry<LinearElasticLaw<Self>, Self>;
+    const PREPARE_FRICTIONAL: PrepareEntry<FrictionalLaw<Self>, Self>;
     const BLOCK: PreparedEntry<HyperelasticLaw<Self>, Block<Self>>;
     const BLOCK_WITH_PROPERTIES: PropertiesEntry<Self, Block<Self>>;
     const LINEAR_BLOCK: PreparedEntry<LinearElasticLaw<Self>, LinearBlock<Self>>;
+    const FRICTIONAL_BLOCK: PreparedEntry<FrictionalLaw<Self>, Block<Self>>;
+    const FRICTIONAL_POINT: PreparedEntry<FrictionalLaw<Self>, Point<Self>>;
+    const FRICTIONAL_POINT_WITH_PROPERTIES: PropertiesEntry<Self, Point<Self>>;
     const POINT: PreparedEntry<HyperelasticLaw<Self>, Point<Self>>;
     const POINT_WITH_PROPERTIES: PropertiesEntry<Self, Point<Self>>;
     const VUMAT: VumatEntry<Self>;
@@ -55,11 +59,16 @@ pub type Routine<S> = unsafe fn(&S, *mut c_char, usize) -> i32;
 impl BlockPrecision for f64 {
     const PREPARE: PrepareEntry<HyperelasticLaw<f64>, f64> = toron_c::toron_hyperelastic_prepare_f64;
     const PREPARE_LINEAR: PrepareEntry<LinearElasticLaw<f64>, f64> = toron_c::toron_linear_elastic_prepare_f64;
+    const PREPARE_FRICTIONAL: PrepareEntry<FrictionalLaw<f64>, f64> = toron_c::toron_frictional_prepare_f64;
     const BLOCK: PreparedEntry<HyperelasticLaw<f64>, Block<f64>> = toron_c::toron_hyperelastic_block_f64;
     const BLOCK_WITH_PROPERTIES: PropertiesEntry<f64, Block<f64>> =
         toron_c::toron_hyperelastic_block_with_properties_f64;
     const LINEAR_BLOCK: PreparedEntry<LinearElasticLaw<f64>, LinearBlock<f64>> =
         toron_c::toron_linear_elastic_block_f64;
+    const FRICTIONAL_BLOCK: PreparedEntry<FrictionalLaw<f64>, Block<f64>> = toron_c::toron_frictional_block_f64;
+    const FRICTIONAL_POINT: PreparedEntry<FrictionalLaw<f64>, Point<f64>> = toron_c::toron_frictional_point_f64;
+    const FRICTIONAL_POINT_WITH_PROPERTIES: PropertiesEntry<f64, Point<f64>> =
+        toron_c::toron_frictional_point_with_properties_f64;
     const POINT: PreparedEntry<HyperelasticLaw<f64>, Point<f64>> = toron_c::toron_hyperelastic_point_f64;
     const POINT_WITH_PROPERTIES: PropertiesEntry<f64, Point<f64>> =
         toron_c::toron_hyperelastic_point_with_properties_f64;
@@ -72,11 +81,16 @@ impl BlockPrecision for f64 {
 impl BlockPrecision for f32 {
     const PREPARE: PrepareEntry<HyperelasticLaw<f32>, f32> = toron_c::toron_hyperelastic_prepare_f32;
     const PREPARE_LINEAR: PrepareEntry<LinearElasticLaw<f32>, f32> = toron_c::toron_linear_elastic_prepare_f32;
+    const PREPARE_FRICTIONAL: PrepareEntry<FrictionalLaw<f32>, f32> = toron_c::toron_frictional_prepare_f32;
     const BLOCK: PreparedEntry<HyperelasticLaw<f32>, Block<f32>> = toron_c::toron_hyperelastic_block_f32;
     const BLOCK_WITH_PROPERTIES: PropertiesEntry<f32, Block<f32>> =
         toron_c::toron_hyperelastic_block_with_properties_f32;
     const LINEAR_BLOCK: PreparedEntry<LinearElasticLaw<f32>, LinearBlock<f32>> =
         toron_c::toron_linear_elastic_block_f32;
+    const FRICTIONAL_BLOCK: PreparedEntry<FrictionalLaw<f32>, Block<f32>> = toron_c::toron_frictional_block_f32;
+    const FRICTIONAL_POINT: PreparedEntry<FrictionalLaw<f32>, Point<f32>> = toron_c::toron_frictional_point_f32;
+    const FRICTIONAL_POINT_WITH_PROPERTIES: PropertiesEntry<f32, Point<f32>> =
+        toron_c::toron_frictional_point_with_properties_f32;
     const POINT: PreparedEntry<HyperelasticLaw<f32>, Point<f32>> = toron_c::toron_hyperelastic_point_f32;
     const POINT_WITH_PROPERTIES: PropertiesEntry<f32, Point<f32>> =
         toron_c::toron_hyperelastic_point_with_properties_f32;

@@ -8,6 +8,7 @@ use nalgebra::Matrix3;
 use serde::de::IgnoredAny;
 use serde::{Deserialize, Serialize};
 
+use super::frictional;
 use super::lines::{self, order};
 use super::polar::polar_decomposition;
 use super::push_forward::{cauchy_of_second, truesdell_of_material};
@@ -18,10 +19,20 @@ use toron::law::{status, stress};
 use toron_shared::error::Error;
 use toron_shared::toml_error::shortened;
 
+/// The law of the lines.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Law {
+    /// {"F": rows, "m": [3], "params": {kel, ktc, p, ktd, kld, eps_lim, alpha, beta}}: the answer is that of one step from rest.
+    Hyperelastic,
+    /// {"path": several F, or "F": one, "m": [3], "params": {k_el, ..., mu, cohesion}, "before": [slip_1, slip_2, i_te, w_fr]}: the
+    /// answer has "after", what each step leaves.
+    Frictional,
+}
+
 /// The C entry that evaluates a line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Entry {
-    /// `toron_hyperelastic_point_f64`, with the law prepared.
+    /// `toron_hyperelastic_point_f64`, with the law prepared. Of another law each is the function of that name there.
     Law,
     /// `toron_hyperelastic_point_f32`, inputs rounded to single precision.
     LawF32,
@@ -55,8 +66,20 @@ pub enum Entry {
 
 impl Entry {
     /// Whether the entry can answer with DDSDDE.
-    fn has_tangent(self) -> bool {
+    pub(super) fn has_tangent(self) -> bool {
         !matches!(self, Entry::Vumat | Entry::VumatSp | Entry::OpenRadioss)
+    }
+
+    /// # Errors
+    /// A tangent is wanted of an entry that has none.
+    pub(super) fn check_tangent(self, wanted: bool, has_tangent: impl Fn(Entry) -> bool) -> Result<(), Error> {
+        if !wanted || has_tangent(self) {
+            return Ok(());
+        }
+        let others = Entry::value_variants().iter().filter(|entry| has_tangent(**entry)).map(|entry| entry.name());
+        let others = others.collect::<Vec<_>>().join(", ");
+        let name = self.name();
+        Err(Error::Input(format!("--tangent with --via {name}, which has no DDSDDE; allowed with {others}")))
     }
 
     /// The name on the command line.
@@ -161,15 +184,11 @@ fn wrong_key(line: &[u8]) -> Option<String> {
 ///
 /// # Errors
 /// Reading or writing fails; a tangent of an entry that has none.
-pub fn lines(entry: Entry, tangent: bool) -> Result<(), Error> {
-    if tangent && !entry.has_tangent() {
-        let others = Entry::value_variants().iter().filter(|entry| entry.has_tangent()).map(|entry| entry.name());
-        return Err(Error::Input(format!(
-            "--tangent with --via {}, which has no DDSDDE; allowed with {}",
-            entry.name(),
-            others.collect::<Vec<_>>().join(", ")
-        )));
+pub fn lines(law: Law, entry: Entry, tangent: bool) -> Result<(), Error> {
+    if law == Law::Frictional {
+        return frictional::lines(entry, tangent);
     }
+    entry.check_tangent(tangent, Entry::has_tangent)?;
     lines::standard(|input, output| evaluate(entry, tangent, input, output))
 }
 
@@ -243,7 +262,7 @@ fn evaluate_point(entry: Entry, tangent: bool, point: &Input, line: usize) -> Ou
 
 /// The answer of MGIS, with dS/dE pushed forward.
 fn via_mgis(f: &Matrix3<f64>, (answer, material): (Answer, Option<[[f64; 6]; 6]>)) -> Answer {
-    Answer { ddsdde: material.map(|material| pushed_forward(&material, f, &answer.stress)), ..answer }
+    Answer { ddsdde: material.map(|material| jaumann_of_material(&material, f, &answer.stress)), ..answer }
 }
 
 /// The answer of CalculiX, with S and dS/dE pushed forward. Where there is no stress, CalculiX gets a stiffness that is
@@ -251,12 +270,12 @@ fn via_mgis(f: &Matrix3<f64>, (answer, material): (Answer, Option<[[f64; 6]; 6]>
 fn via_calculix(f: &Matrix3<f64>, (answer, material): (Answer, [[f64; 6]; 6]), tangent: bool) -> Answer {
     let intact = answer.status == status::OK;
     let stress = if intact { order(cauchy_of_second(&answer.stress, f)) } else { [0.0; 6] };
-    let ddsdde = || if intact { pushed_forward(&material, f, &stress) } else { [[0.0; 6]; 6] };
+    let ddsdde = || if intact { jaumann_of_material(&material, f, &stress) } else { [[0.0; 6]; 6] };
     Answer { stress, ddsdde: tangent.then(ddsdde), ..answer }
 }
 
 /// DDSDDE, in the library's order, of dS/dE, 11 22 33 12 13 23, and the Cauchy stress.
-fn pushed_forward(material: &[[f64; 6]; 6], f: &Matrix3<f64>, stress: &[f64; 6]) -> [[f64; 6]; 6] {
+pub(super) fn jaumann_of_material(material: &[[f64; 6]; 6], f: &Matrix3<f64>, stress: &[f64; 6]) -> [[f64; 6]; 6] {
     evaluation::jaumann(&order(truesdell_of_material(material, f).map(order)), stress)
 }
 

@@ -27,10 +27,10 @@ impl FibreWave {
     /// The wave of a material in these units; none without a density or without stiffness, and none of a law of one's
     /// own, of which it is not known what resists it.
     pub fn of(material: &Material, units: &UnitSystem) -> Option<FibreWave> {
-        let (law, stiffness) = match material.law {
-            Law::Hyperelastic { properties, .. } => (LawName::Hyperelastic, properties.k_el),
-            Law::LinearElastic { properties, .. } => (LawName::LinearElastic, properties.e_1),
-            Law::Own(_) => return None,
+        let (law, stiffness) = match (&material.law, material.law.yarn()) {
+            (_, Some(yarn)) => (LawName::Hyperelastic, yarn.k_el),
+            (Law::LinearElastic { properties, .. }, None) => (LawName::LinearElastic, properties.e_1),
+            (Law::Hyperelastic { .. } | Law::Own(_), None) => return None,
         };
         Self::along(law, stiffness, material.density?, units)
     }

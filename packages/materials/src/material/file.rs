@@ -23,7 +23,7 @@ use toron_shared::numbers::plain;
 use toron_shared::toml_file::{Numbers, Source};
 
 /// The tables of a material.
-const TABLES: &[&str] = &["material", "hyperelastic", "linear-elastic"];
+const TABLES: &[&str] = &["material", "hyperelastic", "linear-elastic", "frictional"];
 
 /// What a key of a material drops of the material beneath: one of its own starts afresh.
 pub const DROPS: [Drops; 2] = [

@@ -36,12 +36,11 @@ macro_rules! by_description {
 
 toron::library_laws! { by_description {} }
 
-impl From<parameters::LawName> for LawName {
-    fn from(law: parameters::LawName) -> LawName {
-        match law {
-            parameters::LawName::Hyperelastic => LawName::Hyperelastic,
-            parameters::LawName::LinearElastic => LawName::LinearElastic,
-        }
+impl From<&parameters::Preset> for LawName {
+    /// The law of the library that has these properties.
+    fn from(preset: &parameters::Preset) -> LawName {
+        let found = BY_DESCRIPTION.iter().find(|law| std::ptr::eq(law.description.properties, preset.properties));
+        LawName::of(found.expect("a preset is of a law of the library"))
     }
 }
 

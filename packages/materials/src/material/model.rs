@@ -6,7 +6,7 @@ use super::laws::LawName;
 use super::own_law::Own;
 use super::preset::Guesses;
 use toron::law::parameters::{HYPERELASTIC_PROPERTIES, LINEAR_ELASTIC_PROPERTIES, Property, STRESS};
-use toron::law::state::{FAILURE_INDEX, INVARIANTS, LINEAR_LARGEST, LINEAR_STRESS, StateVariable};
+use toron::law::state::{FAILURE_INDEX, FRICTIONAL_FAILED, INVARIANTS, LINEAR_LARGEST, LINEAR_STRESS, StateVariable};
 use toron::law::status;
 use toron::law::{hyperelastic, linear_elastic};
 use toron::{Criterion, Hyperelastic, LinearElastic, Measure, Request, Rotation};
@@ -110,6 +110,15 @@ impl Law {
             Law::Hyperelastic { .. } => LawName::Hyperelastic,
             Law::LinearElastic { .. } => LawName::LinearElastic,
             Law::Own(own) => LawName::Own(own.law),
+        }
+    }
+
+    /// The properties of the hyperelastic law that a yarn has, with friction between its fibres or without.
+    pub fn yarn(&self) -> Option<hyperelastic::Properties<f64>> {
+        match self {
+            Law::Hyperelastic { properties, .. } => Some(*properties),
+            Law::Own(own) if own.is_frictional() => Some(array(&own.values).into()),
+            Law::LinearElastic { .. } | Law::Own(_) => None,
         }
     }
 
@@ -278,14 +287,15 @@ impl Material {
     /// 1 at the failure limit, 0 without one. The linear elastic law's is its criterion's stress over σ_lim. None of a law that
     /// tells nothing but whether it has failed.
     pub fn failure_index(&self, memory: &Memory) -> Option<f64> {
-        match self.law {
+        match &self.law {
             Law::Hyperelastic { .. } => Some(memory.state[FAILURE_INDEX]),
+            Law::Own(own) if own.is_frictional() => Some(memory.state[FRICTIONAL_FAILED - 1]),
             Law::LinearElastic { properties: linear_elastic::Properties { sigma_lim, .. }, criterion, .. } => {
                 let stress = match criterion {
                     Criterion::LargestPrincipal => memory.state[LINEAR_LARGEST],
                     Criterion::FibreStress => memory.state[LINEAR_STRESS],
                 };
-                Some(if sigma_lim == 0.0 { 0.0 } else { stress / sigma_lim })
+                Some(if *sigma_lim == 0.0 { 0.0 } else { stress / sigma_lim })
             }
             Law::Own(_) => None,
         }
@@ -302,12 +312,9 @@ impl Material {
         Some([i_el / eps_lim.ln_1p(), alpha * (-i_tc).max(0.0), beta * i_td])
     }
 
-    /// The stiffness against longitudinal shear, which the hyperelastic law alone may lack.
+    /// The stiffness against longitudinal shear, which the yarn laws alone may lack.
     pub fn longitudinal_shear(&self) -> Option<f64> {
-        match self.law {
-            Law::Hyperelastic { properties, .. } => Some(properties.k_ld),
-            Law::LinearElastic { .. } | Law::Own(_) => None,
-        }
+        self.law.yarn().map(|yarn| yarn.k_ld)
     }
 
     /// Whether there is a limit of the failure index at all.
@@ -317,19 +324,19 @@ impl Material {
 
     /// The nominal strain at failure, or the linear elastic law's stress; 0 without failure.
     pub fn strength(&self) -> f64 {
-        match self.law {
-            Law::Hyperelastic { properties, .. } => properties.eps_lim,
-            Law::LinearElastic { properties, .. } => properties.sigma_lim,
-            Law::Own(_) => 0.0,
+        match (&self.law, self.law.yarn()) {
+            (_, Some(yarn)) => yarn.eps_lim,
+            (Law::LinearElastic { properties, .. }, None) => properties.sigma_lim,
+            (Law::Hyperelastic { .. } | Law::Own(_), None) => 0.0,
         }
     }
 
     /// What the law takes as the limit of a point that has this strength; 0 where the property has it.
     pub fn limit(&self, strength: f64) -> f64 {
-        match self.law {
+        match self.law.yarn() {
             _ if strength == self.strength() => 0.0,
-            Law::Hyperelastic { .. } => strength.ln_1p(),
-            Law::LinearElastic { .. } | Law::Own(_) => strength,
+            Some(_) => strength.ln_1p(),
+            None => strength,
         }
     }
 }

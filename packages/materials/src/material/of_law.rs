@@ -21,23 +21,35 @@ const ROUNDING: f64 = 1e-9;
 /// Keys of the materials.
 pub const HYPERELASTIC: &str = "hyperelastic";
 pub const LINEAR_ELASTIC: &str = "linear-elastic";
+pub const FRICTIONAL: &str = "frictional";
+
+/// The tables of materials, each with what is found there.
+pub type Tables<T> = [(&'static str, T); 3];
 
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
 #[serde(rename_all = "kebab-case")]
 pub enum LawName {
     Hyperelastic,
     LinearElastic,
+    Frictional,
+    /// The hyperelastic law where the yarn is struck, the linear elastic one elsewhere.
     Hybrid,
 }
 
 impl LawName {
+    /// The table of a yarn that has one material.
+    pub fn table(self) -> Option<&'static str> {
+        match self {
+            LawName::Hyperelastic => Some(HYPERELASTIC),
+            LawName::LinearElastic => Some(LINEAR_ELASTIC),
+            LawName::Frictional => Some(FRICTIONAL),
+            LawName::Hybrid => None,
+        }
+    }
+
     /// Whether a yarn of this law has the material of that table.
     pub fn has(self, table: &str) -> bool {
-        match self {
-            LawName::Hyperelastic => table == HYPERELASTIC,
-            LawName::LinearElastic => table == LINEAR_ELASTIC,
-            LawName::Hybrid => true,
-        }
+        self.table().map_or(table != FRICTIONAL, |own| own == table)
     }
 }
 
@@ -52,7 +64,11 @@ pub enum FailureName {
 impl LawName {
     /// The yarn of a law's table that names none.
     fn default_yarn(table: &str) -> &'static str {
-        if table == HYPERELASTIC { "kevlar-km2-600" } else { "kevlar-km2-600-linear" }
+        match table {
+            FRICTIONAL => "kevlar-km2-600-frictional",
+            LINEAR_ELASTIC => "kevlar-km2-600-linear",
+            _ => "kevlar-km2-600",
+        }
     }
 }
 
@@ -65,12 +81,7 @@ pub fn own_yarn<'a>(
 }
 
 /// A material of this table that is of no case's law.
-pub fn unused_material(
-    hyperelastic: &Option<Spanned<MaterialFile>>,
-    linear_elastic: &Option<Spanned<MaterialFile>>,
-    laws: &[LawName],
-) -> Unused {
-    let tables = [(HYPERELASTIC, hyperelastic), (LINEAR_ELASTIC, linear_elastic)];
+pub fn unused_material(tables: Tables<&Option<Spanned<MaterialFile>>>, laws: &[LawName]) -> Unused {
     let (name, table) =
         tables.into_iter().find(|(name, table)| table.is_some() && laws.iter().all(|law| !law.has(name)))?;
     Some((table.as_ref()?.span(), format!("{name} is not used; allowed: the material of a case's law")))
@@ -78,7 +89,7 @@ pub fn unused_material(
 
 /// Which material a case asks for.
 pub struct Choice<'a> {
-    /// [`HYPERELASTIC`] or [`LINEAR_ELASTIC`].
+    /// [`HYPERELASTIC`], [`LINEAR_ELASTIC`] or [`FRICTIONAL`].
     pub law: &'static str,
     pub failure: FailureName,
     /// As [`own_yarn`] finds it: beside it none is taken by default.
@@ -101,10 +112,10 @@ fn choose_failure(
     // A property of the scene is wrong only beside the failure of a case: that is the line to change.
     let place = |name: &str| (choice.place)(name).or(file.given(name).map(Spanned::span)).unwrap_or(span.clone());
     let (table, mut values) = (material.table(), material.values());
-    let (limit, weights): (usize, &[usize]) = match material.law {
-        Law::Hyperelastic { .. } => (EPS_LIM, &[ALPHA, BETA]),
-        Law::LinearElastic { .. } => (SIGMA_LIM, &[]),
-        Law::Own(_) => return Ok(()), // of no case
+    let (limit, weights): (usize, &[usize]) = match (&material.law, material.law.yarn()) {
+        (_, Some(_)) => (EPS_LIM, &[ALPHA, BETA]),
+        (Law::LinearElastic { .. }, None) => (SIGMA_LIM, &[]),
+        (Law::Hyperelastic { .. } | Law::Own(_), None) => return Ok(()), // of no case
     };
     let (off, allowed): (&[usize], &str) = match failure {
         FailureName::None => (&[limit], "uniaxial or multiaxial"),

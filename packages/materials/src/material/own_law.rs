@@ -6,12 +6,13 @@ use std::sync::Arc;
 
 use nalgebra::Matrix3;
 use toron::Level;
-use toron::host::laws::LibraryLaw;
+use toron::host::laws::{LAWS, LibraryLaw};
 use toron::host::prepared::AsNumbers;
 use toron::host::{Material, is_name, is_number};
 use toron::law::description::Description;
 use toron::law::interface::{Law, Points};
 use toron::{Error, Measure};
+use toron_c::TORON_FRICTIONAL;
 use toron_solvers::c_header;
 
 /// A law that a program knows by its description alone: one of somebody's own, or a further one of the library's.
@@ -138,6 +139,11 @@ pub struct PointArrays {
 }
 
 impl Own {
+    /// Whether it is the library's yarn law with friction.
+    pub fn is_frictional(&self) -> bool {
+        self.law.library.is_some_and(|law| std::ptr::eq(law, &LAWS[TORON_FRICTIONAL as usize]))
+    }
+
     /// Material axes in the reference placement, the fibre first.
     pub fn axes(&self) -> [[f64; 3]; 3] {
         self.prepared.axes()

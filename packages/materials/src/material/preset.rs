@@ -100,7 +100,7 @@ impl From<&parameters::Preset> for Preset {
         Preset {
             name: preset.name.to_string(),
             source: preset.source.to_string(),
-            law: preset.law.into(),
+            law: preset.into(),
             units: UnitSystem::SI,
             values: preset.values.iter().copied().map(Some).collect(),
             density: Some(preset.density),
@@ -456,7 +456,11 @@ mod tests {
             ("units = \"si\"\ncolour = 3".to_string(), 2, "unknown field `colour`, expected one of `name`, `source`"),
             ("name = \"a\"".to_string(), 1, "missing field `units`"),
             ("units = \"mm\"".to_string(), 1, "unit system \"mm\"; allowed: length-mass-time"),
-            (format!("{si}law = \"elastic\""), 2, "law is \"elastic\"; allowed: hyperelastic or linear-elastic"),
+            (
+                format!("{si}law = \"elastic\""),
+                2,
+                "law is \"elastic\"; allowed: hyperelastic or linear-elastic or frictional",
+            ),
             (
                 format!("{si}law = \"linear-elastic\"\nproperties = {{ p = 2 }}"),
                 3,

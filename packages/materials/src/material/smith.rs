@@ -34,7 +34,7 @@ pub struct Smith {
 /// How the tension of a yarn depends on its stretch, by area of the reference section.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Tension {
-    /// P = k ln λ/λ: the hyperelastic law with a section that is free to change.
+    /// P = k ln λ/λ: the yarn laws with a section that is free to change.
     Logarithmic(f64),
     /// P = E ln λ: the linear elastic law, whose section keeps its area.
     Linear(f64),
@@ -45,10 +45,10 @@ pub enum Tension {
 impl Tension {
     /// The tension of a material; none of a law of one's own, which no scene has.
     pub fn of(material: &Material) -> Option<Tension> {
-        match material.law {
-            Law::Hyperelastic { properties, .. } => Some(Tension::Logarithmic(properties.k_el)),
-            Law::LinearElastic { properties, .. } => Some(Tension::Linear(properties.e_1)),
-            Law::Own(_) => None,
+        match (&material.law, material.law.yarn()) {
+            (_, Some(yarn)) => Some(Tension::Logarithmic(yarn.k_el)),
+            (Law::LinearElastic { properties, .. }, None) => Some(Tension::Linear(properties.e_1)),
+            (Law::Hyperelastic { .. } | Law::Own(_), None) => None,
         }
     }
 

@@ -13,7 +13,7 @@ fn material(preset: &str, frame: Rotation, changed: &[(usize, f64)]) -> Material
     for &(index, value) in changed {
         values[index] = value;
     }
-    let law = Law::new(preset.law.into(), &values, frame, Criterion::LargestPrincipal).expect("valid properties");
+    let law = Law::new(preset.into(), &values, frame, Criterion::LargestPrincipal).expect("valid properties");
     Material { law, density: None, label: preset.name.into(), own: String::new(), origin: Default::default() }
 }
 

@@ -160,7 +160,8 @@ impl Job {
         let fibre = file.fibre.as_ref().map(|fibre| known_fibre(fibre.get_ref()));
         let fibre = fibre.or_else(|| sheet.as_ref().map(|sheet| sheet.fibre(&units)));
         let base = file.yarn.preset.as_ref().map(|name| base(&source, name, folder)).transpose()?;
-        let mut preset = preset_to_be(&source, &file, units)?;
+        let law = base.as_ref().map_or(LawName::Hyperelastic, |base| base.law);
+        let mut preset = preset_to_be(&source, &file, law, units)?;
         if let Some(sheet) = &sheet {
             let of_sheet = sheet.density(&units);
             if let Some(given) =
@@ -233,16 +234,17 @@ fn known_fibre(file: &FibreFile) -> Fibre {
 /// The preset that fills in what nothing else gives.
 fn base(source: &Source<'_>, name: &Spanned<String>, folder: &Path) -> Result<Preset, Error> {
     let preset = Preset::find(Laws::Toron, name.get_ref(), folder, |message| source.error(name.span(), message))?;
-    if preset.law != LawName::Hyperelastic {
+    // The parameters are the first properties of a yarn law; what one has besides, the friction, is kept.
+    if !preset.law.table().starts_with(&HYPERELASTIC) {
         let message =
-            format!("preset \"{}\" belongs to the linear elastic law; allowed: a hyperelastic one", preset.name);
+            format!("preset \"{}\" belongs to the linear elastic law; allowed: one of a yarn law", preset.name);
         return Err(source.error(name.span(), &message));
     }
     Ok(preset)
 }
 
-/// The preset that comes out, with the values that the file gives.
-fn preset_to_be(source: &Source<'_>, file: &FitFile, units: UnitSystem) -> Result<Preset, Error> {
+/// The preset that comes out, of this law, with the values that the file gives.
+fn preset_to_be(source: &Source<'_>, file: &FitFile, law: LawName, units: UnitSystem) -> Result<Preset, Error> {
     let text = |value: &Option<Spanned<String>>| value.as_ref().map(|text| text.get_ref().clone());
     let name = text(&file.yarn.name).unwrap_or_else(|| "my-yarn".to_string());
     if !plain_name(&name) || name.len() > LONGEST_NAME || toron::preset(&name).is_some() {
@@ -251,11 +253,11 @@ fn preset_to_be(source: &Source<'_>, file: &FitFile, units: UnitSystem) -> Resul
         return Err(source.error(span, &format!("name is \"{name}\"; allowed: {allowed}")));
     }
     let origin = text(&file.yarn.source).or_else(|| file.title.clone());
-    let mut preset = Preset::new(&name, &origin.unwrap_or_else(|| name.clone()), LawName::Hyperelastic, units);
+    let mut preset = Preset::new(&name, &origin.unwrap_or_else(|| name.clone()), law, units);
     preset.density = value(&file.yarn.density);
     for (name, value) in &file.yarn.properties {
-        let index = property(source, name.get_ref(), name.span())?;
-        let (property, number) = (&HYPERELASTIC[index], *value.get_ref());
+        let index = property(source, law, name.get_ref(), name.span())?;
+        let (property, number) = (&law.table()[index], *value.get_ref());
         let above = if property.minimum_excluded { number > property.minimum } else { number >= property.minimum };
         if !(above && number <= property.maximum && number.is_finite()) {
             let message = format!("{} is {number}; allowed: {}", property.name, property.allowed);
@@ -266,9 +268,9 @@ fn preset_to_be(source: &Source<'_>, file: &FitFile, units: UnitSystem) -> Resul
     Ok(preset)
 }
 
-fn property(source: &Source<'_>, name: &str, span: Range<usize>) -> Result<usize, Error> {
-    HYPERELASTIC.iter().position(|property| property.name == name).ok_or_else(|| {
-        let known: Vec<&str> = HYPERELASTIC.iter().map(|property| property.name).collect();
+fn property(source: &Source<'_>, law: LawName, name: &str, span: Range<usize>) -> Result<usize, Error> {
+    law.table().iter().position(|property| property.name == name).ok_or_else(|| {
+        let known: Vec<&str> = law.table().iter().map(|property| property.name).collect();
         let hint = nearest::hint(name, known.iter().copied());
         source.error(span, &format!("property \"{name}\"{hint}; allowed: {}", known.join(" ")))
     })

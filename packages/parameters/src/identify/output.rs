@@ -8,7 +8,6 @@ use super::file::Job;
 use super::fit::{Fit, SetFit};
 use super::parameter::ALL;
 use super::report::{base_name, interval};
-use toron::law::parameters::HYPERELASTIC;
 use toron_materials::material::preset::Preset;
 use toron_materials::units::unit;
 use toron_shared::error::Error;
@@ -20,11 +19,12 @@ pub fn preset(job: &Job, fit: &Fit) -> String {
     for parameter in ALL.into_iter().filter(|&parameter| fit.is_of_base(&job.problem, parameter)) {
         preset.guesses.insert(parameter.name(), &origin(job, parameter.name()));
     }
-    for (index, property) in HYPERELASTIC.iter().enumerate() {
+    for (index, property) in job.preset.law.table().iter().enumerate() {
         let of_base = job.base.as_ref().and_then(|base| base.value(index, &job.units));
         if preset.values[index].is_some() {
             continue;
         }
+        // Behind the parameters are the fibre direction and the friction.
         let parameter = ALL.get(index).filter(|_| fit.values.get(index).is_some_and(Option::is_some));
         if let Some(parameter) = parameter {
             preset.values[index] = fit.values[index];

@@ -23,7 +23,6 @@ use toron_explicit_host::mutual_contact::Parameters;
 use toron_explicit_host::struck::blow::DENSITIES;
 use toron_materials::material::file::MaterialFile;
 use toron_materials::material::model::Material;
-use toron_materials::material::of_law::{HYPERELASTIC, LINEAR_ELASTIC, LawName};
 use toron_materials::units;
 use toron_shared::checked::{Checked, Positive, value};
 use toron_shared::error::Error;
@@ -161,13 +160,10 @@ impl Reader<'_> {
     /// What the yarns of a family are made of, if a table says it: a material of the case's law.
     fn thread_material(&self, file: Option<Spanned<MaterialFile>>) -> Result<Option<Box<Material>>, Error> {
         let Some(file) = file else { return Ok(None) };
-        let law = match self.keys.law() {
-            LawName::Hyperelastic => HYPERELASTIC,
-            LawName::LinearElastic => LINEAR_ELASTIC,
-            LawName::Hybrid => {
-                let message = "material of a family of yarns, or of a ply, with law = \"hybrid\"; allowed: hyperelastic, linear-elastic";
-                return Err(self.source.error(file.span(), message));
-            }
+        let Some(law) = self.keys.law().table() else {
+            let message = "material of a family of yarns, or of a ply, with law = \"hybrid\"; allowed: hyperelastic, linear-elastic, \
+                           frictional";
+            return Err(self.source.error(file.span(), message));
         };
         self.material(law, &Some(file)).map(|material| Some(Box::new(material)))
     }

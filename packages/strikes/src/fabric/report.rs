@@ -5,6 +5,7 @@ use std::path::Path;
 use super::run::Outcome;
 use super::scene::{Case, Scene};
 use super::summary::{Figures, ending, residual_speed};
+use crate::losses::lost_between_fibres;
 use crate::strength::scatter;
 use toron_explicit_host::judgement::{verdict, warnings};
 use toron_materials::units::{LENGTH, SPEED, TIME, unit};
@@ -26,7 +27,8 @@ pub fn report(scene: &Scene, results: &Results, output: &Path) -> String {
     let weights: Vec<_> =
         results.iter().map(|(case, _, figures)| (case.name.as_str(), figures.weights.clone())).collect();
     let yarns = of_cases("Yarns", &yarns, WIDTH) + &of_cases("Weights", &weights, WIDTH);
-    let strength = strength(scene, results);
+    let lost = results.iter().map(|(case, _, figures)| (case.name.as_str(), figures.last.energies.fibres));
+    let strength = lost_between_fibres(&scene.units, lost, WIDTH) + &strength(scene, results);
     format!("{}\n\n{table}\n{yarns}{strength}{warnings}\n{}", scene.title, list_files(results, output))
 }
 

@@ -7,6 +7,7 @@ use super::outcome::Outcome;
 use super::scene::{Case, LEFT_OUT, Scene, Striker};
 use super::summary::outcome;
 use super::weights;
+use crate::losses::lost_between_fibres;
 use crate::strength::scatter;
 use toron_explicit_host::judgement::{verdict, warnings};
 use toron_materials::material::fibre_wave::FibreWave;
@@ -29,11 +30,13 @@ pub fn report(scene: &Scene, results: &Results, output: &Path) -> String {
         results.iter().map(|(case, _)| (case.name.as_str(), weights::text(&scene.units, case))).collect();
     let findings: Vec<_> = results.iter().map(|(case, result)| (case, judge(&scene.units, case, result))).collect();
     let warnings = warnings(findings.iter().map(|(case, findings)| (case.name.as_str(), &findings[..])));
+    let lost = results.iter().map(|(case, result)| (case.name.as_str(), result.last().energies.fibres));
     let parts = [
         table(struck(scene, results), WIDTH),
         table(driven(scene, results), WIDTH),
         of_cases("Yarns", &yarns, WIDTH)
             + &of_cases("Weights", &weights, WIDTH)
+            + &lost_between_fibres(&scene.units, lost, WIDTH)
             + &strength(scene, results)
             + &wave_line(&waves),
         warnings,

@@ -17,7 +17,8 @@ use toron_explicit_host::struck::plan::Plan;
 use toron_materials::material::file::MaterialFile;
 use toron_materials::material::model::Material;
 use toron_materials::material::of_law::{
-    Choice, FailureName, HYPERELASTIC, LINEAR_ELASTIC, LawName, material_of_law, own_yarn, unused_material,
+    Choice, FRICTIONAL, FailureName, HYPERELASTIC, LINEAR_ELASTIC, LawName, Tables, material_of_law, own_yarn,
+    unused_material,
 };
 use toron_materials::material::smith::strike_speed;
 use toron_shared::checked::{Checked, NotNegative, Positive, Whole, value};
@@ -56,6 +57,7 @@ pub struct Keys {
     pub strength: Option<Spanned<StrengthFile>>,
     pub hyperelastic: Option<Spanned<MaterialFile>>,
     pub linear_elastic: Option<Spanned<MaterialFile>>,
+    pub frictional: Option<Spanned<MaterialFile>>,
     pub speed: Option<Spanned<Positive>>,
     pub mass: Option<Spanned<Positive>>,
     pub radius: Option<Spanned<Positive>>,
@@ -115,8 +117,8 @@ impl Keys {
     }
 
     /// The materials' tables, by their law.
-    pub fn materials(&self) -> [(&'static str, &Option<Spanned<MaterialFile>>); 2] {
-        [(HYPERELASTIC, &self.hyperelastic), (LINEAR_ELASTIC, &self.linear_elastic)]
+    pub fn materials(&self) -> Tables<&Option<Spanned<MaterialFile>>> {
+        [(HYPERELASTIC, &self.hyperelastic), (LINEAR_ELASTIC, &self.linear_elastic), (FRICTIONAL, &self.frictional)]
     }
 
     /// The place of a property that this table itself gives to the material of a law.
@@ -133,7 +135,7 @@ impl Keys {
     /// A material of this table that none of these cases has a law for, or a strength where nothing fails.
     pub fn unused(&self, cases: &[&Keys]) -> Unused {
         let laws: Vec<LawName> = cases.iter().map(|case| case.law()).collect();
-        unused_material(&self.hyperelastic, &self.linear_elastic, &laws).or_else(|| {
+        unused_material(self.materials(), &laws).or_else(|| {
             let strength = self.strength.as_ref().filter(|_| !cases.iter().any(|case| case.fails()))?;
             let message = "strength of what does not fail; allowed: with failure = \"uniaxial\" or \"multiaxial\"";
             Some((strength.span(), message.to_string()))
@@ -215,12 +217,13 @@ impl Reader<'_> {
 
     /// The materials of the case's law; `distance` is how far the first of two reaches.
     pub fn zones(&self, distance: impl FnOnce() -> Result<f64, Error>) -> Result<Zones, Error> {
-        let [hyperelastic, linear] =
-            self.keys.materials().map(|(law, table)| move || self.material(law, table).map(Box::new));
-        Ok(match self.keys.law() {
-            LawName::Hyperelastic => Zones::One(hyperelastic()?),
-            LawName::LinearElastic => Zones::One(linear()?),
-            LawName::Hybrid => Zones::Two(Box::new([*hyperelastic()?, *linear()?]), distance()?),
+        let law = self.keys.law();
+        let tables = self.keys.materials().into_iter().filter(|(table, _)| law.has(table));
+        let materials: Vec<Material> =
+            tables.map(|(table, file)| self.material(table, file)).collect::<Result<_, Error>>()?;
+        Ok(match <[Material; 2]>::try_from(materials) {
+            Ok(both) => Zones::Two(Box::new(both), distance()?),
+            Err(one) => Zones::One(Box::new(one.into_iter().next().expect("every law has a table"))),
         })
     }
 

@@ -36,7 +36,7 @@ impl Reader<'_> {
     ) -> Result<Strength, Error> {
         let (span, file) = (table.span(), table.get_ref());
         if self.keys.law() == LawName::Hybrid {
-            let message = "strength with law = \"hybrid\"; allowed: hyperelastic, linear-elastic";
+            let message = "strength with law = \"hybrid\"; allowed: hyperelastic, linear-elastic, frictional";
             return Err(self.source.error(span, message));
         }
         let seed = file.seed.unwrap_or(SEED);

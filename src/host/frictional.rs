@@ -1,0 +1,75 @@
+//! The law with friction at one point and at blocks of points, in the structures of the hyperelastic law.
+
+use core::mem::MaybeUninit;
+
+use super::arguments::{check_density, level, measure_of};
+use super::blocks::Block;
+use super::entry_points::of_points;
+use super::points::Point;
+use super::structures::read;
+use crate::law::block::{Points, Precision, at_fault, components, components_mut};
+use crate::law::error::Error;
+use crate::law::frictional::Frictional;
+use crate::law::interface::Law;
+use crate::law::status;
+
+/// Evaluates the law at a point, as a block of one. Returns its status.
+///
+/// # Errors
+/// An argument is wrong, and nothing is written.
+///
+/// # Safety
+/// What [a caller promises](super#what-a-caller-promises).
+pub unsafe fn point<T: Precision>(law: &Frictional<T>, point: *const Point<T>) -> Result<i32, Error> {
+    let mut buffer = MaybeUninit::uninit();
+    // SAFETY: `read` refuses null, and F is checked; how long the arrays of the one point are the C caller promises.
+    unsafe {
+        let point = read(point, &mut buffer)?;
+        if point.deformation_gradient.is_null() {
+            return Err(Error::Null { name: "deformation_gradient" });
+        }
+        let level = level(point.level)?;
+        check_density::<T>(point.density, !point.wave_speed.is_null())?;
+        law.step(&Points {
+            f_new: components(point.deformation_gradient, 1),
+            fibre: components(point.fibre, 1),
+            limit: point.limit,
+            state_old: Frictional::<T>::parts(point.state_old, 1),
+            state_new: Frictional::<T>::parts_mut(point.state_new, 1),
+            density: T::splat(point.density),
+            stress: components_mut(point.stress, 1),
+            modes: point.modes,
+            wave_speed: point.wave_speed,
+            tangent: point.tangent,
+            measure: measure_of(point.tangent, point.measure)?,
+            level,
+            ..Points::without_arrays(1, 1)
+        })
+    }
+}
+
+/// Evaluates the law at the points of a block. Returns 0.
+///
+/// # Errors
+/// An argument is wrong, and nothing is written; or the worst code of the points, with the first that has it.
+///
+/// # Safety
+/// What [a caller promises](super#what-a-caller-promises).
+pub unsafe fn block<T: Precision>(law: &Frictional<T>, block: *const Block<T>) -> Result<i32, Error> {
+    let mut buffer = MaybeUninit::uninit();
+    // SAFETY: `read` refuses null, and the layouts are checked before an array is read; how long the arrays are the C caller promises.
+    unsafe {
+        let block = read(block, &mut buffer)?;
+        block.check()?;
+        block.check_layouts()?;
+        let points = block.points();
+        if points.n > 0 && points.f_new[0].is_null() {
+            return Err(Error::Null { name: "deformation_gradient" });
+        }
+        let worst = law.step(&points)?;
+        if worst == status::OK || !block.status.is_null() {
+            return of_points(worst, block.status, block.n);
+        }
+        Err(at_fault(law, &points, worst).map_or(Error::Plain(worst), |index| Error::Point { code: worst, index }))
+    }
+}
