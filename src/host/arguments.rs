@@ -105,6 +105,10 @@ pub fn leading_dimension(given: size_t, n: size_t) -> size_t {
     if given == 0 { n } else { given }
 }
 
+/// The instructions that a number of `TORON_LEVEL_...` stands for; `None` for the best.
+///
+/// # Errors
+/// It is none of them.
 #[inline(always)]
 pub fn level(level: i32) -> Result<Option<Level>, Error> {
     match level {
@@ -120,6 +124,10 @@ pub fn level(level: i32) -> Result<Option<Level>, Error> {
     }
 }
 
+/// The measure that a number of `TORON_TANGENT_...` stands for.
+///
+/// # Errors
+/// It is none of them.
 pub fn measure(measure: i32) -> Result<Measure, Error> {
     match measure {
         TORON_TANGENT_MATERIAL => Ok(Measure::Material),
@@ -139,6 +147,10 @@ pub fn measure_of<T>(tangent: *mut T, measure: i32) -> Result<Measure, Error> {
     if tangent.is_null() { Ok(Measure::Jaumann) } else { self::measure(measure) }
 }
 
+/// The frame that a number of `TORON_ROTATION_...` stands for.
+///
+/// # Errors
+/// It is none of them.
 pub fn rotation(rotation: i32) -> Result<Rotation, Error> {
     match rotation {
         TORON_ROTATION_FIBRE => Ok(Rotation::Fibre),
@@ -152,6 +164,10 @@ pub fn rotation(rotation: i32) -> Result<Rotation, Error> {
     }
 }
 
+/// The criterion that a number of `TORON_CRITERION_...` stands for.
+///
+/// # Errors
+/// It is none of them.
 pub fn criterion(criterion: i32) -> Result<Criterion, Error> {
     match criterion {
         TORON_CRITERION_PRINCIPAL => Ok(Criterion::LargestPrincipal),

@@ -225,7 +225,9 @@ impl<T: Scalar> Block<T> {
 /// The hyperelastic law as a caller passes it: its properties, which are checked in every call, or prepared.
 #[derive(Clone, Copy, Debug)]
 pub enum Given<'a, T> {
+    /// In the order of the table.
     Properties(&'a [T]),
+    /// By its function of C.
     Prepared(&'a PreparedHyperelastic<T>),
 }
 

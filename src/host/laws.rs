@@ -28,6 +28,7 @@ macro_rules! library_laws {
 /// A law of the library by its names. Its place in [`LAWS`] is its number in C.
 #[derive(Debug)]
 pub struct LibraryLaw {
+    /// Its properties and state.
     pub description: &'static Description,
     /// In files.
     pub name: &'static str,
@@ -45,6 +46,7 @@ macro_rules! rows {
     ($($law:ident {
         $name:literal, $title:literal, $symbol:literal, $behaviour:literal, user $user:literal, umat $umat:literal
     })+) => {
+        /// The laws of the library, by their numbers in C.
         pub static LAWS: [LibraryLaw; [$($user),+].len()] = [$(LibraryLaw {
             description: const { &<crate::$law<f64> as Law<f64>>::DESCRIPTION },
             name: $name,

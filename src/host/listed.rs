@@ -19,6 +19,7 @@ use crate::law::status;
 
 /// What a law of a list, in one precision, is called in C: implemented by a type without content.
 pub trait Named<T: Precision>: Copy {
+    /// The law itself.
     type Law: AsNumbers<T>;
     /// The structure of the prepared law, the function that prepares it, and the structure of points.
     const PREPARED: &'static str;

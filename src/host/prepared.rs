@@ -15,7 +15,9 @@ use crate::law::user::{User, UserMaterial};
 
 /// A prepared law as plain numbers, without padding: they may be copied byte by byte.
 pub trait AsNumbers<T: Precision>: Law<T> {
+    /// What the structure of C holds of the law.
     type Numbers: Copy;
+    /// The numbers of this law.
     fn numbers(&self) -> Self::Numbers;
     /// The law that these numbers came from.
     fn of(numbers: &Self::Numbers) -> Self;
@@ -78,6 +80,7 @@ impl<M: UserMaterial, T: Precision> AsNumbers<T> for User<M, T> {
 /// # Safety
 /// The type is `repr(C)`: tag, size, the law's numbers, and a last word behind them.
 pub unsafe trait PreparedLaw<T: Precision>: Copy {
+    /// The law that has been prepared.
     type Law: AsNumbers<T>;
     /// Eight letters: the law, the precision, the version of the numbers' order and meaning.
     const TAG: u64;

@@ -28,6 +28,7 @@ const LAST_ITERATIONS: i32 = 200;
 /// A plane wave of speed v in current lengths: ρ0 v² as a stress, direction and polarisation as unit vectors in space.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Wave {
+    /// ρ0 v².
     pub modulus: f64,
     pub direction: [f64; 3],
     pub polarisation: [f64; 3],

@@ -16,6 +16,7 @@ use super::status::LAW;
 pub struct Description {
     /// What the law is called in listings.
     pub title: &'static str,
+    /// The tables of properties and of state variables, in the order in which every host has them.
     pub properties: &'static [Property],
     pub state: &'static [StateVariable],
     /// The directions among the properties: first the fibre, which each point may have its own of, then others. Hosts
@@ -50,6 +51,7 @@ pub struct Direction {
 }
 
 impl Direction {
+    /// A direction that must not be 0.
     pub const fn new(name: &'static str, first: usize) -> Self {
         Direction { name, first, may_be_zero: false }
     }

@@ -9,7 +9,9 @@ use super::status::{BAD_ARGUMENT, BAD_SIZE, NOT_PREPARED, NULL_ARGUMENT, UNKNOWN
 /// digits.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Value {
+    /// In single precision.
     Single(f32),
+    /// In double precision.
     Double(f64),
 }
 

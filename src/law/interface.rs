@@ -16,6 +16,7 @@ use super::state::{HYPERELASTIC_PARTS, HYPERELASTIC_STATE, LINEAR_ELASTIC_STATE}
 /// `State` is an array of as many numbers as the description has state variables, and [`step`](Self::step) accesses no
 /// memory of the points but what [`Points`] says.
 pub unsafe trait Law<T: Precision>: Copy {
+    /// The law's tables, and what hosts have to know of them.
     const DESCRIPTION: Description;
     /// Whether a point may have a failure limit of its own, [`Points::limit`].
     const HAS_LIMIT: bool = false;

@@ -4,6 +4,7 @@
 /// The physical dimension of a quantity, as exponents of mass, length and time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Dimension {
+    /// The exponents.
     pub mass: i32,
     pub length: i32,
     pub time: i32,
@@ -11,10 +12,12 @@ pub struct Dimension {
     pub name: &'static str,
 }
 
+/// A number, and a stress.
 pub const NUMBER: Dimension = Dimension { mass: 0, length: 0, time: 0, name: "-" };
 pub const STRESS: Dimension = Dimension { mass: 1, length: -1, time: -2, name: "stress" };
 /// Energy per reference volume has the dimension of a stress; the name distinguishes the two.
 pub const ENERGY_DENSITY: Dimension = Dimension { mass: 1, length: -1, time: -2, name: "energy/volume" };
+/// Mass per volume.
 pub const DENSITY: Dimension = Dimension { mass: 1, length: -3, time: 0, name: "density" };
 
 /// One property of a law.
@@ -24,6 +27,7 @@ pub struct Property {
     pub name: &'static str,
     /// The symbol of the thesis.
     pub symbol: &'static str,
+    /// Its unit follows from it and the system of units.
     pub dimension: Dimension,
     /// The default value; `None` if the user must give one.
     pub default: Option<f64>,
@@ -34,6 +38,7 @@ pub struct Property {
     pub maximum: f64,
     /// The allowed values in words.
     pub allowed: &'static str,
+    /// What it is, in words.
     pub meaning: &'static str,
 }
 
@@ -200,6 +205,7 @@ pub const fn place(table: &[Property], name: &str) -> usize {
 /// A named set of properties in SI units, and the density of the same yarn.
 #[derive(Debug)]
 pub struct Preset {
+    /// The name in files.
     pub name: &'static str,
     /// The properties of its law.
     pub properties: &'static [Property],
@@ -207,6 +213,7 @@ pub struct Preset {
     pub values: &'static [f64],
     /// Reference density in kg/m³.
     pub density: f64,
+    /// Where the values come from.
     pub source: &'static str,
 }
 

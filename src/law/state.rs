@@ -5,6 +5,7 @@ use super::parameters::{Dimension, ENERGY_DENSITY, NUMBER, STRESS};
 /// One state variable.
 #[derive(Debug)]
 pub struct StateVariable {
+    /// Name, symbol and meaning in tables, and the dimension.
     pub name: &'static str,
     pub symbol: &'static str,
     pub dimension: Dimension,
@@ -34,6 +35,7 @@ pub const ALIVE: usize = 10;
 /// The number of variables in the parts of that state, which may be arrays of their own, and the places of these parts:
 /// energies, invariants, and failure with index, latch and flag.
 pub const HYPERELASTIC_PARTS: [usize; 3] = [4, 4, 3];
+/// The places of the parts.
 pub mod part {
     pub const ENERGIES: usize = 0;
     pub const INVARIANTS: usize = 1;

@@ -23,6 +23,7 @@ use super::linear_elastic::{self, Rotation};
 
 /// Numbers that bounds are computed in: one point's, or those of several points side by side.
 pub trait Arithmetic: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> {
+    /// The same number for each point.
     fn constant(value: f64) -> Self;
 
     /// The larger ones of both.
@@ -46,6 +47,7 @@ impl Arithmetic for f64 {
 pub enum WaveBounds {
     /// One bound for all directions: the law's own.
     Isotropic,
+    /// Of a yarn law, by the stiffnesses of its modes.
     Hyperelastic {
         k_el: f64,
         k_tc: f64,
@@ -55,10 +57,8 @@ pub enum WaveBounds {
         /// µ and c, of a law whose distortion is limited by them.
         friction: Option<[f64; 2]>,
     },
-    LinearElastic {
-        along: f64,
-        across: f64,
-    },
+    /// Of moduli ρ0 c² along and across the fibre.
+    LinearElastic { along: f64, across: f64 },
 }
 
 /// A deformation and its stress, as far as the bounds need them.

@@ -158,8 +158,7 @@ mod tests {
 
     fn medium() -> Medium<f64> {
         let preset = parameters::preset("kevlar-km2-600").expect("it exists");
-        let law =
-            Law::new(preset.into(), preset.values, Rotation::Fibre, Criterion::LargestPrincipal).expect("valid");
+        let law = Law::new(preset.into(), preset.values, Rotation::Fibre, Criterion::LargestPrincipal).expect("valid");
         let density = preset.density;
         let material = Material {
             law,

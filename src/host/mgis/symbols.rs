@@ -17,6 +17,7 @@ impl Text {
     /// The end of a list that has no entries.
     pub const NONE: Text = Text(core::ptr::null());
 
+    /// A constant text.
     pub const fn new(text: &'static CStr) -> Self {
         Text(text.as_ptr())
     }

@@ -76,6 +76,7 @@ pub struct Layout {
     pub has_own_option: bool,
 }
 
+/// The variables of the hyperelastic law, `/MAT/USER01`, and of the linear elastic law, `/MAT/USER02`.
 pub static HYPERELASTIC: Layout = Layout::of::<f64, Hyperelastic<f64>>(1);
 
 pub static LINEAR_ELASTIC: Layout = Layout::of::<f64, LinearElastic<f64>>(2);
@@ -102,6 +103,7 @@ impl Layout {
         self.law.state.len()
     }
 
+    /// The place among the user variables of the flag of a deleted element, and of F at the start of the step.
     pub fn deleted(&self) -> usize {
         self.fibre() + self.law.fibre_components().len()
     }

@@ -84,6 +84,7 @@ pub struct Laws<T: Precision> {
 }
 
 impl<T: Precision> Laws<T> {
+    /// A list of laws; `allowed` says in messages which numbers they have.
     pub const fn new(materials: &'static [Material<T>], allowed: &'static str) -> Self {
         let (mut most_parameters, mut i) = (0, 0);
         while i < materials.len() {
@@ -106,6 +107,7 @@ impl<T: Precision> Laws<T> {
 
 /// The solver's real numbers, `my_real`, with the list of toron's own laws.
 pub trait MyReal: Precision {
+    /// The laws of the library in this precision.
     const TORON: Laws<Self>;
 }
 

@@ -87,10 +87,12 @@ pub struct Strides {
     pub deformation_gradient: usize,
     /// Of fibre and second axis.
     pub fibre: usize,
+    /// Of the failure limits.
     pub limit: usize,
     pub axes: usize,
     /// Of all parts of the state, old and new.
     pub state: usize,
+    /// Of each output.
     pub stress: usize,
     pub modes: usize,
     pub tangent: usize,

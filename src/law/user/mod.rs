@@ -49,6 +49,7 @@ use super::status;
 /// Abaqus/Explicit, which passes the right stretches in place of F. So directions and tensors in the state are those of the reference
 /// placement, and a law that reads F at the start must not depend on a rotation of that F alone.
 pub trait UserMaterial: Copy + Default + Send + Sync + 'static {
+    /// The law's tables, and what hosts have to know of them.
     const DESCRIPTION: Description;
     /// `[R; N]`, N the number of properties.
     type Properties<R: Real>: Array<R>;
@@ -87,7 +88,9 @@ pub trait UserMaterial: Copy + Default + Send + Sync + 'static {
 
 /// An array of numbers `[R; N]`, as a type without its length. Sealed: the hosts copy a state as the numbers that it is made of.
 pub trait Array<R>: Copy + AsRef<[R]> + AsMut<[R]> + sealed::Sealed {
+    /// N.
     const LENGTH: usize;
+    /// The same number N times.
     fn filled(value: R) -> Self;
 }
 
