@@ -92,7 +92,8 @@ impl Balance {
     }
 }
 
-/// Computing time by part.
+/// Computing time. That of the parts is wall time, which is longer where the machine has other work; the law's is summed over
+/// threads.
 #[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 pub struct Cost {
     pub steps: u64,
@@ -100,9 +101,12 @@ pub struct Cost {
     pub elements: Duration,
     pub contact: Duration,
     pub nodes: Duration,
+    /// Processor time of all threads of the process while the run went on.
+    pub processor: Duration,
 }
 
 impl Cost {
+    /// The wall time of all steps.
     pub fn total(&self) -> Duration {
         self.elements + self.contact + self.nodes
     }

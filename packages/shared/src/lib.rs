@@ -6,7 +6,7 @@
 //! - files in TOML, with the places of what stands in them: [`toml_file`], [`toml_error`], tables over others in
 //!   [`layers`], a struct's [`field_names`], [`checked`] values; keyword files of solvers: [`keyword_file`];
 //! - where a program writes: [`run_directory`], [`kept_file`], [`file_names`], [`folder`];
-//! - which program it is: the [`mod@build`]; what runs beside it: [`interrupt`], [`bound_child`], the [`shell`]'s
+//! - which program it is: the [`mod@build`]; how long it has computed: [`processor_time`]; what runs beside it: [`interrupt`], [`bound_child`], the [`shell`]'s
 //!   words.
 
 pub mod bound_child;
@@ -24,6 +24,7 @@ pub mod keyword_file;
 pub mod layers;
 pub mod nearest;
 pub mod numbers;
+pub mod processor_time;
 pub mod progress;
 pub mod run_directory;
 pub mod shell;

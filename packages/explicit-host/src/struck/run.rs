@@ -19,6 +19,7 @@ use crate::solver::Solver;
 use crate::vtu;
 use toron_shared::error::Error;
 use toron_shared::numbers::number;
+use toron_shared::processor_time::processor_time;
 
 /// Times closer than this part of a case's time are the same.
 pub const ROUNDING: f64 = 1e-9;
@@ -139,9 +140,9 @@ impl<E: Copy + Default, C> Outcome<E, C> {
         self.cost.steps as f64 * self.elements as f64
     }
 
-    /// Computing time of a step of an element, in nanoseconds.
+    /// Processor time of a step of an element, in nanoseconds.
     pub fn ns_per_zone_cycle(&self) -> f64 {
-        self.cost.total().as_nanos() as f64 / self.zone_cycles().max(1.0)
+        self.cost.processor.as_nanos() as f64 / self.zone_cycles().max(1.0)
     }
 }
 
@@ -218,6 +219,8 @@ struct Run<'a, S: Struck, T> {
     plan: Plan,
     solver: Solver<T>,
     record: Record<S::Own, S::Course>,
+    /// The process's processor time up to which the run's own is counted.
+    counted: Duration,
 }
 
 /// What a run has recorded, and what it is going to.
@@ -250,12 +253,20 @@ impl<'a, S: Struck, T: Number> Run<'a, S, T> {
         pictures.sort_by(f64::total_cmp);
         let next_checkpoint = plan.between_checkpoints();
         let record = Record { start, pictures, next_checkpoint, ..Record::default() };
-        Run { struck, plan, solver, record }
+        Run { struck, plan, solver, record, counted: processor_time() }
+    }
+
+    /// Counts the processor time that has passed.
+    fn count(&mut self) {
+        let now = processor_time();
+        self.solver.state.cost.processor += now.saturating_sub(self.counted);
+        self.counted = now;
     }
 
     fn checkpoint(&mut self) -> Result<Vec<u8>, Error> {
+        self.count();
         let time = self.solver.state.time;
-        let Run { struck, plan, record, solver } = self;
+        let Run { struck, plan, record, solver, .. } = self;
         let contents = |archive: &mut Archive<'_>| archive.keep(record).and_then(|()| solver.archive(archive));
         checkpoint::of_state(*struck, plan.clone(), time, contents)
     }
@@ -306,6 +317,7 @@ impl<'a, S: Struck, T: Number> Run<'a, S, T> {
         let begun = Instant::now();
         // Inside rayon's threads: entering them in every step would cost as much as a small panel's contact.
         let end = rayon::scope(|_| self.steps(observer));
+        self.count();
         let Run { struck, solver, mut record, .. } = self;
         if S::DRAWN_AT_END {
             record.snapshots.push(Snapshot::of(&solver, struck.radius()));

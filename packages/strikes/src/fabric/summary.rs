@@ -159,7 +159,8 @@ pub fn line(units: &UnitSystem, case: &Case, outcome: &Outcome, figures: &Figure
     row.decimals("ns_per_zone_cycle", outcome.ns_per_zone_cycle(), 1);
     row.decimals("contact_time_share", seconds(outcome.cost.contact) / total, 2);
     row.decimals("law_time_share", seconds(outcome.cost.law) / total, 2);
-    row.decimals("seconds", seconds(outcome.wall), 2);
+    row.decimals("seconds", seconds(outcome.cost.processor), 2);
+    row.decimals("wall_seconds", seconds(outcome.cost.total()), 2);
     row.cells
 }
 
