@@ -136,12 +136,12 @@ fn the_library_about_itself() {
         quiet!(toron_status_message, code, t, ROOM);
         quiet!(toron_status_message, code, null_mut(), 0);
     }
-    for law in -1..3 {
+    for law in -1..4 {
         let properties = quiet!(toron_property_count, law, t, ROOM);
         let state = quiet!(toron_state_count, law, null_mut(), 0);
-        assert_eq!(properties < 0, !(0..2).contains(&law));
+        assert_eq!(properties < 0, !(0..3).contains(&law));
         assert_eq!(state < 0, properties < 0);
-        for index in -1..12 {
+        for index in -1..16 {
             // SAFETY: numbers, which may be 0.
             let mut row = unsafe { std::mem::zeroed::<TableRow>() };
             quiet!(toron_property, law, index, &mut row, t, ROOM);

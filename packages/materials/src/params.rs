@@ -105,7 +105,11 @@ fn property_table(properties: &[Property], units: &UnitSystem) -> String {
         let bound = match (property.minimum.is_finite(), property.minimum_excluded) {
             (false, _) => "any".to_string(),
             (true, true) => format!("> {}, to {:?}", property.minimum, property.maximum),
-            (true, false) => format!("{} to {:?}", property.minimum, property.maximum),
+            // In words where the bound itself is excluded: `0 to below 1`.
+            (true, false) => match property.allowed.strip_prefix("a number from ") {
+                Some(range) => range.to_string(),
+                None => format!("{} to {:?}", property.minimum, property.maximum),
+            },
         };
         let default = property.default.map_or("-".to_string(), |value| value.to_string());
         let unit = unit(units, property.dimension);

@@ -7,15 +7,15 @@
 //! | order of the stress | 11 22 33 **12 13 23** | 11 22 33 **12 23 31** |
 //! | arrays | one point | (nblock, components), component-major |
 //! | precision | double | that of the job |
-//! | energy | SSE = W/J per current volume | enerInternNew = W/ρ0 per mass |
+//! | energy | SSE = W/J per current volume; SPD what is lost | enerInternNew = W/ρ0 per mass; enerInelasNew what is lost |
 //! | failure | stress 0, STATEV "alive" 0 | state variable "alive" 0: `*DEPVAR, DELETE=11`, for the linear law `DELETE=10` |
 //! | F inverted or not finite | state kept, PNEWDT ≤ ¼ | point failed and deleted |
 //! | tangent | DDSDDE(ntens, ntens): the Jaumann rate of τ, over J | none |
 //!
 //! Solids: three-dimensional ones (NDI = 3, NSHR = 3), plane-strain and axisymmetric ones (3, 1). Plane stress is (2, 1) in Standard
 //! and refused; in Explicit it is (3, 1) too. The symbols `umat_` and `vumat_` that Abaqus looks for are in `fortran-shim/`, and in the
-//! libraries of `abaqus/`. A material with 10 properties and 10 state variables has the linear elastic law there, every other one the
-//! hyperelastic law; (3, 1) in Explicit must be announced by the material's name, which ends in `_PSTRAIN` or `_AXIS`. In a library of
+//! libraries of `abaqus/`. A material with 10 properties and 10 state variables has the linear elastic law there, one with 13 or 14
+//! properties the law with friction, every other one the hyperelastic law; (3, 1) in Explicit must be announced by the material's name, which ends in `_PSTRAIN` or `_AXIS`. In a library of
 //! laws of one's own the material's name begins with that of its law.
 
 mod umat;

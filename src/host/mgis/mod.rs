@@ -2,7 +2,7 @@
 //!
 //! | | |
 //! |---|---|
-//! | library | `libtoron_mgis.so` with the behaviours `ToronHyperelastic` and `ToronLinearElastic`; any other law has its own name |
+//! | library | `libtoron_mgis.so` with the behaviours `ToronHyperelastic`, `ToronLinearElastic` and `ToronFrictional`; any other law has its own name |
 //! | hypotheses | `Tridimensional`; `PlaneStrain` and `Axisymmetrical`, whose fibre lies in the plane or normal to it |
 //! | gradients | F at both ends of the step: 11 22 33 12 21 13 31 23 32; in the plane 11 22 33 12 21 |
 //! | stress | K\[1\]: 0 Cauchy σ, 1 second Piola–Kirchhoff S: 11 22 33 √2·12 √2·13 √2·23; 2 first Piola–Kirchhoff P, ordered as F |
@@ -10,7 +10,7 @@
 //! | request | K\[0\]: 0 none, 1 to 4 the consistent tangent, −1 to −3 that at the start of the step alone; 100 more: the speed of sound |
 //! | properties | all of the law's table, by name; those of the end of the step |
 //! | internal state variables | all of the law's table, scalars |
-//! | stored energy | per reference volume, the sum of the law's energies; for the linear elastic law the work |
+//! | stored energy | per reference volume, the sum of the law's energies; for the linear elastic law the work; dissipated energy: what a law has lost |
 //! | failure | stress and tangent 0, `failed` 1, `alive` 0, the energies kept |
 //! | F inverted, not finite, … | −1 and a message, nothing written, rdt ≤ ¼ |
 //!
