@@ -66,7 +66,7 @@ pub struct Law {
     umat: Umat,
     sdvini: Option<Sdvini>,
     uexternaldb: Option<Uexternaldb>,
-    _library: libloading::Library,
+    library: libloading::Library,
 }
 
 impl Law {
@@ -81,7 +81,12 @@ impl Law {
         let library = libloading::Library::from(library.map_err(|error| error.to_string())?);
         let umat = symbol::<Umat>(&library, "umat").ok_or_else(|| without_umat(path))?;
         let (sdvini, uexternaldb) = (symbol(&library, "sdvini"), symbol(&library, "uexternaldb"));
-        Ok(Law { umat, sdvini, uexternaldb, _library: library })
+        Ok(Law { umat, sdvini, uexternaldb, library })
+    }
+
+    /// Has a build that counts its lines write the counts; whether it is one.
+    pub fn write_counts(&self) -> bool {
+        write_counts(&self.library)
     }
 
     /// LOP = 0: the beginning of the analysis; Abaqus calls it before all else.
@@ -95,6 +100,13 @@ impl Law {
             }
         }
     }
+}
+
+/// Has a build that counts its lines write the counts; whether it is one.
+pub fn write_counts(library: &libloading::Library) -> bool {
+    let write = symbol::<unsafe extern "C" fn()>(library, "toron_counts");
+    // SAFETY: the routine of `counts.c`, without arguments.
+    write.map(|write| unsafe { write() }).is_some()
 }
 
 /// The error of a library without UMAT: which other routine it has, by the names of its symbols.
@@ -113,7 +125,7 @@ fn without_umat(path: &Path) -> String {
 }
 
 /// The address of a subroutine, under the names that compilers give it.
-fn symbol<T: Copy>(library: &libloading::Library, name: &str) -> Option<T> {
+pub fn symbol<T: Copy>(library: &libloading::Library, name: &str) -> Option<T> {
     [format!("{name}_"), name.to_uppercase(), name.to_string()].iter().find_map(|name| {
         // SAFETY: the caller's type is that of the subroutine of this name.
         unsafe { library.get::<T>(name.as_bytes()) }.ok().map(|symbol| *symbol)

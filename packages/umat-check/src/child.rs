@@ -16,7 +16,7 @@ use super::finding::{Finding, Question, Verdict};
 use super::guarded::Guard;
 use super::material::{Material, Reads};
 use super::shared::{self, SIGNALLED, Seen, Shared};
-use super::{energy, objectivity, process, rest, steps, tangent, vumat, work_dir};
+use super::{coverage, energy, objectivity, process, rest, steps, stress, tangent, vumat, work_dir};
 use toron_shared::bound_child;
 use toron_shared::error::Error;
 
@@ -160,6 +160,7 @@ fn answer_question(
     match question {
         Question::Build | Question::Memory => process::touch(session),
         Question::Rest => rest::rest(session),
+        Question::Stress => stress::stress(session),
         Question::Tangent => tangent::tangent(session, reads, allowed),
         Question::Objectivity => objectivity::objectivity(session, reads),
         Question::Isotropy => objectivity::isotropy(session),
@@ -174,6 +175,7 @@ fn answer_question(
         Question::Invalid => process::invalid(session, reads),
         Question::Histories => process::histories(session, reads),
         Question::Runtime => process::runtime(session),
+        Question::Coverage => coverage::walk(law, session),
         Question::DataCheck | Question::Blocks | Question::Single | Question::Deletion => {
             Finding::new(question, Verdict::NotAsked, None, "asked of a VUMAT alone")
         }

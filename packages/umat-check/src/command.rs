@@ -10,6 +10,7 @@ use clap::Args;
 use super::call::Call;
 use super::child::{self, ChildReply, Ending, Task};
 use super::compile::{self, Built};
+use super::coverage;
 use super::finding::{Finding, NOT_FINITE, Question, Verdict};
 use super::guarded::Guard;
 use super::input::{self, Input, Overrides};
@@ -181,13 +182,14 @@ impl Check<'_> {
     fn check_material(&self, material: &Material) -> Result<MaterialReport, Error> {
         let mut findings = vec![Finding::new(Question::Build, Verdict::Right, None, self.built.by.clone())];
         // With padding, since the law may need it; guard pages come with the questions.
-        let reads = match self.run_task(material, Task::Reads, Guard::Padded, false, child::LONGEST_CALL)? {
-            Ok(ChildReply::Reads(reads)) => Some(reads),
-            Ok(_) => None,
-            Err(_) => None,
-        };
+        let reads =
+            match self.run_task(material, Task::Reads, Guard::Padded, &self.built.library, child::LONGEST_CALL)? {
+                Ok(ChildReply::Reads(reads)) => Some(reads),
+                Ok(_) => None,
+                Err(_) => None,
+            };
         let explicit = material.explicit.called;
-        let questions = if explicit { &Question::OF_VUMAT[..] } else { &Question::ASKED };
+        let questions = if explicit { Question::OF_VUMAT } else { Question::ASKED };
         let asked = questions
             .iter()
             .copied()
@@ -228,10 +230,9 @@ impl Check<'_> {
         material: &Material,
         task: Task,
         guard: Guard,
-        checked: bool,
+        library: &Path,
         longest_call: Duration,
     ) -> Result<Result<ChildReply, Ending>, Error> {
-        let library = self.built.checked.as_ref().filter(|_| checked).unwrap_or(&self.built.library);
         child::run_task(self.work_dir, library, material, task, guard, longest_call).map_err(|error| match error {
             Error::Input(text) => Error::Input(format!("{}: {text}", self.file.display())),
             other => other,
@@ -248,15 +249,20 @@ impl Check<'_> {
         ended: &mut Vec<(String, Question)>,
     ) -> Result<Finding, Error> {
         let checked = question == Question::Runtime;
-        if checked && self.built.checked.is_none() {
-            let text = "no second build with checks at run time";
-            return Ok(Finding::new(question, Verdict::NotAsked, None, text));
-        }
+        let library = match question {
+            Question::Runtime => self.built.checked.as_ref().ok_or("no second build with checks at run time"),
+            Question::Coverage => self.built.counted.as_ref().ok_or("a library says nothing of its lines"),
+            _ => Ok(&self.built.library),
+        };
+        let library = match library {
+            Ok(library) => library,
+            Err(text) => return Ok(Finding::new(question, Verdict::NotAsked, None, text)),
+        };
         let task = Task::Question { question, reads, allowed: self.allowed.get(question.name()).copied() };
         let guards: &[Guard] = match question {
             Question::Memory => &[Guard::Behind, Guard::Before],
             // The compiler's own checks say more than a page that must not be touched.
-            Question::Runtime => &[Guard::Padded],
+            Question::Runtime | Question::Coverage => &[Guard::Padded],
             _ => &[guard],
         };
         // A law that has hung once is not waited for as long again.
@@ -264,7 +270,7 @@ impl Check<'_> {
         let longest_call = if hung { LONGEST_CALL_AFTER_HANG } else { child::LONGEST_CALL };
         let mut answer = None;
         for &guard in guards {
-            match self.run_task(material, task.clone(), guard, checked, longest_call)? {
+            match self.run_task(material, task.clone(), guard, library, longest_call)? {
                 Ok(ChildReply::Finding(mut finding)) => {
                     if let Some(call) = finding.call_bits.take().and_then(|bits| Call::from_bits(&bits)) {
                         finding.call = Some(self.keep_call(material, question, guard, call)?);
@@ -272,10 +278,17 @@ impl Check<'_> {
                     answer = Some(finding);
                 }
                 Ok(_) => {}
+                Err(_) if question == Question::Coverage => {
+                    let text = "the law ends before its lines are counted";
+                    return Ok(Finding::new(question, Verdict::NotAsked, None, text));
+                }
                 Err(ending) => return self.ending_as_finding(material, question, ending, guard, ended),
             }
         }
         let finding = answer.unwrap_or_else(|| Finding::new(question, Verdict::NotSure, None, "no answer"));
+        if question == Question::Coverage && finding.verdict == Verdict::Right {
+            return Ok(coverage::of_counts(self.work_dir));
+        }
         if checked && finding.kinds.iter().any(|kind| kind == NOT_FINITE) {
             let unset = self.built.used_unset(self.file, self.work_dir);
             let unset = if unset.is_empty() { String::new() } else { format!(": by gfortran {}", unset.join(", ")) };
@@ -299,7 +312,7 @@ impl Check<'_> {
         guard: Guard,
         longest_call: Duration,
     ) -> Result<Finding, Error> {
-        let text = match self.run_task(material, Task::LargeTurns, guard, false, longest_call)? {
+        let text = match self.run_task(material, Task::LargeTurns, guard, &self.built.library, longest_call)? {
             Ok(ChildReply::Finding(finding)) if finding.verdict == Verdict::Right => return Ok(finding),
             Ok(ChildReply::Finding(finding)) => finding.text,
             Ok(_) => return Ok(right),

@@ -11,6 +11,9 @@ use toron_shared::toml_file::is_standard_input;
 /// The routines of Abaqus that subroutines call.
 const UTILITIES: &str = include_str!("utilities.c");
 
+/// Writes the counts of lines to their files: the child ends in a way in which that is not done.
+const COUNTS: &str = "void __gcov_dump(void);\nvoid toron_counts_(void) { __gcov_dump(); }\n";
+
 /// What Abaqus's own include files say, as far as a subroutine sees it. It is valid in fixed and in free form.
 const PARAMETERS: &str = "      implicit real*8(a-h,o-z)\n      parameter (nprecd=2)\n";
 const SINGLE: &str = "      implicit real*4(a-h,o-z)\n      parameter (j_sys_Dimension=2, maxblk=512)\n";
@@ -61,11 +64,33 @@ const FREE_FORMS: [Form; 2] = [
 /// Of other compilers and languages.
 const NO_FORM: [Form; 1] = [form(&[], "")];
 
+/// What a library is built for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Variant {
+    Plain,
+    /// With checks at run time.
+    Checked,
+    /// With counts of each line.
+    Counted,
+}
+
+impl Variant {
+    fn library(self) -> &'static str {
+        match self {
+            Variant::Plain => "law.so",
+            Variant::Checked => "checked.so",
+            Variant::Counted => "counted.so",
+        }
+    }
+}
+
 /// What a file became.
 pub struct Built {
     pub library: PathBuf,
     /// The same with checks at run time, where the compiler has them.
     pub checked: Option<PathBuf>,
+    /// The same with counts of each line, where the compiler has them.
+    pub counted: Option<PathBuf>,
     /// By which compiler.
     pub by: String,
     form: Form,
@@ -81,7 +106,7 @@ pub fn compile(file: &Path, folder: &Path) -> Result<Built, Error> {
     work_dir::furnish(folder, &file)?;
     if language == Language::Library {
         let by = "loaded as it is".to_string();
-        return Ok(Built { library: file, checked: None, by, form: NO_FORM[0] });
+        return Ok(Built { library: file, checked: None, counted: None, by, form: NO_FORM[0] });
     }
     includes(folder).map_err(|error| Error::Input(format!("{}: {error}", folder.display())))?;
     let compiler = compiler(language)?;
@@ -89,7 +114,10 @@ pub fn compile(file: &Path, folder: &Path) -> Result<Built, Error> {
     let mut command = Command::new("gcc");
     command.args(["-c", "-O1", "-fPIC", "-w"]).arg(folder.join("utilities.c")).arg("-o").arg(&utilities);
     run(&mut command, "utilities.c")?;
-    let build = |checked, form| build(&file, language, compiler, folder, &utilities, checked, form);
+    let mut command = Command::new("gcc");
+    command.args(["-c", "-fPIC"]).arg(folder.join("counts.c")).arg("-o").arg(folder.join("counts.o"));
+    run(&mut command, "counts.c")?;
+    let build = |variant, form| build(&file, language, compiler, folder, &utilities, variant, form);
     let fortran = compiler == "gfortran";
     let forms: &[Form] = match language {
         Language::FixedForm if fortran => &FIXED_FORMS,
@@ -97,17 +125,20 @@ pub fn compile(file: &Path, folder: &Path) -> Result<Built, Error> {
         _ => &NO_FORM,
     };
     let (first, others) = forms.split_first().ok_or_else(|| Error::Input("no form is known".to_string()))?;
-    let (library, form) = match build(false, *first) {
+    let (library, form) = match build(Variant::Plain, *first) {
         Ok(library) => (library, *first),
         // What is said is of the form that it should have.
         Err(error) => {
-            let other = others.iter().find_map(|form| build(false, *form).ok().map(|library| (library, *form)));
+            let other =
+                others.iter().find_map(|form| build(Variant::Plain, *form).ok().map(|library| (library, *form)));
             other.ok_or(error)?
         }
     };
     // Where the checks do not compile there is no second build, which is said.
-    let checked = fortran.then(|| build(true, form).ok()).flatten();
-    Ok(Built { library, checked, by: format!("{compiler}{}", form.said), form })
+    let checked = fortran.then(|| build(Variant::Checked, form).ok()).flatten();
+    let counts = ["gfortran", "gcc", "g++"].contains(&compiler);
+    let counted = counts.then(|| build(Variant::Counted, form).ok()).flatten();
+    Ok(Built { library, checked, counted, by: format!("{compiler}{}", form.said), form })
 }
 
 impl Built {
@@ -149,7 +180,7 @@ impl Built {
         let file = file.canonicalize().map_err(error)?;
         let compiler = compiler(language)?;
         let utilities = folder.join("utilities.o");
-        let library = build(&file, language, compiler, &inner, &utilities, false, self.form);
+        let library = build(&file, language, compiler, &inner, &utilities, Variant::Plain, self.form);
         Ok(Some(library.map_err(|error| error.to_string())))
     }
 }
@@ -230,6 +261,7 @@ fn includes(folder: &Path) -> std::io::Result<()> {
     for name in ["aba_for_c.h", "omi_for_c.h"] {
         std::fs::write(folder.join(name), FOR_C)?;
     }
+    std::fs::write(folder.join("counts.c"), COUNTS)?;
     std::fs::write(folder.join("utilities.c"), UTILITIES)
 }
 
@@ -253,36 +285,14 @@ fn build(
     compiler: &str,
     folder: &Path,
     utilities: &Path,
-    checked: bool,
+    variant: Variant,
     form: Form,
 ) -> Result<PathBuf, Error> {
-    let library = folder.join(if checked { "checked.so" } else { "law.so" });
+    let library = folder.join(variant.library());
     let mut command = Command::new(compiler);
     command.args(["-shared", "-fPIC", "-g"]);
     including(&mut command, file, folder);
-    match (language, compiler) {
-        (Language::C, _) => {
-            command.args(["-O2", "-w"]);
-        }
-        (Language::Cpp, _) => {
-            command.args(["-O2", "-w", "-std=c++17"]);
-        }
-        (_, "gfortran") => {
-            // Without -frecursive large local arrays are static, and threads would fail for no fault of the law.
-            command.args(["-std=legacy", "-fallow-argument-mismatch", "-frecursive", "-w", "-cpp"]);
-            command.args(if checked {
-                &["-O0", "-fcheck=all,no-array-temps", "-finit-real=snan", "-finit-integer=-77777777", "-fno-backtrace"]
-                    [..]
-            } else {
-                &["-O2"][..]
-            });
-            command.args(form.flags);
-        }
-        _ => {
-            command.args(["-O2", "-auto", "-fpp", "-extend-source", "132", "-w"]);
-            command.arg(if language == Language::FreeForm { "-free" } else { "-fixed" });
-        }
-    }
+    translating(&mut command, language, compiler, variant, form);
     // Compilers know fewer endings than there are, and one in capitals as another.
     match (language, compiler) {
         (Language::C, _) => command.args(["-x", "c"]),
@@ -294,9 +304,42 @@ fn build(
     if compiler != "ifx" && compiler != "ifort" {
         command.args(["-x", "none"]);
     }
+    if variant == Variant::Counted {
+        command.arg(folder.join("counts.o"));
+    }
     command.arg(utilities).args(["-Wl,-z,lazy", "-o"]).arg(&library).args(["-lm", "-lpthread"]);
     run(&mut command, &file.display().to_string())?;
     Ok(library)
+}
+
+/// The flags of a language and of what is built.
+fn translating(command: &mut Command, language: Language, compiler: &str, variant: Variant, form: Form) {
+    let level = if variant == Variant::Plain { "-O2" } else { "-O0" };
+    if variant == Variant::Counted {
+        command.arg("--coverage");
+    }
+    match (language, compiler) {
+        (Language::C, _) => {
+            command.args([level, "-w"]);
+        }
+        (Language::Cpp, _) => {
+            command.args([level, "-w", "-std=c++17"]);
+        }
+        (_, "gfortran") => {
+            // Without -frecursive large local arrays are static, and threads would fail for no fault of the law.
+            command.args(["-std=legacy", "-fallow-argument-mismatch", "-frecursive", "-w", "-cpp"]);
+            command.arg(level);
+            if variant == Variant::Checked {
+                command.args(["-fcheck=all,no-array-temps", "-finit-real=snan", "-finit-integer=-77777777"]);
+                command.arg("-fno-backtrace");
+            }
+            command.args(form.flags);
+        }
+        _ => {
+            command.args(["-O2", "-auto", "-fpp", "-extend-source", "132", "-w"]);
+            command.arg(if language == Language::FreeForm { "-free" } else { "-fixed" });
+        }
+    }
 }
 
 fn run(command: &mut Command, what: &str) -> Result<(), Error> {

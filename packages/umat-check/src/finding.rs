@@ -79,7 +79,9 @@ impl Finding {
     }
 
     pub fn with(mut self, kind: &str) -> Self {
-        self.kinds.push(kind.to_string());
+        if !self.kinds.iter().any(|known| known == kind) {
+            self.kinds.push(kind.to_string());
+        }
         self
     }
 }
@@ -91,6 +93,7 @@ pub enum Question {
     Build,
     Memory,
     Rest,
+    Stress,
     Tangent,
     Objectivity,
     Isotropy,
@@ -105,6 +108,7 @@ pub enum Question {
     Invalid,
     Histories,
     Runtime,
+    Coverage,
     /// Those of a VUMAT alone.
     DataCheck,
     Blocks,
@@ -114,9 +118,10 @@ pub enum Question {
 
 impl Question {
     /// Those that a law answers in a child process.
-    pub const ASKED: [Question; 16] = [
+    pub const ASKED: &[Question] = &[
         Question::Memory,
         Question::Rest,
+        Question::Stress,
         Question::Tangent,
         Question::Objectivity,
         Question::Isotropy,
@@ -131,12 +136,14 @@ impl Question {
         Question::Invalid,
         Question::Histories,
         Question::Runtime,
+        Question::Coverage,
     ];
 
     /// Those that a VUMAT answers.
-    pub const OF_VUMAT: [Question; 18] = [
+    pub const OF_VUMAT: &[Question] = &[
         Question::Memory,
         Question::Rest,
+        Question::Stress,
         Question::DataCheck,
         Question::Objectivity,
         Question::Isotropy,
@@ -153,6 +160,7 @@ impl Question {
         Question::Invalid,
         Question::Histories,
         Question::Runtime,
+        Question::Coverage,
     ];
 
     pub fn name(self) -> &'static str {
@@ -160,6 +168,7 @@ impl Question {
             Question::Build => "build",
             Question::Memory => "memory",
             Question::Rest => "rest",
+            Question::Stress => "stress",
             Question::Tangent => "tangent",
             Question::Objectivity => "objectivity",
             Question::Isotropy => "isotropy",
@@ -174,6 +183,7 @@ impl Question {
             Question::Invalid => "invalid",
             Question::Histories => "histories",
             Question::Runtime => "runtime",
+            Question::Coverage => "coverage",
             Question::DataCheck => "datacheck",
             Question::Blocks => "blocks",
             Question::Single => "single",
@@ -183,8 +193,8 @@ impl Question {
 
     /// All that may be asked.
     pub fn all() -> impl Iterator<Item = Question> {
-        let of_vumat = Question::OF_VUMAT.into_iter().filter(|question| !Question::ASKED.contains(question));
-        Question::ASKED.into_iter().chain(of_vumat)
+        let of_vumat = Question::OF_VUMAT.iter().filter(|question| !Question::ASKED.contains(question));
+        Question::ASKED.iter().chain(of_vumat).copied()
     }
 
     /// Of all that may be asked, with commas.
@@ -193,6 +203,6 @@ impl Question {
     }
 
     pub fn parse(name: &str) -> Option<Question> {
-        Question::ASKED.into_iter().chain(Question::OF_VUMAT).find(|question| question.name() == name)
+        Question::all().find(|question| question.name() == name)
     }
 }

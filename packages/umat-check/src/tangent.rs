@@ -135,6 +135,9 @@ fn tangent_in_order(session: &mut Session, reads: Reads, allowed: Option<f64>) -
     let Some((_, difference)) = worst(&found) else {
         return not_sure("no state has sure differences");
     };
+    if without_stress(&states, convention, components) {
+        return not_sure("there was no stress");
+    }
     let (unsure, aside) = without_sure_differences(&states, &found);
     if difference.worst <= TOLERANCE {
         let text = format!("{} at {} states{aside}", convention.name(), states.len());
@@ -144,6 +147,14 @@ fn tangent_in_order(session: &mut Session, reads: Reads, allowed: Option<f64>) -
     }
     let judged = Judged { states: &states, found: &found, convention, components };
     wrong_tangent(session, &judged, conventions, allowed.unwrap_or(TOLERANCE), &aside)
+}
+
+/// Whether neither stress nor its derivatives are anything but 0.
+fn without_stress(states: &[State], convention: Convention, components: usize) -> bool {
+    states.iter().all(|state| {
+        let truth = state.truth(convention, components).map_or([[0.0; 6]; 6], |(_, truth)| truth);
+        state.stress.iter().chain(truth.iter().flatten()).all(|number| *number == 0.0)
+    })
 }
 
 /// The states, how wrong each is by the convention that suits best, and that convention.

@@ -4,6 +4,7 @@ use std::ffi::{c_char, c_void};
 use std::io;
 use std::path::Path;
 
+use super::super::call::write_counts;
 use super::super::guarded::{Guard, Guarded};
 use super::super::material::Material;
 use super::super::shared::{OF_UMAT, OF_VUMAT, Shared};
@@ -54,7 +55,7 @@ type Vumat = unsafe extern "C" fn(
 /// A loaded library's subroutine.
 pub struct Law {
     vumat: Vumat,
-    _library: libloading::Library,
+    library: libloading::Library,
 }
 
 /// The names that compilers give a subroutine.
@@ -93,7 +94,14 @@ impl Law {
             // SAFETY: the type is that of the subroutine of this name.
             unsafe { library.get::<Vumat>(symbol.as_bytes()) }.ok().map(|symbol| *symbol)
         });
-        Ok(Law { vumat: vumat.ok_or("there is no subroutine VUMAT")?, _library: library })
+        Ok(Law { vumat: vumat.ok_or("there is no subroutine VUMAT")?, library })
+    }
+}
+
+impl Law {
+    /// Has a build that counts its lines write the counts; whether it is one.
+    pub fn write_counts(&self) -> bool {
+        write_counts(&self.library)
     }
 }
 

@@ -37,6 +37,7 @@ fn answer_question(question: Question, law: &Law, session: &mut Session, reads: 
     match question {
         Question::Build | Question::Memory => process::touch(session),
         Question::Rest => process::rest(session),
+        Question::Stress => process::stress(session),
         Question::DataCheck => process::data_check(session),
         Question::Objectivity => frame::objectivity(session),
         Question::Isotropy => frame::isotropy(session),
@@ -53,6 +54,7 @@ fn answer_question(question: Question, law: &Law, session: &mut Session, reads: 
         Question::Invalid => process::invalid(session),
         Question::Histories => process::histories(session, reads),
         Question::Runtime => process::runtime(session),
+        Question::Coverage => process::coverage(law, session),
         Question::Tangent | Question::Cycles => {
             Ok(Finding::new(question, Verdict::NotAsked, None, "not asked of a VUMAT"))
         }
