@@ -155,6 +155,8 @@ pub struct Call {
     pub increment: i32,
     /// What DDSDDE has before.
     pub unset: f64,
+    /// KSTEP.
+    pub step: i32,
 }
 
 impl Call {
@@ -164,7 +166,7 @@ impl Call {
     }
 
     /// The numbers of the row with their names, in order.
-    pub fn named(&self) -> [(&'static str, Vec<f64>); 15] {
+    pub fn named(&self) -> [(&'static str, Vec<f64>); 16] {
         [
             ("NSTATV", vec![self.state.len() as f64]),
             ("STRESS", self.stress.to_vec()),
@@ -181,6 +183,7 @@ impl Call {
             ("NOEL, NPT", self.place.map(f64::from).to_vec()),
             ("KINC", vec![f64::from(self.increment)]),
             ("DDSDDE before the call", vec![self.unset]),
+            ("KSTEP", vec![f64::from(self.step)]),
         ]
     }
 
@@ -213,6 +216,7 @@ impl Call {
             place: [take(1)?[0] as i32, take(1)?[0] as i32],
             increment: take(1)?[0] as i32,
             unset: take(1)?[0],
+            step: take(1).map_or(1, |step| step[0] as i32),
         })
     }
 }
@@ -259,10 +263,14 @@ pub struct Session<'a> {
     law: &'a Law,
     pub material: &'a Material,
     name: [c_char; 80],
+    /// PROPS, at first those of the material.
+    pub properties: Vec<f64>,
+    /// Whether inputs that a call writes to are noted, and which these are.
+    pub watched: Option<Vec<&'static str>>,
     stress: Guarded,
     state: Guarded,
     modulus: Guarded,
-    properties: Guarded,
+    constants: Guarded,
     shared: Option<Shared>,
     records: bool,
     exchanged: bool,
@@ -283,22 +291,30 @@ impl<'a> Session<'a> {
             stress: Guarded::new(components, guard)?,
             state: Guarded::new(material.initial.len(), guard)?,
             modulus: Guarded::new(components * components, guard)?,
-            properties: Guarded::new(material.properties.len(), guard)?,
+            properties: material.properties.clone(),
+            watched: None,
+            constants: Guarded::new(material.properties.len(), guard)?,
             shared,
             records: true,
             exchanged: false,
         };
-        for (place, letter) in session.name.iter_mut().zip(material.name.to_uppercase().bytes()) {
-            *place = letter as c_char;
-        }
+        session.call_material(&material.name);
         if let Some(shared) = shared {
-            let arrays = [&session.state, &session.properties, &session.stress, &session.modulus];
+            let arrays = [&session.state, &session.constants, &session.stress, &session.modulus];
             for (index, array) in arrays.into_iter().enumerate() {
                 let (first, end) = array.addresses();
                 shared.keep_array(index, first, end);
             }
         }
         Ok(session)
+    }
+
+    /// CMNAME from now on.
+    pub fn call_material(&mut self, name: &str) {
+        self.name = [b' ' as c_char; 80];
+        for (place, letter) in self.name.iter_mut().zip(name.to_uppercase().bytes()) {
+            *place = letter as c_char;
+        }
     }
 
     pub fn shared(&self) -> Option<Shared> {
@@ -371,7 +387,7 @@ impl<'a> Session<'a> {
         self.stress.numbers_mut().copy_from_slice(&call.stress[..components]);
         self.state.numbers_mut().copy_from_slice(&call.state);
         self.modulus.numbers_mut().fill(call.unset);
-        self.properties.numbers_mut().copy_from_slice(&self.material.properties);
+        self.constants.numbers_mut().copy_from_slice(&self.properties);
         let mut name = self.name;
         let [mut elastic, mut plastic, mut creep] = call.energies;
         let (mut heat, mut heat_by_temperature) = (0.0, 0.0);
@@ -387,11 +403,11 @@ impl<'a> Session<'a> {
         let mut all = components as i32;
         let mut shear = all - direct;
         let mut states = call.state.len() as i32;
-        let mut constants = self.material.properties.len() as i32;
+        let mut constants = self.properties.len() as i32;
         let [mut element, mut point] = call.place;
         let [mut layer, mut section, mut increment] = [1, 1, call.increment];
         // JSTEP: the step, a static one, NLGEOM=YES, no perturbation.
-        let mut step = [1, 1, 1, 0];
+        let mut step = [call.step, 1, 1, 0];
         // SAFETY: the arguments of a UMAT, each as long as Abaqus declares it; matrices are in Fortran's order. What
         // the subroutine does beyond is its author's affair, and this process is there to bear it.
         unsafe {
@@ -419,7 +435,7 @@ impl<'a> Session<'a> {
                 &mut shear,
                 &mut all,
                 &mut states,
-                self.properties.as_mut_ptr(),
+                self.constants.as_mut_ptr(),
                 &mut constants,
                 coordinates.as_mut_ptr(),
                 rotation.as_mut_slice().as_mut_ptr(),
@@ -435,6 +451,38 @@ impl<'a> Session<'a> {
                 &mut increment,
                 self.name.len(),
             );
+        }
+        if let Some(watched) = &mut self.watched {
+            let changed = |before: &[f64], after: &[f64]| {
+                !before.iter().map(|value| value.to_bits()).eq(after.iter().map(|value| value.to_bits()))
+            };
+            let counts = [
+                (direct, self.material.direct() as i32),
+                (all, components as i32),
+                (states, call.state.len() as i32),
+                (constants, self.properties.len() as i32),
+                (element, call.place[0]),
+                (point, call.place[1]),
+                (increment, call.increment),
+                (step[0], call.step),
+            ];
+            let inputs = [
+                ("PROPS", changed(&self.properties, self.constants.numbers())),
+                ("STRAN", changed(&call.strain, &strain)),
+                ("DSTRAN", changed(&call.strain_increment, &strain_increment)),
+                ("DFGRD0", changed(call.f0.as_slice(), f0.as_slice())),
+                ("DFGRD1", changed(call.f1.as_slice(), f1.as_slice())),
+                ("DROT", changed(call.rotation.as_slice(), rotation.as_slice())),
+                ("TIME", changed(&call.time, &time)),
+                ("DTIME", changed(&[call.time_step], &[time_step])),
+                ("TEMP", changed(&[call.temperature], &[temperature])),
+                ("a count or number", counts.iter().any(|(after, before)| after != before)),
+            ];
+            for (name, changed) in inputs {
+                if changed && !watched.contains(&name) {
+                    watched.push(name);
+                }
+            }
         }
         let mut answer = Answer {
             stress: [0.0; 6],
@@ -472,9 +520,13 @@ mod tests {
             place: [3, 4],
             increment: 5,
             unset: 0.0,
+            step: 2,
         };
         assert_eq!(Call::from_numbers(&call.numbers()), Some(call.clone()));
         let numbers = call.numbers();
-        assert_eq!(Call::from_numbers(&numbers[..numbers.len() - 1]), None);
+        // Files of earlier versions have no KSTEP.
+        let without = &numbers[..numbers.len() - 1];
+        assert_eq!(Call::from_numbers(without).map(|call| call.step), Some(1));
+        assert_eq!(Call::from_numbers(&without[1..]), None);
     }
 }

@@ -16,7 +16,7 @@ use super::finding::{Finding, Question, Verdict};
 use super::guarded::Guard;
 use super::material::{Material, Reads};
 use super::shared::{self, SIGNALLED, Seen, Shared};
-use super::{coverage, energy, objectivity, process, rest, steps, stress, tangent, vumat, work_dir};
+use super::{coverage, energy, objectivity, process, properties, rest, steps, stress, tangent, vumat, work_dir};
 use toron_shared::bound_child;
 use toron_shared::error::Error;
 
@@ -161,6 +161,7 @@ fn answer_question(
         Question::Build | Question::Memory => process::touch(session),
         Question::Rest => rest::rest(session),
         Question::Stress => stress::stress(session),
+        Question::Properties => properties::properties(session),
         Question::Tangent => tangent::tangent(session, reads, allowed),
         Question::Objectivity => objectivity::objectivity(session, reads),
         Question::Isotropy => objectivity::isotropy(session),

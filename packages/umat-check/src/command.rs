@@ -180,7 +180,7 @@ struct Check<'a> {
 impl Check<'_> {
     /// Asks all questions about one material, in their order.
     fn check_material(&self, material: &Material) -> Result<MaterialReport, Error> {
-        let mut findings = vec![Finding::new(Question::Build, Verdict::Right, None, self.built.by.clone())];
+        let mut findings = vec![self.built.warnings.line(&self.built.by, material)];
         // With padding, since the law may need it; guard pages come with the questions.
         let reads =
             match self.run_task(material, Task::Reads, Guard::Padded, &self.built.library, child::LONGEST_CALL)? {
@@ -278,8 +278,8 @@ impl Check<'_> {
                     answer = Some(finding);
                 }
                 Ok(_) => {}
-                Err(_) if question == Question::Coverage => {
-                    let text = "the law ends before its lines are counted";
+                Err(ending) if question.may_end() => {
+                    let text = format!("the law does not answer: {}", ending.text);
                     return Ok(Finding::new(question, Verdict::NotAsked, None, text));
                 }
                 Err(ending) => return self.ending_as_finding(material, question, ending, guard, ended),

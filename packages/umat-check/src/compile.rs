@@ -4,6 +4,7 @@ use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use super::diagnose::{self, Warnings};
 use super::work_dir;
 use toron_shared::error::Error;
 use toron_shared::toml_file::is_standard_input;
@@ -93,6 +94,7 @@ pub struct Built {
     pub counted: Option<PathBuf>,
     /// By which compiler.
     pub by: String,
+    pub warnings: Warnings,
     form: Form,
 }
 
@@ -106,7 +108,14 @@ pub fn compile(file: &Path, folder: &Path) -> Result<Built, Error> {
     work_dir::furnish(folder, &file)?;
     if language == Language::Library {
         let by = "loaded as it is".to_string();
-        return Ok(Built { library: file, checked: None, counted: None, by, form: NO_FORM[0] });
+        return Ok(Built {
+            library: file,
+            checked: None,
+            counted: None,
+            by,
+            warnings: Warnings::default(),
+            form: NO_FORM[0],
+        });
     }
     includes(folder).map_err(|error| Error::Input(format!("{}: {error}", folder.display())))?;
     let compiler = compiler(language)?;
@@ -138,7 +147,19 @@ pub fn compile(file: &Path, folder: &Path) -> Result<Built, Error> {
     let checked = fortran.then(|| build(Variant::Checked, form).ok()).flatten();
     let counts = ["gfortran", "gcc", "g++"].contains(&compiler);
     let counted = counts.then(|| build(Variant::Counted, form).ok()).flatten();
-    Ok(Built { library, checked, counted, by: format!("{compiler}{}", form.said), form })
+    let warnings = if fortran { warnings(&file, folder, form) } else { Warnings::default() };
+    Ok(Built { library, checked, counted, by: format!("{compiler}{}", form.said), warnings, form })
+}
+
+/// What gfortran warns of, in the form in which it reads the source.
+fn warnings(file: &Path, folder: &Path, form: Form) -> Warnings {
+    let mut command = Command::new("gfortran");
+    including(&mut command, file, folder);
+    command.args(["-fsyntax-only", "-cpp", "-std=legacy", "-fallow-argument-mismatch"]).args(diagnose::FLAGS);
+    command.args(form.flags).args(["-x", "f95"]).arg(file);
+    let messages = command.output().map(|output| String::from_utf8_lossy(&output.stderr).to_string());
+    let columns = form.flags.iter().find_map(|flag| flag.strip_prefix("-ffixed-line-length-")?.parse().ok());
+    Warnings::read(file, &messages.unwrap_or_default(), columns)
 }
 
 impl Built {

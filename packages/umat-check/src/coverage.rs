@@ -94,7 +94,9 @@ fn parsed(text: &str) -> Lines {
     lines
 }
 
-/// Words of a branch that refuses its input: it need not run.
+/// Lines of a branch that refuses its input, at most.
+const REFUSAL: usize = 6;
+/// Words of such a branch: it need not run.
 const REFUSALS: [&str; 8] = ["pnewdt", "xit", "stop", "abqerr", "xplb", "exit", "write", "print"];
 
 fn judged(lines: &Lines) -> Finding {
@@ -107,7 +109,7 @@ fn judged(lines: &Lines) -> Finding {
                 let text = lines[*line].1.to_lowercase();
                 REFUSALS.iter().any(|word| text.contains(word))
             };
-            if run.iter().any(|line| refuses(&line)) {
+            if run.len() <= REFUSAL && run.iter().any(|line| refuses(&line)) {
                 continue;
             }
             missed += run.len();

@@ -94,6 +94,7 @@ pub enum Question {
     Memory,
     Rest,
     Stress,
+    Properties,
     Tangent,
     Objectivity,
     Isotropy,
@@ -122,6 +123,7 @@ impl Question {
         Question::Memory,
         Question::Rest,
         Question::Stress,
+        Question::Properties,
         Question::Tangent,
         Question::Objectivity,
         Question::Isotropy,
@@ -169,6 +171,7 @@ impl Question {
             Question::Memory => "memory",
             Question::Rest => "rest",
             Question::Stress => "stress",
+            Question::Properties => "properties",
             Question::Tangent => "tangent",
             Question::Objectivity => "objectivity",
             Question::Isotropy => "isotropy",
@@ -189,6 +192,11 @@ impl Question {
             Question::Single => "single",
             Question::Deletion => "deletion",
         }
+    }
+
+    /// Whether a law may end the process in it: it is called with what the user did not give.
+    pub fn may_end(self) -> bool {
+        matches!(self, Question::Coverage | Question::Properties)
     }
 
     /// All that may be asked.

@@ -379,7 +379,7 @@ const TIME: Duration = Duration::from_secs(12);
 pub fn histories(session: &mut Session, reads: Reads) -> Finding {
     let started = Instant::now();
     let mut rng = Rng::with_seed(session.material.seed ^ 0x10);
-    let (mut done, mut refused) = (0, 0);
+    let (mut done, mut refused, mut long, mut long_refused) = (0, 0, 0, 0);
     for number in 0..HISTORIES {
         if number % 64 == 0 && started.elapsed() > TIME {
             break;
@@ -389,7 +389,9 @@ pub fn histories(session: &mut Session, reads: Reads) -> Finding {
         let count = rng.usize(1..5);
         let whole = Increment::between(&point.f, &target).turning_at_most(LARGEST_TURN * count as f64);
         // Small ones too: from a millionth of the way to all of it.
-        let part = if rng.bool() { 1.0 } else { 10f64.powf(-6.0 * rng.f64()) };
+        let is_long = rng.bool();
+        let part = if is_long { 1.0 } else { 10f64.powf(-6.0 * rng.f64()) };
+        long += usize::from(is_long);
         // A law of increments is for increments like those of the file.
         let most = 2.0 * session.material.increment * count as f64 / whole.strain.norm();
         let part = if reads == Reads::Total { part } else { part.min(most) };
@@ -399,6 +401,7 @@ pub fn histories(session: &mut Session, reads: Reads) -> Finding {
                 Ok(_) => {}
                 Err(Failure::Refused) => {
                     refused += 1;
+                    long_refused += usize::from(is_long);
                     break;
                 }
                 Err(Failure::NotFinite(call)) => {
@@ -414,7 +417,8 @@ pub fn histories(session: &mut Session, reads: Reads) -> Finding {
     let refusals = if refused > 0 { format!(", {refused} of which end with PNEWDT") } else { String::new() };
     let time = if done < HISTORIES { format!(" in {} s", TIME.as_secs()) } else { String::new() };
     let text = format!("{done} random histories from the initial call{time}{refusals}");
-    if refused == done {
+    if refused == done || (long >= MANY && long_refused as f64 > NEARLY_ALL * long as f64) {
+        let text = format!("{text}: next to no path into the range can be finished, in five attempts at an increment");
         return Finding::new(Question::Histories, Verdict::Wrong, None, text).with("refused");
     }
     if 2 * refused > done {
@@ -422,6 +426,10 @@ pub fn histories(session: &mut Session, reads: Reads) -> Finding {
     }
     Finding::new(Question::Histories, Verdict::Right, None, text)
 }
+
+/// So many histories into the range tell that none can be finished, and this part of them is all.
+const MANY: usize = 20;
+const NEARLY_ALL: f64 = 0.9;
 
 fn not_finite(answer: &Answer, session: &Session) -> String {
     let components = session.material.components;

@@ -55,7 +55,7 @@ fn answer_question(question: Question, law: &Law, session: &mut Session, reads: 
         Question::Histories => process::histories(session, reads),
         Question::Runtime => process::runtime(session),
         Question::Coverage => process::coverage(law, session),
-        Question::Tangent | Question::Cycles => {
+        Question::Tangent | Question::Cycles | Question::Properties => {
             Ok(Finding::new(question, Verdict::NotAsked, None, "not asked of a VUMAT"))
         }
     }
