@@ -267,6 +267,8 @@ pub struct Session<'a> {
     pub properties: Vec<f64>,
     /// Whether inputs that a call writes to are noted, and which these are.
     pub watched: Option<Vec<&'static str>>,
+    /// The stress moves in steps: differences are to be taken of large ones.
+    pub coarse: bool,
     stress: Guarded,
     state: Guarded,
     modulus: Guarded,
@@ -293,6 +295,7 @@ impl<'a> Session<'a> {
             modulus: Guarded::new(components * components, guard)?,
             properties: material.properties.clone(),
             watched: None,
+            coarse: false,
             constants: Guarded::new(material.properties.len(), guard)?,
             shared,
             records: true,

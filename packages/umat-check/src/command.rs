@@ -15,6 +15,7 @@ use super::finding::{Finding, NOT_FINITE, Question, Verdict};
 use super::guarded::Guard;
 use super::input::{self, Input, Overrides};
 use super::material::{DEFAULT_NAME, Material, Reads};
+use super::noise;
 use super::repeated::{self, Repeated};
 use super::report::{MaterialReport, Report};
 use super::shared;
@@ -294,6 +295,9 @@ impl Check<'_> {
             let unset = if unset.is_empty() { String::new() } else { format!(": by gfortran {}", unset.join(", ")) };
             return Ok(Finding { text: format!("{}{unset}", finding.text), ..finding });
         }
+        if question == Question::Tangent && finding.kinds.iter().any(|kind| kind == noise::NOISE) {
+            return Ok(self.single_precision(finding));
+        }
         if question == Question::Objectivity
             && !material.explicit.called
             && finding.verdict == Verdict::Right
@@ -302,6 +306,21 @@ impl Check<'_> {
             return self.at_large_turns(material, finding, guard, longest_call);
         }
         Ok(finding)
+    }
+
+    /// Steps of the stress, where the source has variables of single precision, are theirs; a right tangent is right with
+    /// others.
+    fn single_precision(&self, mut finding: Finding) -> Finding {
+        let places: Vec<String> =
+            self.built.warnings.single.iter().map(|place| format!("{}: {}", place.named(), place.text)).collect();
+        if places.is_empty() {
+            if finding.verdict == Verdict::Right {
+                finding.kinds.clear();
+            }
+            return finding;
+        }
+        let text = format!("single precision: {}; {}", places.join(", "), finding.text);
+        Finding { verdict: Verdict::Wrong, kinds: vec![noise::SINGLE.to_string()], text, ..finding }
     }
 
     /// Turns of 90° in one increment: no solver has them, and a law that is right for small ones is only warned of.

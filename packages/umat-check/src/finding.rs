@@ -211,6 +211,6 @@ impl Question {
     }
 
     pub fn parse(name: &str) -> Option<Question> {
-        Question::all().find(|question| question.name() == name)
+        Question::all().chain([Question::Build]).find(|question| question.name() == name)
     }
 }

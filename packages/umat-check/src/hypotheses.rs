@@ -13,7 +13,7 @@ pub struct ExactTangent {
     pub stress: Components,
     /// On the law's axes.
     pub f: Matrix3<f64>,
-    /// Moduli without what the increment changed in the state: by unloading a little, and in no time.
+    /// Moduli of other increments from the state: unloading a little, in no time, and going on a little.
     pub intact: Vec<Modulus>,
 }
 
@@ -63,11 +63,11 @@ fn applied(modulus: &Modulus, strain: &Matrix3<f64>, components: usize) -> Matri
     tensor(&std::array::from_fn(|i| modulus[i].iter().zip(&strain).map(|(entry, part)| entry * part).sum()), components)
 }
 
-fn sum(a: &Modulus, b: &Modulus, factor: f64) -> Modulus {
+pub fn sum(a: &Modulus, b: &Modulus, factor: f64) -> Modulus {
     map(|i, j| a[i][j] + factor * b[i][j])
 }
 
-fn times(a: &Modulus, factor: f64) -> Modulus {
+pub fn times(a: &Modulus, factor: f64) -> Modulus {
     map(|i, j| factor * a[i][j])
 }
 
@@ -176,9 +176,14 @@ pub fn usual_mistakes(exact: &ExactTangent, components: usize) -> Vec<Hypothesis
         add(&[name], "rows", map(|i, j| truth[exchanged(i)][j]), Factor::One);
         add(&[name], "columns", map(|i, j| truth[i][exchanged(j)]), Factor::One);
     }
-    for (index, text) in ["the modulus of unloading", "the modulus without time"].into_iter().enumerate() {
+    let others = [
+        ("intact", "the modulus of unloading"),
+        ("intact", "the modulus without time"),
+        ("continuum", "the modulus of a vanishing increment, not that of the increment (the consistent one)"),
+    ];
+    for (index, (kind, text)) in others.into_iter().enumerate() {
         let modulus = exact.intact.get(index).copied().unwrap_or(nowhere);
-        add(&["intact"], text, modulus, Factor::One);
+        add(&[kind], text, modulus, Factor::One);
         if index == 0 {
             add(&["intact"], "the undamaged modulus, in proportion to that of unloading", modulus, Factor::OfEachState);
         }

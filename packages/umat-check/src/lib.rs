@@ -24,6 +24,7 @@ pub mod judgement;
 pub mod kinematics;
 pub mod material;
 pub mod mistakes;
+pub mod noise;
 pub mod objectivity;
 pub mod point;
 pub mod process;
