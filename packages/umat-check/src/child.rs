@@ -16,7 +16,7 @@ use super::finding::{Finding, Question, Verdict};
 use super::guarded::Guard;
 use super::material::{Material, Reads};
 use super::shared::{self, SIGNALLED, Seen, Shared};
-use super::{coverage, energy, objectivity, process, properties, rest, steps, stress, tangent, vumat, work_dir};
+use super::{coverage, energy, objectivity, place, process, properties, rest, steps, stress, tangent, vumat, work_dir};
 use toron_shared::bound_child;
 use toron_shared::error::Error;
 
@@ -70,7 +70,8 @@ pub struct Request {
 #[derive(Debug, Serialize, Deserialize)]
 pub enum ChildReply {
     OnlyVumat(bool),
-    Reads(Reads),
+    /// What it reads, and whether a strain 33 changes the stress.
+    Reads(Reads, bool),
     Finding(Finding),
     /// Stress, state, DDSDDE by rows, PNEWDT, as text: they need not be finite.
     Answer(Vec<(String, String)>),
@@ -120,7 +121,10 @@ fn reply_to(request: &Path) -> Result<(), Error> {
     let mut session = Session::new(&law, &material, guard, Some(shared)).map_err(io_error)?;
     let reply = match task {
         Task::OnlyVumat => ChildReply::OnlyVumat(false),
-        Task::Reads => ChildReply::Reads(process::reads(&mut session)),
+        Task::Reads => {
+            let (reads, across) = process::reads(&mut session);
+            ChildReply::Reads(reads, across)
+        }
         Task::Question { question, reads, allowed } => {
             ChildReply::Finding(answer_question(question, &law, &material, &mut session, reads, allowed))
         }
@@ -162,6 +166,7 @@ fn answer_question(
         Question::Rest => rest::rest(session),
         Question::Stress => stress::stress(session),
         Question::Properties => properties::properties(session),
+        Question::Place => place::place(session),
         Question::Tangent => tangent::tangent(session, reads, allowed),
         Question::Objectivity => objectivity::objectivity(session, reads),
         Question::Isotropy => objectivity::isotropy(session),

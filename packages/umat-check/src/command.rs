@@ -14,7 +14,7 @@ use super::coverage;
 use super::finding::{Finding, NOT_FINITE, Question, Verdict};
 use super::guarded::Guard;
 use super::input::{self, Input, Overrides};
-use super::material::{DEFAULT_NAME, Material, Reads};
+use super::material::{DEFAULT_NAME, Material, Plane, Reads};
 use super::noise;
 use super::repeated::{self, Repeated};
 use super::report::{MaterialReport, Report};
@@ -103,6 +103,7 @@ pub fn run(program: &str, arguments: &Arguments) -> Result<(), Error> {
         properties: arguments.props.clone(),
         states: arguments.statev,
         components: arguments.ntens,
+        plane: None,
         traits: arguments.traits.clone(),
         name: arguments.name.clone(),
         orientation: arguments.orientation,
@@ -181,13 +182,19 @@ struct Check<'a> {
 impl Check<'_> {
     /// Asks all questions about one material, in their order.
     fn check_material(&self, material: &Material) -> Result<MaterialReport, Error> {
-        let mut findings = vec![self.built.warnings.line(&self.built.by, material)];
+        let mut material = material.clone();
+        let mut findings = vec![self.built.warnings.line(&self.built.by, &material)];
         // With padding, since the law may need it; guard pages come with the questions.
         let reads =
-            match self.run_task(material, Task::Reads, Guard::Padded, &self.built.library, child::LONGEST_CALL)? {
-                Ok(ChildReply::Reads(reads)) => Some(reads),
-                Ok(_) => None,
-                Err(_) => None,
+            match self.run_task(&material, Task::Reads, Guard::Padded, &self.built.library, child::LONGEST_CALL)? {
+                Ok(ChildReply::Reads(reads, across)) => {
+                    if !across {
+                        // A law that never sees a strain 33 is for plane strain.
+                        material.plane = material.plane.or(Some(Plane::Strain));
+                    }
+                    Some(reads)
+                }
+                Ok(_) | Err(_) => None,
             };
         let explicit = material.explicit.called;
         let questions = if explicit { Question::OF_VUMAT } else { Question::ASKED };
@@ -200,7 +207,7 @@ impl Check<'_> {
         for question in asked {
             // A law that ends before it is known what it reads is not called with an inverted F.
             let unknown = if question == Question::Invalid { Reads::Rate } else { Reads::Mixed };
-            let mut finding = self.answer_question(material, question, reads.unwrap_or(unknown), guard, &mut ended)?;
+            let mut finding = self.answer_question(&material, question, reads.unwrap_or(unknown), guard, &mut ended)?;
             if question == Question::Memory && finding.verdict != Verdict::Right {
                 guard = Guard::Padded;
             }

@@ -95,6 +95,7 @@ pub enum Question {
     Rest,
     Stress,
     Properties,
+    Place,
     Tangent,
     Objectivity,
     Isotropy,
@@ -124,6 +125,7 @@ impl Question {
         Question::Rest,
         Question::Stress,
         Question::Properties,
+        Question::Place,
         Question::Tangent,
         Question::Objectivity,
         Question::Isotropy,
@@ -146,6 +148,7 @@ impl Question {
         Question::Memory,
         Question::Rest,
         Question::Stress,
+        Question::Place,
         Question::DataCheck,
         Question::Objectivity,
         Question::Isotropy,
@@ -172,6 +175,7 @@ impl Question {
             Question::Rest => "rest",
             Question::Stress => "stress",
             Question::Properties => "properties",
+            Question::Place => "place",
             Question::Tangent => "tangent",
             Question::Objectivity => "objectivity",
             Question::Isotropy => "isotropy",
@@ -196,7 +200,7 @@ impl Question {
 
     /// Whether a law may end the process in it: it is called with what the user did not give.
     pub fn may_end(self) -> bool {
-        matches!(self, Question::Coverage | Question::Properties)
+        matches!(self, Question::Coverage | Question::Properties | Question::Place)
     }
 
     /// All that may be asked.

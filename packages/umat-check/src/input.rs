@@ -7,7 +7,7 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use super::finding::Question;
-use super::material::{DEFAULT_NAME, Explicit, Material, Traits};
+use super::material::{DEFAULT_NAME, Explicit, Material, Plane, Traits};
 use toron_shared::checked::{Checked, Positive, value};
 use toron_shared::error::Error;
 use toron_shared::toml_file::{Source, read};
@@ -21,6 +21,7 @@ struct File {
     statev: Option<usize>,
     initial: Option<Spanned<Vec<f64>>>,
     ntens: Option<Spanned<usize>>,
+    plane: Option<Plane>,
     stretch: Option<Spanned<Vec<f64>>>,
     increment: Option<Positive>,
     temperature: Option<Spanned<f64>>,
@@ -56,6 +57,7 @@ pub struct Overrides {
     pub properties: Option<Vec<f64>>,
     pub states: Option<usize>,
     pub components: Option<usize>,
+    pub plane: Option<Plane>,
     pub traits: Option<Vec<String>>,
     pub name: Option<String>,
     pub orientation: bool,
@@ -161,6 +163,7 @@ fn material(source: &Source, file: &File, own: &Own, overrides: &Overrides) -> R
         },
         time_step: value(&file.dtime).unwrap_or(1.0),
         traits: traits(source, own.traits.as_ref().or(file.traits.as_ref()), overrides)?,
+        plane: overrides.plane.or(file.plane),
         orientation: overrides.orientation || file.orientation.unwrap_or(false),
         fibres: fibres(source, own.fibres.as_ref().or(file.fibres.as_ref()))?,
         seed: overrides.seed.or(file.seed).unwrap_or(1),

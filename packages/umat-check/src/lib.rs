@@ -26,6 +26,7 @@ pub mod material;
 pub mod mistakes;
 pub mod noise;
 pub mod objectivity;
+pub mod place;
 pub mod point;
 pub mod process;
 pub mod properties;

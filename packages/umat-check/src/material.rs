@@ -25,6 +25,9 @@ pub struct Material {
     /// DTIME.
     pub time_step: f64,
     pub traits: Traits,
+    /// What NTENS = 4 is, where that is known.
+    #[serde(default)]
+    pub plane: Option<Plane>,
     /// Corotational axes, as with `*ORIENTATION`.
     pub orientation: bool,
     /// Directions in the reference configuration, of length 1.
@@ -33,6 +36,15 @@ pub struct Material {
     pub seed: u64,
     #[serde(default)]
     pub explicit: Explicit,
+}
+
+/// What elements have four components.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Plane {
+    /// Without a strain across.
+    Strain,
+    Axisymmetric,
 }
 
 /// What Abaqus/Explicit alone has.
@@ -77,6 +89,11 @@ impl Material {
     /// NDI.
     pub fn direct(&self) -> usize {
         if self.components == 3 { 2 } else { 3 }
+    }
+
+    /// Whether no strain 33 ever is.
+    pub fn is_plane_strain(&self) -> bool {
+        self.components == 4 && self.plane == Some(Plane::Strain)
     }
 }
 

@@ -14,10 +14,11 @@ use super::kinematics::{Increment, name};
 use super::material::{Material, Reads};
 use super::point::{Failure, Point};
 
-/// What the law reads: which argument changes the stress.
-pub fn reads(session: &mut Session) -> Reads {
+/// What the law reads: which argument changes the stress; and whether a strain 33 does.
+pub fn reads(session: &mut Session) -> (Reads, bool) {
     let mut rng = Rng::with_seed(session.material.seed ^ 0x4e);
-    let (mut by_deformation, mut by_strain) = (false, false);
+    let components = session.material.components;
+    let (mut by_deformation, mut by_strain, mut by_third) = (false, false, false);
     for _ in 0..6 {
         let mut point = Point::virgin(session, [1, 1]);
         let mut path = history(&mut rng, session.material, 2);
@@ -49,14 +50,22 @@ pub fn reads(session: &mut Session) -> Reads {
             other.f0 = Matrix3::new(1.01, 0.004, 0.0, 0.0, 0.995, 0.0, 0.0, 0.0, 1.003) * call.f0;
             // A law of increments of F is one of rates too.
             by_strain |= changed(&other);
+            if components == 4 {
+                let mut other = call.clone();
+                other.f1[(2, 2)] *= 1.01;
+                other.strain[2] += 1e-3;
+                other.strain_increment[2] += 1e-3;
+                by_third |= changed(&other);
+            }
             point = point.after(f1, &call, &answer);
         }
     }
-    match (by_deformation, by_strain) {
+    let reads = match (by_deformation, by_strain) {
         (true, true) => Reads::Mixed,
         (false, true) => Reads::Rate,
         _ => Reads::Total,
-    }
+    };
+    (reads, by_third)
 }
 
 /// A few histories: with a page at either end of the arrays, what is touched beyond ends the process.
@@ -232,6 +241,7 @@ pub fn outputs(session: &mut Session) -> Finding {
     let mut unset = [[false; 6]; 6];
     let mut used = [[false; 6]; 6];
     let mut asked = 0;
+    session.watched = Some(Vec::new());
     for (k, path) in paths(session.material, 0x0f, 8, 30).into_iter().enumerate() {
         let mut point = Point::virgin(session, [1, k as i32 + 1]);
         for f1 in &path {
@@ -253,6 +263,7 @@ pub fn outputs(session: &mut Session) -> Finding {
             point = point.after(f1, &call, &zero);
         }
     }
+    let written = session.watched.take().unwrap_or_default();
     let named = |entries: &[[bool; 6]; 6]| {
         let places = (0..components).flat_map(|i| (0..components).map(move |j| (i, j)));
         let places: Vec<String> =
@@ -266,6 +277,17 @@ pub fn outputs(session: &mut Session) -> Finding {
     if asked == 0 {
         return Finding::new(Question::Outputs, Verdict::NotSure, None, "there was no answer");
     }
+    if written.contains(&"PROPS") {
+        let text = format!(
+            "{} are inputs, and are written to: the next call of any point gets other PROPS",
+            written.join(", ")
+        );
+        return Finding::new(Question::Outputs, Verdict::Wrong, None, text).with("input overwritten");
+    }
+    if !written.is_empty() {
+        let text = format!("{} are inputs, and are written to", written.join(", "));
+        return Finding::new(Question::Outputs, Verdict::Warning, None, text).with("input overwritten");
+    }
     if used.iter().flatten().any(|used| *used) {
         let text = if unset == used {
             format!("DDSDDE{} not set: it keeps what was there before", named(&unset))
@@ -274,7 +296,7 @@ pub fn outputs(session: &mut Session) -> Finding {
         };
         return Finding::new(Question::Outputs, Verdict::Warning, None, text).with("unset");
     }
-    Finding::new(Question::Outputs, Verdict::Right, None, "every entry of DDSDDE is set")
+    Finding::new(Question::Outputs, Verdict::Right, None, "every entry of DDSDDE is set, inputs are left alone")
 }
 
 /// Exceptions, in C's names of this processor.

@@ -149,7 +149,9 @@ fn tangent_in_order(session: &mut Session, reads: Reads, allowed: Option<f64>) -
         // Differences of small steps would be those of the noise.
         session.coarse = true;
         for state in &mut states {
-            (state.jaumann, state.plain) = derivatives(session, &state.before, &state.call, &state.f1, reads);
+            let (jaumann, plain) = derivatives(session, &state.before, &state.call, &state.f1, reads);
+            state.jaumann = without_column_33(session, jaumann, &state.modulus);
+            state.plain = without_column_33(session, plain, &state.modulus);
         }
         if let Some(again) = best_convention(&states, conventions, components) {
             (convention, found) = again;
@@ -211,8 +213,8 @@ impl Judged<'_> {
         errors.fold(0.0, f64::max)
     }
 
-    /// The entries that are wrong at some state, in words.
-    fn entries(&self) -> String {
+    /// The entries that are wrong at some state.
+    fn entries(&self) -> Vec<(usize, usize)> {
         let mut all: Vec<(usize, usize)> = Vec::new();
         for state in self.states {
             let Some((differences, truth)) = state.truth(self.convention, self.components) else { continue };
@@ -223,9 +225,14 @@ impl Judged<'_> {
             }
         }
         all.sort_unstable();
+        all
+    }
+
+    /// These entries in words.
+    fn named(&self, all: &[(usize, usize)]) -> String {
         let direct = if self.components == 3 { 2 } else { 3 };
         let named = |(i, j): &(usize, usize)| format!("({}, {})", name(self.components, *i), name(self.components, *j));
-        match &all[..] {
+        match all {
             [] => String::new(),
             few if few.len() <= 4 => format!("in {} alone", few.iter().map(named).collect::<Vec<_>>().join(", ")),
             _ if all.iter().all(|&(i, j)| i < direct && j < direct) => {
@@ -305,14 +312,22 @@ fn wrong_tangent(
         mistakes::name(session, &Sample::new(components, states, found, &wrong, &right), conventions)
     };
     let where_ = states_named(states, &wrong);
-    let (entries, size) = (judged.entries(), mistakes::percent(difference.worst));
+    let all = judged.entries();
+    let (entries, size) = (judged.named(&all), mistakes::percent(difference.worst));
     let text = format!(
         "{way}; wrong by up to {size} {entries} at {} of {} states ({where_}), worst at {place} {}, {is:.5e} instead of {instead:.5e}; {slows}{aside}",
         wrong.len(),
         states.len(),
         states[at].name,
     );
-    let verdict = if few || difference.worst <= tolerance { Verdict::Warning } else { Verdict::Wrong };
+    // Whether elements have a strain 33 is not known.
+    let across = components == 4 && session.material.plane.is_none() && all.iter().all(|&(_, j)| j == 2);
+    let text = if across {
+        format!("right in plane strain; of axisymmetric elements (plane = \"axisymmetric\") it would be wrong: {text}")
+    } else {
+        text
+    };
+    let verdict = if few || across || difference.worst <= tolerance { Verdict::Warning } else { Verdict::Wrong };
     let mut finding = Finding::new(Question::Tangent, verdict, Some(difference.worst), text);
     finding.kinds = kinds;
     if few {
@@ -434,6 +449,7 @@ fn state(
         return Err(Failure::NotFinite(Box::new(call)));
     }
     let (jaumann, plain) = derivatives(session, before, &call, f1, reads);
+    let [jaumann, plain] = [jaumann, plain].map(|known| without_column_33(session, known, &answer.modulus));
     Ok(State {
         name: name.to_string(),
         before: before.clone(),
@@ -444,6 +460,17 @@ fn state(
         jaumann,
         plain,
     })
+}
+
+/// In plane strain nothing is known of the column 33, nor asked: it is what DDSDDE has.
+fn without_column_33(session: &Session, known: Option<Derivative>, modulus: &Modulus) -> Option<Derivative> {
+    let mut known = known?;
+    if session.material.is_plane_strain() {
+        for (i, row) in modulus.iter().enumerate() {
+            (known.value[i][2], known.error[i][2], known.kinks[i][2]) = (row[2], 0.0, false);
+        }
+    }
+    Some(known)
 }
 
 fn derivatives(

@@ -38,6 +38,24 @@ fn differ(a: &[Found], b: &[Found]) -> Option<(usize, String)> {
     Some((place + 1, a[place].difference(&b[place])))
 }
 
+/// One history at elements of other numbers.
+///
+/// # Errors
+/// The system has no memory.
+pub fn place(session: &mut Session) -> io::Result<Finding> {
+    let path = paths(session.material, 0x91, 1, INCREMENTS).pop().unwrap_or_default();
+    session.numbered = true;
+    let found = point::block(session, &vec![path; SIZES[1]])?;
+    session.numbered = false;
+    let size = found[0].iter().flat_map(|found| found.stress).fold(f64::MIN_POSITIVE, |size, of| size.max(of.abs()));
+    let mut change = 0.0_f64;
+    for (other, first) in found[1..].iter().flat_map(|other| other.iter().zip(&found[0])) {
+        let differences = other.stress.iter().zip(&first.stress).map(|(a, b)| (a - b).abs() / size);
+        change = differences.fold(change, f64::max);
+    }
+    Ok(super::super::place::judged(change, found[0].len(), [change > 0.0, false]))
+}
+
 /// The same points in blocks of 1, 17 and 128, and in the reverse order.
 ///
 /// # Errors

@@ -24,7 +24,7 @@ pub fn reply_to(
 ) -> io::Result<Option<ChildReply>> {
     let mut session = Session::new(law, material, Precision::Double, guard, Some(shared));
     Ok(match task {
-        Task::Reads => Some(ChildReply::Reads(frame::reads(&mut session)?)),
+        Task::Reads => Some(ChildReply::Reads(frame::reads(&mut session)?, true)),
         Task::Question { question, reads, .. } => {
             Some(ChildReply::Finding(answer_question(*question, law, &mut session, *reads)?))
         }
@@ -38,6 +38,7 @@ fn answer_question(question: Question, law: &Law, session: &mut Session, reads: 
         Question::Build | Question::Memory => process::touch(session),
         Question::Rest => process::rest(session),
         Question::Stress => process::stress(session),
+        Question::Place => blocks::place(session),
         Question::DataCheck => process::data_check(session),
         Question::Objectivity => frame::objectivity(session),
         Question::Isotropy => frame::isotropy(session),

@@ -83,6 +83,7 @@ impl Point {
             stress: self.stress,
             state: self.state.clone(),
             energies: self.energies,
+            temperature: material.temperature,
         }
     }
 

@@ -106,5 +106,6 @@ fn rounded(given: Given) -> Given {
         stress: given.stress.map(single),
         state: given.state.into_iter().map(single).collect(),
         energies: given.energies.map(single),
+        temperature: single(given.temperature),
     }
 }

@@ -20,11 +20,13 @@ pub fn parse<T: for<'a> Deserialize<'a>>(path: &str) -> T {
 
 /// Runs the program on a law; its exit code and report.
 pub fn check(law: &Path, arguments: &[String]) -> (i32, Value) {
+    let beside = law.parent().expect("a folder");
+    let [folder, file] = [beside, law].map(|path| path.file_name().expect("a name").to_string_lossy());
     let output = Command::new(env!("CARGO_BIN_EXE_umat-check"))
-        .current_dir(law.parent().expect("a folder"))
+        .current_dir(beside)
         .arg("--json")
         .arg("--output")
-        .arg(Path::new(env!("CARGO_TARGET_TMPDIR")).join("umat-check-out").join(law.file_name().expect("a name")))
+        .arg(Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("calls-{folder}-{file}")))
         .arg(law)
         .args(arguments)
         .output()
