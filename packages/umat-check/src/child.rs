@@ -16,7 +16,10 @@ use super::finding::{Finding, Question, Verdict};
 use super::guarded::Guard;
 use super::material::{Material, Reads};
 use super::shared::{self, SIGNALLED, Seen, Shared};
-use super::{coverage, energy, objectivity, place, process, properties, rest, steps, stress, tangent, vumat, work_dir};
+use super::{
+    coverage, energy, job, jumps, objectivity, place, process, properties, rest, steps, stress, tangent, vumat,
+    work_dir,
+};
 use toron_shared::bound_child;
 use toron_shared::error::Error;
 
@@ -52,6 +55,11 @@ pub enum Task {
     },
     /// Objectivity where turns are larger than solvers have them.
     LargeTurns,
+    /// Another material of the same library: its stresses, after those of the first material, or alone.
+    Other {
+        material: Box<Material>,
+        after: bool,
+    },
     /// One call, as the bits of its numbers: they need not be finite.
     Call(Vec<u64>),
 }
@@ -73,6 +81,8 @@ pub enum ChildReply {
     /// What it reads, and whether a strain 33 changes the stress.
     Reads(Reads, bool),
     Finding(Finding),
+    /// Numbers as bits.
+    Bits(Vec<u64>),
     /// Stress, state, DDSDDE by rows, PNEWDT, as text: they need not be finite.
     Answer(Vec<(String, String)>),
 }
@@ -129,6 +139,13 @@ fn reply_to(request: &Path) -> Result<(), Error> {
             ChildReply::Finding(answer_question(question, &law, &material, &mut session, reads, allowed))
         }
         Task::LargeTurns => ChildReply::Finding(objectivity::at_large_turns(&mut session)),
+        Task::Other { material: other, after } => {
+            if after {
+                process::stresses(&mut session);
+            }
+            let mut session = Session::new(&law, &other, guard, Some(shared)).map_err(io_error)?;
+            ChildReply::Bits(process::stresses(&mut session))
+        }
         Task::Call(bits) => {
             let call = Call::from_bits(&bits).ok_or_else(|| Error::Input("a call is not whole".to_string()))?;
             ChildReply::Answer(answer_table(&session.call_law(&call), &material))
@@ -171,6 +188,8 @@ fn answer_question(
         Question::Objectivity => objectivity::objectivity(session, reads),
         Question::Isotropy => objectivity::isotropy(session),
         Question::Steps => steps::steps(session),
+        Question::Jumps => jumps::jumps(session),
+        Question::Job => job::job(session),
         Question::Energy => energy::energy(session),
         Question::Cycles => energy::cycles(session, reads),
         Question::Dissipation => energy::dissipation(session),

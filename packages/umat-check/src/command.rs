@@ -14,8 +14,10 @@ use super::coverage;
 use super::finding::{Finding, NOT_FINITE, Question, Verdict};
 use super::guarded::Guard;
 use super::input::{self, Input, Overrides};
+use super::kept;
 use super::material::{DEFAULT_NAME, Material, Plane, Reads};
 use super::noise;
+use super::relate;
 use super::repeated::{self, Repeated};
 use super::report::{MaterialReport, Report};
 use super::shared;
@@ -225,7 +227,7 @@ impl Check<'_> {
             }
             findings.push(finding);
         }
-        relate(&mut findings);
+        relate::relate(&mut findings);
         Ok(MaterialReport {
             name: material.name.clone(),
             law: reads.map(|reads| reads.name().to_string()),
@@ -302,6 +304,13 @@ impl Check<'_> {
             let unset = if unset.is_empty() { String::new() } else { format!(": by gfortran {}", unset.join(", ")) };
             return Ok(Finding { text: format!("{}{unset}", finding.text), ..finding });
         }
+        if question == Question::Repeat && finding.verdict == Verdict::Right {
+            let mut run = |task: Task| self.run_task(material, task, guard, library, longest_call);
+            return Ok(kept::properties(&mut run, material)?.unwrap_or(finding));
+        }
+        if matches!(question, Question::Repeat | Question::Threads) && finding.verdict == Verdict::Wrong {
+            return Ok(self.perhaps_unset(finding));
+        }
         if question == Question::Tangent && finding.kinds.iter().any(|kind| kind == noise::NOISE) {
             return Ok(self.single_precision(finding));
         }
@@ -313,6 +322,20 @@ impl Check<'_> {
             return self.at_large_turns(material, finding, guard, longest_call);
         }
         Ok(finding)
+    }
+
+    /// Answers that depend on order may be those of variables that are never set.
+    fn perhaps_unset(&self, mut finding: Finding) -> Finding {
+        let unset = self.built.used_unset(self.file, self.work_dir);
+        if !unset.is_empty() {
+            let shared = "variables are shared (SAVE, COMMON, DATA)";
+            let named = format!("by gfortran {} used before it is set", unset.join(", "));
+            finding.text = match finding.text.contains(shared) {
+                true => finding.text.replace(shared, &format!("{named}, or {shared}")),
+                false => format!("{}; {named}", finding.text),
+            };
+        }
+        finding
     }
 
     /// Steps of the stress, where the source has variables of single precision, are theirs; a right tangent is right with
@@ -410,60 +433,6 @@ fn old_assumed_size(message: &str) -> Option<&str> {
     (rest.trim() == "above upper bound of 1").then_some(array)
 }
 
-/// Findings that follow from others: one cause is reported once.
-fn relate(findings: &mut [Finding]) {
-    stress_before_tangent(findings);
-    not_finite_once(findings);
-    crash_of_unset_variable(findings);
-}
-
-/// Where the stress itself is wrong, the tangent's kind may follow from it.
-fn stress_before_tangent(findings: &mut [Finding]) {
-    let is_wrong = |question: Question| {
-        findings.iter().any(|finding| finding.check == question.name() && finding.verdict == Verdict::Wrong)
-    };
-    let of_stress = [Question::Objectivity, Question::Isotropy].into_iter().find(|&question| is_wrong(question));
-    let Some(of_stress) = of_stress.map(Question::name) else { return };
-    for finding in findings.iter_mut().filter(|finding| finding.check == Question::Tangent.name()) {
-        if finding.verdict == Verdict::Wrong && !finding.kinds.is_empty() {
-            let kind = finding.text.strip_prefix("none of the usual mistakes; ");
-            let text = kind.map_or_else(|| format!("perhaps {}", finding.text), str::to_string);
-            finding.text = format!("the stress itself is wrong (see {of_stress}): mend it first; {text}");
-        }
-    }
-}
-
-/// What is not finite in one line is so in others.
-fn not_finite_once(findings: &mut [Finding]) {
-    let mut first: Option<String> = None;
-    for finding in findings.iter_mut() {
-        if finding.verdict != Verdict::Wrong || !finding.kinds.iter().any(|kind| kind == NOT_FINITE) {
-            continue;
-        }
-        match &first {
-            Some(first) => {
-                finding.verdict = Verdict::NotSure;
-                finding.text = format!("not finite, as in {first}");
-            }
-            None => first = Some(finding.check.clone()),
-        }
-    }
-}
-
-/// A crash where the build with checks has found the cause.
-fn crash_of_unset_variable(findings: &mut [Finding]) {
-    let runtime = Question::Runtime.name();
-    if !findings.iter().any(|finding| finding.check == runtime && finding.verdict == Verdict::Wrong) {
-        return;
-    }
-    for finding in findings.iter_mut() {
-        if finding.verdict.fails() && finding.kinds.iter().any(|kind| kind == "crash") {
-            finding.verdict = Verdict::NotSure;
-            finding.text.push_str("; see runtime");
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -474,21 +443,5 @@ mod tests {
             |bound: &str| format!("umat.f:17: Index '2' of dimension 1 of array 'props' above upper bound of {bound}");
         assert_eq!(old_assumed_size(&of("1")), Some("props"));
         assert_eq!(old_assumed_size(&of("12")), None);
-    }
-
-    #[test]
-    fn a_wrong_stress_comes_before_the_tangent() {
-        let tangent = Finding::new(Question::Tangent, Verdict::Wrong, None, "symmetrised").with("symmetrised");
-        let mut alone = [tangent.clone(), Finding::new(Question::Objectivity, Verdict::Right, None, "")];
-        relate(&mut alone);
-        assert_eq!(alone[0].text, "symmetrised");
-        let mut both = [tangent, Finding::new(Question::Objectivity, Verdict::Wrong, None, "")];
-        relate(&mut both);
-        assert!(both[0].text.starts_with("the stress itself is wrong (see objectivity)"));
-        let not_finite = |question| Finding::new(question, Verdict::Wrong, None, "").with(NOT_FINITE);
-        let mut both = [not_finite(Question::Rest), not_finite(Question::Tangent)];
-        relate(&mut both);
-        assert_eq!([both[0].verdict, both[1].verdict], [Verdict::Wrong, Verdict::NotSure]);
-        assert_eq!(both[1].text, "not finite, as in rest");
     }
 }

@@ -217,6 +217,9 @@ fn reported(session: &mut Session, increments: usize) -> Result<Option<Reported>
     Ok((asked > 0).then_some(all))
 }
 
+/// Of the work: what is no energy at all.
+const NO_ENERGY: f64 = 1e8;
+
 /// What SSE is.
 pub fn energy(session: &mut Session) -> Finding {
     if session.material.components == 3 {
@@ -251,6 +254,12 @@ pub fn energy(session: &mut Session) -> Finding {
     let near = if hyperelastic { 2e-3 } else { 3e-2 };
     if figure <= near {
         return Finding::new(Question::Energy, Verdict::Right, Some(figure), format!("{of} is {name}, the work done"));
+    }
+    if figure > NO_ENERGY {
+        let text =
+            format!("{of} is no energy, {figure:.0e} times the work: it is set from a variable that is not set?");
+        let verdict = if hyperelastic { Verdict::Wrong } else { Verdict::Warning };
+        return Finding::new(Question::Energy, verdict, None, text).with("SSE");
     }
     let text = format!("{of} differs from the work done by {:.1e} of W, {:.1e} of W/J", differences[0], differences[1]);
     let declared = session.material.traits;

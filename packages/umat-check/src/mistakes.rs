@@ -49,6 +49,8 @@ struct Near {
     leaves: f64,
 }
 
+/// So many kinds at most are told together.
+const MOST_KINDS: usize = 3;
 /// Of the largest error, what a reading that is told leaves at most.
 const BETTER: f64 = 0.3;
 /// What the nearest mistake may leave of the error, at most.
@@ -84,6 +86,9 @@ pub fn name(session: &mut Session, sample: &Sample, conventions: &[Convention]) 
         if !kinds.iter().any(|known| known == kind) {
             kinds.push(kind.to_string());
         }
+    }
+    if kinds.len() > MOST_KINDS {
+        return unknown("what the states do not tell apart: any of many mistakes");
     }
     if kinds.is_empty() {
         let Some(near) = nearest.filter(|near| near.leaves < NEAR * sample.largest_error()) else {

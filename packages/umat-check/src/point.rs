@@ -25,6 +25,15 @@ pub struct Point {
     begun: f64,
 }
 
+/// What begins again with a further step: Abaqus has KSTEP go on, and KINC and TIME(1) begin again.
+#[derive(Clone, Copy, Debug)]
+pub struct Begun {
+    pub step: bool,
+    pub increment: bool,
+    /// TIME(1) at the beginning, if it does not go on.
+    pub time: Option<f64>,
+}
+
 /// Why an increment has no answer.
 #[derive(Clone, Debug)]
 pub enum Failure {
@@ -164,9 +173,14 @@ impl Point {
         Err(Failure::Refused)
     }
 
-    /// The point at the beginning of a further step: KSTEP goes on, KINC and TIME(1) begin again.
-    pub fn next_step(&self) -> Point {
-        Point { step: self.step + 1, begun: self.time, increment: 0, ..self.clone() }
+    /// The point at the beginning of a further step.
+    pub fn next_step(&self, begun: Begun) -> Point {
+        Point {
+            step: self.step + i32::from(begun.step),
+            begun: begun.time.map_or(self.begun, |time| self.time - time),
+            increment: if begun.increment { 0 } else { self.increment },
+            ..self.clone()
+        }
     }
 
     /// Cauchy stress on global axes.

@@ -168,6 +168,13 @@ pub fn repeat(session: &mut Session) -> Finding {
     Finding::new(Question::Repeat, Verdict::Right, None, text)
 }
 
+/// The bits of the stresses of a few histories.
+pub fn stresses(session: &mut Session) -> Vec<u64> {
+    let paths = paths(session.material, 0x2e, 3, 12);
+    let all: Vec<Answer> = paths.iter().flat_map(|path| answers(session, path, [1, 1])).collect();
+    all.iter().flat_map(|answer| answer.stress).map(f64::to_bits).collect()
+}
+
 fn what_differs(a: &Answer, b: &Answer) -> String {
     let bits = |values: &[f64]| values.iter().map(|value| value.to_bits()).collect::<Vec<_>>();
     if bits(&a.stress) != bits(&b.stress) {

@@ -28,6 +28,13 @@ pub fn reply_to(
         Task::Question { question, reads, .. } => {
             Some(ChildReply::Finding(answer_question(*question, law, &mut session, *reads)?))
         }
+        Task::Other { material: other, after } => {
+            if *after {
+                blocks::stresses(&mut session)?;
+            }
+            let mut session = Session::new(law, other, Precision::Double, guard, Some(shared));
+            Some(ChildReply::Bits(blocks::stresses(&mut session)?))
+        }
         Task::OnlyVumat | Task::LargeTurns | Task::Call(_) => None,
     })
 }
@@ -56,7 +63,7 @@ fn answer_question(question: Question, law: &Law, session: &mut Session, reads: 
         Question::Histories => process::histories(session, reads),
         Question::Runtime => process::runtime(session),
         Question::Coverage => process::coverage(law, session),
-        Question::Tangent | Question::Cycles | Question::Properties => {
+        Question::Tangent | Question::Cycles | Question::Properties | Question::Jumps | Question::Job => {
             Ok(Finding::new(question, Verdict::NotAsked, None, "not asked of a VUMAT"))
         }
     }
