@@ -179,7 +179,7 @@ fn answer_question(
     allowed: Option<f64>,
 ) -> Finding {
     match question {
-        Question::Build | Question::Memory => process::touch(session),
+        Question::Build | Question::Deck | Question::Memory => process::touch(session),
         Question::Rest => rest::rest(session),
         Question::Stress => stress::stress(session),
         Question::Properties => properties::properties(session),

@@ -40,6 +40,9 @@ pub struct Arguments {
     /// Properties, states and traits, a TOML file; without it, FILE's name with .toml if that is there.
     #[arg(long)]
     scene: Option<PathBuf>,
+    /// An input of Abaqus: PROPS, DEPVAR, DELETE, density, orientation, elements, initial stress of its user materials.
+    #[arg(long)]
+    inp: Option<PathBuf>,
     /// PROPS.
     #[arg(long, value_delimiter = ',', allow_hyphen_values = true)]
     props: Option<Vec<f64>>,
@@ -110,6 +113,7 @@ pub fn run(program: &str, arguments: &Arguments) -> Result<(), Error> {
         name: arguments.name.clone(),
         orientation: arguments.orientation,
         seed: arguments.seed,
+        deck: arguments.inp.clone(),
     };
     let Input { mut materials, mut allowed } = input::input(file, arguments.scene.as_deref(), &overrides)?;
     allowed.extend(arguments.allow.iter().cloned());
@@ -186,6 +190,7 @@ impl Check<'_> {
     fn check_material(&self, material: &Material) -> Result<MaterialReport, Error> {
         let mut material = material.clone();
         let mut findings = vec![self.built.warnings.line(&self.built.by, &material)];
+        findings.extend(of_deck(&material));
         // With padding, since the law may need it; guard pages come with the questions.
         let reads =
             match self.run_task(&material, Task::Reads, Guard::Padded, &self.built.library, child::LONGEST_CALL)? {
@@ -409,6 +414,8 @@ impl Check<'_> {
             "XIT" | "stop" if material.name == DEFAULT_NAME => {
                 format!("; CMNAME is {DEFAULT_NAME} here: --name, if the law asks for it")
             }
+            "behind STATEV" if material.deck.is_some() => format!("; *DEPVAR says {}", material.initial.len()),
+            "behind PROPS" if material.deck.is_some() => format!("; CONSTANTS is {}", material.properties.len()),
             _ => String::new(),
         };
         let mut finding = Finding::new(question, verdict, None, format!("{text}{hint}")).with(&kind);
@@ -424,6 +431,23 @@ impl Check<'_> {
         let repeated = Repeated { file: self.file.to_path_buf(), material: material.clone(), guard, call };
         Ok(repeated.write(&self.arguments.output, question)?.display().to_string())
     }
+}
+
+/// The line of an input of Abaqus, if there is one.
+fn of_deck(material: &Material) -> Option<Finding> {
+    let deck = material.deck.as_ref()?;
+    if !material.remarks.is_empty() {
+        let text = format!("{deck}: {}", material.remarks.join("; "));
+        return Some(Finding::new(Question::Deck, Verdict::Wrong, None, text).with("numbers of the deck"));
+    }
+    let axes = if material.orientation { ", on axes that turn (*ORIENTATION, or no NLGEOM)" } else { "" };
+    let text = format!(
+        "{} constants, {} state variables, {} components{axes}",
+        material.properties.len(),
+        material.initial.len(),
+        material.components
+    );
+    Some(Finding::new(Question::Deck, Verdict::Right, None, text))
 }
 
 /// The array of a message of gfortran's checks that has one entry by its declaration, and more by its use.

@@ -65,7 +65,7 @@ pub fn of_counts(folder: &Path) -> Finding {
     let Ok(entries) = std::fs::read_dir(folder) else { return not_asked("the counts of lines cannot be read") };
     let counts = entries.flatten().map(|entry| entry.path());
     let counts: Vec<_> = counts.filter(|path| path.extension().is_some_and(|ending| ending == "gcda")).collect();
-    let output = Command::new("gcov").arg("-t").args(&counts).current_dir(folder).output();
+    let output = Command::new("gcov").args(["-t", "-b"]).args(&counts).current_dir(folder).output();
     let Ok(output) = output else { return not_asked("there is no gcov, which reads counts of lines") };
     judged(&parsed(&String::from_utf8_lossy(&output.stdout)))
 }
@@ -73,19 +73,25 @@ pub fn of_counts(folder: &Path) -> Finding {
 /// Whether each line with code has run, with its text, by file.
 type Lines = BTreeMap<String, BTreeMap<usize, (bool, String)>>;
 
-/// gcov's own text: `COUNT:LINE:SOURCE`, the count `#####` where there is none, and the file's name at line 0.
+/// gcov's own text: `COUNT:LINE:SOURCE`, the count `#####` where there is none, and the file's name at line 0; before a
+/// routine how often it was called. Routines that nothing calls are no part of the law.
 fn parsed(text: &str) -> Lines {
     let mut lines = Lines::new();
-    let mut file = String::new();
+    let (mut file, mut called) = (String::new(), true);
     for line in text.lines() {
+        if let Some(routine) = line.strip_prefix("function ") {
+            called = !routine.contains(" called 0 ");
+            continue;
+        }
         let mut parts = line.splitn(3, ':');
         let (Some(count), Some(number), Some(source)) = (parts.next(), parts.next(), parts.next()) else { continue };
         let (count, Ok(number)) = (count.trim(), number.trim().parse::<usize>()) else { continue };
         if number == 0 {
+            called = true;
             if let Some(name) = source.strip_prefix("Source:") {
                 file = Path::new(name).file_name().map_or(name.into(), |name| name.to_string_lossy()).to_string();
             }
-        } else if count != "-" {
+        } else if count != "-" && called {
             let ran = !count.starts_with(['#', '=']);
             let known = lines.entry(file.clone()).or_default().entry(number).or_insert((false, source.to_string()));
             known.0 |= ran;
@@ -172,5 +178,7 @@ mod tests {
         );
         let line = judged(&parsed(&text.replace("#####:    2", "    1:    2").replace("#####:    4", "    1:    4")));
         assert_eq!(line.verdict, Verdict::Right);
+        let idle = "function inverse_ called 0 returned 0% blocks executed 0%\n    #####:    7:      X=1\n";
+        assert_eq!(parsed(&format!("{text}{idle}")), parsed(text));
     }
 }

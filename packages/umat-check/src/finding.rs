@@ -91,6 +91,8 @@ impl Finding {
 #[serde(rename_all = "lowercase")]
 pub enum Question {
     Build,
+    /// Of an input of Abaqus.
+    Deck,
     Memory,
     Rest,
     Stress,
@@ -175,6 +177,7 @@ impl Question {
     pub fn name(self) -> &'static str {
         match self {
             Question::Build => "build",
+            Question::Deck => "deck",
             Question::Memory => "memory",
             Question::Rest => "rest",
             Question::Stress => "stress",

@@ -7,6 +7,7 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use super::finding::Question;
+use super::inp::{self, Given};
 use super::material::{DEFAULT_NAME, Explicit, Material, Plane, Traits};
 use toron_shared::checked::{Checked, Positive, value};
 use toron_shared::error::Error;
@@ -20,6 +21,7 @@ struct File {
     properties: Option<Vec<f64>>,
     statev: Option<usize>,
     initial: Option<Spanned<Vec<f64>>>,
+    stress: Option<Spanned<Vec<f64>>>,
     ntens: Option<Spanned<usize>>,
     plane: Option<Plane>,
     stretch: Option<Spanned<Vec<f64>>>,
@@ -62,6 +64,8 @@ pub struct Overrides {
     pub name: Option<String>,
     pub orientation: bool,
     pub seed: Option<u64>,
+    /// An input of Abaqus.
+    pub deck: Option<PathBuf>,
 }
 
 /// Materials, and how wrong which line may be.
@@ -87,7 +91,27 @@ pub fn input(law: &Path, file: Option<&Path>, overrides: &Overrides) -> Result<I
         Some(file) => read(file)?,
         None => ("the arguments".to_string(), String::new()),
     };
-    parse(&Source { name: &name, text: &text }, overrides)
+    let mut input = parse(&Source { name: &name, text: &text }, overrides)?;
+    if let Some(deck) = &overrides.deck {
+        let given = Given {
+            properties: overrides.properties.is_some(),
+            states: overrides.states.is_some(),
+            components: overrides.components.is_some(),
+        };
+        let known = input.materials;
+        let of = |name: &str| {
+            let same = known.iter().find(|material| material.name.eq_ignore_ascii_case(name));
+            same.or(known.first()).cloned().unwrap_or_default()
+        };
+        input.materials = inp::read(deck, of, given)?;
+        if let Some(name) = &overrides.name {
+            input.materials.retain(|material| material.name.eq_ignore_ascii_case(name));
+            if input.materials.is_empty() {
+                return Err(Error::Input(format!("{}: no user material {name}", deck.display())));
+            }
+        }
+    }
+    Ok(input)
 }
 
 fn parse(source: &Source, overrides: &Overrides) -> Result<Input, Error> {
@@ -154,6 +178,7 @@ fn material(source: &Source, file: &File, own: &Own, overrides: &Overrides) -> R
         name,
         properties,
         initial,
+        stress: initial_stress(source, file.stress.as_ref(), components)?,
         components,
         stretch,
         increment: value(&file.increment).unwrap_or(0.01),
@@ -168,7 +193,22 @@ fn material(source: &Source, file: &File, own: &Own, overrides: &Overrides) -> R
         fibres: fibres(source, own.fibres.as_ref().or(file.fibres.as_ref()))?,
         seed: overrides.seed.or(file.seed).unwrap_or(1),
         explicit: explicit(source, file, states)?,
+        deck: None,
+        unsymmetric: None,
+        remarks: Vec::new(),
     })
+}
+
+fn initial_stress(source: &Source, given: Option<&Spanned<Vec<f64>>>, components: usize) -> Result<[f64; 6], Error> {
+    let mut stress = [0.0; 6];
+    if let Some(given) = given {
+        if given.get_ref().len() != components || given.get_ref().iter().any(|value| !value.is_finite()) {
+            let message = format!("stress has {} numbers; allowed: {components} finite ones", given.get_ref().len());
+            return Err(source.error(given.span(), &message));
+        }
+        stress[..components].copy_from_slice(given.get_ref());
+    }
+    Ok(stress)
 }
 
 fn all_finite(key: &str, numbers: &[f64]) -> Result<(), Error> {

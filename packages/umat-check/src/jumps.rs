@@ -92,7 +92,7 @@ pub fn jumps(session: &mut Session) -> Finding {
 fn largest(session: &mut Session, strain: &Matrix3<f64>, increments: usize, started: Instant) -> Option<Largest> {
     let time_step = session.material.time_step * OF_TIME / increments as f64;
     let mut point = Point::virgin(session, [1, 1]);
-    let (mut stress, mut size) = (Matrix3::zeros(), 0.0_f64);
+    let (mut stress, mut size) = (point.global_stress(session.material), 0.0_f64);
     let mut found: Option<(f64, f64, Point)> = None;
     for k in 1..=3 * increments {
         let part = (k % increments) as f64 / increments as f64;

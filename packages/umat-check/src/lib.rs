@@ -19,6 +19,7 @@ pub mod finding;
 pub mod guarded;
 pub mod histories;
 pub mod hypotheses;
+pub mod inp;
 pub mod input;
 pub mod job;
 pub mod judgement;

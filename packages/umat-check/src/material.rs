@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 /// CMNAME, where none is given.
 pub const DEFAULT_NAME: &str = "MATERIAL";
 
-#[derive(Clone, Debug, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct Material {
     /// CMNAME.
     pub name: String,
@@ -15,6 +15,9 @@ pub struct Material {
     pub properties: Vec<f64>,
     /// STATEV at the beginning, of NSTATV entries; SDVINI may change it.
     pub initial: Vec<f64>,
+    /// STRESS at the beginning.
+    #[serde(default)]
+    pub stress: [f64; 6],
     /// NTENS: 6, 4 (plane strain, axisymmetric) or 3 (plane stress).
     pub components: usize,
     /// The range of the principal stretches that are reached.
@@ -36,6 +39,13 @@ pub struct Material {
     pub seed: u64,
     #[serde(default)]
     pub explicit: Explicit,
+    /// The input of Abaqus that it is from, whether its `*USER MATERIAL` has UNSYMM, and what is to be said of it.
+    #[serde(default)]
+    pub deck: Option<String>,
+    #[serde(default)]
+    pub unsymmetric: Option<bool>,
+    #[serde(default)]
+    pub remarks: Vec<String>,
 }
 
 /// What elements have four components.

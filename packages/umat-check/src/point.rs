@@ -60,7 +60,7 @@ impl Point {
         let nothing = [0.0; 6];
         Point {
             f: Matrix3::identity(),
-            stress: nothing,
+            stress: session.material.stress,
             state,
             energies: [0.0; 3],
             strain: nothing,

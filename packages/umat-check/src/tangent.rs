@@ -168,10 +168,33 @@ fn tangent_in_order(session: &mut Session, reads: Reads, allowed: Option<f64>) -
         // Sure of nothing is not right.
         let verdict = if unsure * 2 > states.len() { Verdict::NotSure } else { Verdict::Right };
         let line = Finding::new(Question::Tangent, verdict, Some(difference.worst), text);
+        let line = without_unsymm(session, &states, line);
         return steps.map_or(line.clone(), |steps| in_steps(line, steps));
     }
     wrong_tangent(session, &judged, conventions, allowed.unwrap_or(TOLERANCE), &aside)
 }
+
+/// A warning where DDSDDE is not symmetric and the input of Abaqus has no UNSYMM, without which half of it is lost.
+fn without_unsymm(session: &Session, states: &[State], line: Finding) -> Finding {
+    if session.material.unsymmetric != Some(false) {
+        return line;
+    }
+    let skew = |state: &State| {
+        let largest = state.modulus.iter().flatten().fold(f64::MIN_POSITIVE, |largest, entry| largest.max(entry.abs()));
+        let pairs = (0..6).flat_map(|i| (0..i).map(move |j| (i, j)));
+        pairs.map(|(i, j)| (state.modulus[i][j] - state.modulus[j][i]).abs()).fold(0.0, f64::max) / largest
+    };
+    let skew = states.iter().map(skew).fold(0.0, f64::max);
+    if skew <= SYMMETRIC {
+        return line;
+    }
+    let text =
+        format!("{}; it is unsymmetric by {}, and *USER MATERIAL has no UNSYMM", line.text, mistakes::percent(skew));
+    Finding { verdict: Verdict::Warning, text, ..line }.with("without UNSYMM")
+}
+
+/// Of the largest entry: what is symmetric.
+const SYMMETRIC: f64 = 1e-3;
 
 /// Whether neither stress nor its derivatives are anything but 0.
 fn without_stress(states: &[State], convention: Convention, components: usize) -> bool {
