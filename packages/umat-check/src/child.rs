@@ -17,7 +17,7 @@ use super::guarded::Guard;
 use super::material::{Material, Reads};
 use super::shared::{self, SIGNALLED, Seen, Shared};
 use super::{
-    coverage, energy, job, jumps, objectivity, place, process, properties, rest, steps, stress, tangent, vumat,
+    coverage, energy, expect, job, jumps, objectivity, place, process, properties, rest, steps, stress, tangent, vumat,
     work_dir,
 };
 use toron_shared::bound_child;
@@ -184,6 +184,7 @@ fn answer_question(
         Question::Stress => stress::stress(session),
         Question::Properties => properties::properties(session),
         Question::Place => place::place(session),
+        Question::Expect => expect::expect(session),
         Question::Tangent => tangent::tangent(session, reads, allowed),
         Question::Objectivity => objectivity::objectivity(session, reads),
         Question::Isotropy => objectivity::isotropy(session),

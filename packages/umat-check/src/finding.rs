@@ -115,6 +115,7 @@ pub enum Question {
     Histories,
     Runtime,
     Coverage,
+    Expect,
     /// Those of a VUMAT alone.
     DataCheck,
     Blocks,
@@ -130,6 +131,7 @@ impl Question {
         Question::Stress,
         Question::Properties,
         Question::Place,
+        Question::Expect,
         Question::Tangent,
         Question::Objectivity,
         Question::Isotropy,
@@ -200,6 +202,7 @@ impl Question {
             Question::Histories => "histories",
             Question::Runtime => "runtime",
             Question::Coverage => "coverage",
+            Question::Expect => "expect",
             Question::DataCheck => "datacheck",
             Question::Blocks => "blocks",
             Question::Single => "single",

@@ -6,7 +6,9 @@ use std::path::{Path, PathBuf};
 use serde::Deserialize;
 use toml::Spanned;
 
+use super::expect::Expected;
 use super::finding::Question;
+use super::given::{self, Expect};
 use super::inp::{self, Given};
 use super::material::{DEFAULT_NAME, Explicit, Material, Plane, Traits};
 use toron_shared::checked::{Checked, Positive, value};
@@ -35,6 +37,8 @@ struct File {
     density: Option<Positive>,
     deletion: Option<Spanned<usize>>,
     defgrad: Option<Spanned<String>>,
+    #[serde(default)]
+    expect: Vec<Expect>,
     #[serde(default)]
     allow: BTreeMap<String, Spanned<Positive>>,
     #[serde(default, rename = "material")]
@@ -127,7 +131,14 @@ fn parse(source: &Source, overrides: &Overrides) -> Result<Input, Error> {
     let owns = if file.materials.is_empty() { vec![Own::default()] } else { file.materials.clone() };
     let materials: Result<Vec<Material>, Error> =
         owns.iter().map(|own| material(source, &file, own, overrides)).collect();
-    Ok(Input { materials: materials?, allowed })
+    let mut materials = materials?;
+    for material in &mut materials {
+        let mut given = file.expect.iter();
+        let is_of_it =
+            |expect: &Expect| expect.material.as_ref().is_none_or(|name| name.eq_ignore_ascii_case(&material.name));
+        material.expected.retain(|_| given.next().is_some_and(is_of_it));
+    }
+    Ok(Input { materials, allowed })
 }
 
 fn material(source: &Source, file: &File, own: &Own, overrides: &Overrides) -> Result<Material, Error> {
@@ -196,7 +207,12 @@ fn material(source: &Source, file: &File, own: &Own, overrides: &Overrides) -> R
         deck: None,
         unsymmetric: None,
         remarks: Vec::new(),
+        expected: known_answers(source, file, components)?,
     })
+}
+
+fn known_answers(source: &Source, file: &File, components: usize) -> Result<Vec<Expected>, Error> {
+    file.expect.iter().map(|given| given::expected(source, given, components)).collect()
 }
 
 fn initial_stress(source: &Source, given: Option<&Spanned<Vec<f64>>>, components: usize) -> Result<[f64; 6], Error> {
@@ -319,6 +335,11 @@ mod tests {
             ("properties = [1.0, nan]", "properties: number 2 is NaN; allowed: finite numbers"),
             ("deletion = 1", "law.toml:1: deletion is 1; allowed: a state variable, 1 to 0"),
             ("defgrad = \"R\"", "law.toml:1: defgrad is \"R\"; allowed: \"RU\", \"U\""),
+            ("[[expect]]\nstrain = [0.1]\nstress = [1.0]", "law.toml:2: strain is no path; allowed: 6 numbers"),
+            (
+                "[[expect]]\nstrain = [0, 0, 0, 0, 0, 0]\nstress = [1.0, 0, 0, 0, 0, 0]",
+                "law.toml:3: a known answer without source",
+            ),
             ("dtime = 0.0", "law.toml:1: dtime is 0.0; allowed: a finite number > 0"),
         ] {
             let error = of(text).expect_err(text);

@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use serde::{Deserialize, Serialize};
 
+use super::expect::Expected;
+
 /// CMNAME, where none is given.
 pub const DEFAULT_NAME: &str = "MATERIAL";
 
@@ -46,6 +48,9 @@ pub struct Material {
     pub unsymmetric: Option<bool>,
     #[serde(default)]
     pub remarks: Vec<String>,
+    /// Known answers.
+    #[serde(default)]
+    pub expected: Vec<Expected>,
 }
 
 /// What elements have four components.

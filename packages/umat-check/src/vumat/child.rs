@@ -63,8 +63,11 @@ fn answer_question(question: Question, law: &Law, session: &mut Session, reads: 
         Question::Histories => process::histories(session, reads),
         Question::Runtime => process::runtime(session),
         Question::Coverage => process::coverage(law, session),
-        Question::Tangent | Question::Cycles | Question::Properties | Question::Jumps | Question::Job => {
-            Ok(Finding::new(question, Verdict::NotAsked, None, "not asked of a VUMAT"))
-        }
+        Question::Tangent
+        | Question::Cycles
+        | Question::Properties
+        | Question::Jumps
+        | Question::Job
+        | Question::Expect => Ok(Finding::new(question, Verdict::NotAsked, None, "not asked of a VUMAT")),
     }
 }
