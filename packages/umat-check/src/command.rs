@@ -9,6 +9,7 @@ use clap::Args;
 
 use super::call::Call;
 use super::child::{self, ChildReply, Ending, Task};
+use super::ci;
 use super::compile::{self, Built};
 use super::coverage;
 use super::finding::{Finding, NOT_FINITE, Question, Verdict};
@@ -25,6 +26,7 @@ use super::work_dir::WorkDir;
 use toron_shared::console::print;
 use toron_shared::error::Error;
 use toron_shared::run_directory::RunDirectory;
+use toron_shared::toml_file;
 
 #[derive(Args)]
 pub struct Arguments {
@@ -70,6 +72,21 @@ pub struct Arguments {
     /// These lines alone, as in tangent,energy.
     #[arg(long, value_delimiter = ',', value_parser = question)]
     only: Vec<Question>,
+    /// The lines that take no time alone: build, memory, rest, stress, known answers, tangent, objectivity, repeat, outputs.
+    #[arg(long, conflicts_with = "only")]
+    quick: bool,
+    /// Warnings fail too, and lines of the law that are never executed.
+    #[arg(long)]
+    strict: bool,
+    /// An earlier report in JSON: what it has does not fail.
+    #[arg(long)]
+    baseline: Option<PathBuf>,
+    /// Write the report as JUnit's XML.
+    #[arg(long)]
+    junit: Option<PathBuf>,
+    /// Write the report as SARIF.
+    #[arg(long)]
+    sarif: Option<PathBuf>,
     /// Print the report as JSON.
     #[arg(long)]
     json: bool,
@@ -131,19 +148,40 @@ pub fn run(program: &str, arguments: &Arguments) -> Result<(), Error> {
     let check = Check { file, built: &built, work_dir: &work_dir.path, allowed: &allowed, arguments };
     let materials: Result<Vec<MaterialReport>, Error> =
         materials.iter().map(|material| check.check_material(material)).collect();
-    let mut report = Report { file: file.display().to_string(), verdict: Verdict::Right, materials: materials? };
-    let wrong = report.wrong().join(", ");
-    if !wrong.is_empty() {
-        report.verdict = Verdict::Wrong;
+    let mut report = Report::new(&file.display().to_string(), materials?);
+    report_to(program, arguments, &mut report)
+}
+
+/// Writes and prints the report.
+fn report_to(program: &str, arguments: &Arguments, report: &mut Report) -> Result<(), Error> {
+    if let Some(baseline) = &arguments.baseline {
+        let (name, text) = toml_file::read(baseline)?;
+        let earlier = serde_json::from_str(&text).map_err(|error| Error::Input(format!("{name}: {error}")))?;
+        report.mark_known(&earlier);
+    }
+    let wrong = report.judge(arguments.strict).join(", ");
+    if let Some(path) = &arguments.junit {
+        write(path, &ci::junit(report, arguments.strict))?;
+    }
+    if let Some(path) = &arguments.sarif {
+        write(path, &json_text(&ci::sarif(report, arguments.strict))?)?;
     }
     if arguments.json {
-        let text = serde_json::to_string_pretty(&report).map_err(|error| Error::Input(error.to_string()))?;
-        print(&format!("{text}\n"));
+        print(&json_text(report)?);
     } else {
         let colours = std::io::stdout().is_terminal() && std::env::var_os("NO_COLOR").is_none();
         print(&report.as_text(program, colours));
     }
-    if wrong.is_empty() { Ok(()) } else { Err(Error::Evaluation(format!("{}: wrong: {wrong}", file.display()))) }
+    if wrong.is_empty() { Ok(()) } else { Err(Error::Evaluation(format!("{}: wrong: {wrong}", report.file))) }
+}
+
+fn json_text(value: &impl serde::Serialize) -> Result<String, Error> {
+    let text = serde_json::to_string_pretty(value).map_err(|error| Error::Input(error.to_string()))?;
+    Ok(format!("{text}\n"))
+}
+
+fn write(path: &Path, text: &str) -> Result<(), Error> {
+    std::fs::write(path, text).map_err(|error| Error::Input(format!("{}: {error}", path.display())))
 }
 
 /// Whether a library has a VUMAT and no UMAT; the child finds out, as it does everything else.
@@ -208,7 +246,8 @@ impl Check<'_> {
         let asked = questions
             .iter()
             .copied()
-            .filter(|question| self.arguments.only.is_empty() || self.arguments.only.contains(question));
+            .filter(|question| self.arguments.only.is_empty() || self.arguments.only.contains(question))
+            .filter(|question| !self.arguments.quick || question.is_quick());
         let mut guard = Guard::Behind;
         let mut ended: Vec<(String, Question)> = Vec::new();
         for question in asked {

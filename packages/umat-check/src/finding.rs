@@ -61,6 +61,9 @@ pub struct Finding {
     /// That call as the child says it, as bits: the parent writes the file.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub call_bits: Option<Vec<u64>>,
+    /// Whether an earlier report, the baseline, has it too.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub known: bool,
 }
 
 impl Finding {
@@ -75,7 +78,24 @@ impl Finding {
             kinds: Vec::new(),
             call: None,
             call_bits: None,
+            known: false,
         }
+    }
+
+    /// Whether it fails the check: what is wrong, and of a strict one warnings and lines that never ran; nothing that is
+    /// known.
+    pub fn fails(&self, strict: bool) -> bool {
+        let doubtful = self.verdict == Verdict::Warning
+            || (self.verdict == Verdict::NotSure && self.check == Question::Coverage.name());
+        !self.known && (self.verdict.fails() || (strict && doubtful))
+    }
+
+    /// The line of this source that the text names first: `umat.f:17`.
+    pub fn source_line(&self, file: &str) -> Option<usize> {
+        let name = std::path::Path::new(file).file_name()?.to_string_lossy();
+        let (_, rest) = self.text.split_once(&format!("{name}:"))?;
+        let digits: String = rest.chars().take_while(char::is_ascii_digit).collect();
+        digits.parse().ok()
     }
 
     pub fn with(mut self, kind: &str) -> Self {
@@ -213,6 +233,12 @@ impl Question {
     /// Whether a law may end the process in it: it is called with what the user did not give.
     pub fn may_end(self) -> bool {
         matches!(self, Question::Coverage | Question::Properties | Question::Place)
+    }
+
+    /// Whether it is asked of a quick check.
+    pub fn is_quick(self) -> bool {
+        use Question::{DataCheck, Expect, Memory, Objectivity, Outputs, Repeat, Rest, Stress, Tangent};
+        matches!(self, Memory | Rest | Stress | Expect | Tangent | Objectivity | Repeat | Outputs | DataCheck)
     }
 
     /// All that may be asked.

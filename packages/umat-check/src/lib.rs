@@ -9,6 +9,7 @@
 
 pub mod call;
 pub mod child;
+pub mod ci;
 pub mod command;
 pub mod compile;
 pub mod coverage;

@@ -1,8 +1,10 @@
 //! `umat-check` on small inputs that are each of one kind (`ffi-tests/check/cases.toml`): what each line says of them.
+//! And in CI: what fails, what is written, and the JSON that the schema describes.
 
 mod support;
 
 use std::collections::BTreeMap;
+use std::path::Path;
 
 use serde::Deserialize;
 use serde_json::Value;
@@ -69,4 +71,105 @@ fn each_case_is_told_as_what_it_is() {
     assert!(cases.len() > 10);
     let differences: String = cases.iter().map(Case::differences).collect();
     assert!(differences.is_empty(), "{differences}");
+}
+
+// ---- in CI
+
+fn written(name: &str) -> String {
+    Path::new(env!("CARGO_TARGET_TMPDIR")).join(name).display().to_string()
+}
+
+/// What the schema says of a value that a value is not.
+fn breaches(schema: &Value, root: &Value, value: &Value, place: &str) -> Vec<String> {
+    if let Some(name) = schema["$ref"].as_str() {
+        return breaches(&root["$defs"][name.trim_start_matches("#/$defs/")], root, value, place);
+    }
+    let mut found = Vec::new();
+    let is_of = |kind: &str| match kind {
+        "object" => value.is_object(),
+        "array" => value.is_array(),
+        "string" => value.is_string(),
+        "number" => value.is_number(),
+        "boolean" => value.is_boolean(),
+        _ => value.is_null(),
+    };
+    let kinds = schema["type"].as_array().cloned().unwrap_or_else(|| vec![schema["type"].clone()]);
+    let known = schema["type"].is_null() || kinds.iter().filter_map(Value::as_str).any(is_of);
+    let listed = schema["enum"].as_array().is_none_or(|values| values.contains(value));
+    if !known || !listed || (!schema["const"].is_null() && schema["const"] != *value) {
+        found.push(format!("{place} is {value}"));
+    }
+    for (key, entry) in value.as_object().into_iter().flatten() {
+        match schema["properties"].get(key) {
+            Some(schema) => found.extend(breaches(schema, root, entry, &format!("{place}.{key}"))),
+            None => found.push(format!("{place} has {key}")),
+        }
+    }
+    for name in schema["required"].as_array().into_iter().flatten().filter_map(Value::as_str) {
+        if value.get(name).is_none() {
+            found.push(format!("{place} lacks {name}"));
+        }
+    }
+    for entry in value.as_array().into_iter().flatten() {
+        found.extend(breaches(&schema["items"], root, entry, place));
+    }
+    found
+}
+
+#[test]
+fn the_json_is_what_its_schema_says() {
+    let schema = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/report.schema.json")).expect("a schema");
+    let schema: Value = serde_json::from_str(&schema).expect("JSON");
+    let (_, report) = check(&corpus("cases/inputs_written.f"), &["--props=1000,.3".to_string()]);
+    assert_eq!(breaches(&schema, &schema, &report, "report"), Vec::<String>::new());
+    let mut other = report;
+    other["materials"][0]["lines"][0]["verdict"] = "fine".into();
+    assert_eq!(breaches(&schema, &schema, &other, "report").len(), 1);
+}
+
+/// STRAN is written to, a warning: it fails a strict check, unless it is known.
+#[test]
+fn warnings_fail_a_strict_check_but_for_those_of_the_baseline() {
+    let law = corpus("cases/strain_written.f");
+    let run = |arguments: &[&str]| {
+        let all = ["--props=1000,.3", "--only=outputs"].iter().chain(arguments);
+        check(&law, &all.map(ToString::to_string).collect::<Vec<_>>())
+    };
+    let (code, report) = run(&[]);
+    assert_eq!((code, report["verdict"].as_str()), (0, Some("right")));
+    let baseline = written("baseline.json");
+    std::fs::write(&baseline, report.to_string()).expect("a file");
+    assert_eq!(run(&["--strict"]).0, 1);
+    let (code, report) = run(&["--strict", "--baseline", &baseline]);
+    let lines = report["materials"][0]["lines"].as_array().expect("lines");
+    assert_eq!((code, &lines[1]["known"]), (0, &Value::Bool(true)));
+}
+
+#[test]
+fn junit_and_sarif_are_written() {
+    let (junit, sarif) = (written("check.xml"), written("check.sarif"));
+    let law = corpus("cases/unset_local.f");
+    let arguments = ["--props=1000,.3", "--only=runtime", "--junit", &junit, "--sarif", &sarif].map(str::to_string);
+    assert_eq!(check(&law, &arguments).0, 1);
+    let xml = std::fs::read_to_string(junit).expect("JUnit");
+    assert!(xml.contains("<testcase name=\"runtime\"") && xml.contains("<failure message="), "{xml}");
+    let log: Value = serde_json::from_str(&std::fs::read_to_string(sarif).expect("SARIF")).expect("JSON");
+    assert_eq!(log["version"], "2.1.0");
+    assert_eq!(log["runs"][0]["results"][0]["ruleId"], "runtime");
+}
+
+#[test]
+fn a_quick_check_asks_less() {
+    let law = corpus("cases/yeoh.f");
+    let (code, report) = check(&law, &["--props=.8,.1,20".to_string(), "--quick".to_string()]);
+    let names: Vec<&str> = report["materials"][0]["lines"]
+        .as_array()
+        .expect("lines")
+        .iter()
+        .filter_map(|line| line["line"].as_str())
+        .collect();
+    let expected = ["build", "memory", "rest", "stress", "expect", "tangent", "objectivity", "repeat", "outputs"];
+    assert_eq!((code, names), (0, expected.to_vec()));
+    let (code, report) = check(&law, &["--props=.8,.1,20".to_string(), "--only=build".to_string()]);
+    assert_eq!((code, report["materials"][0]["lines"].as_array().map(Vec::len)), (0, Some(1)));
 }
