@@ -51,13 +51,16 @@ fn stresses(session: &mut Session, state: &State, column: usize) -> Option<Vec<[
     (0..POINTS).map(stress).collect()
 }
 
-/// The typical departure of numbers at equal distances from the straight line of their neighbours: the median of second
-/// differences, which a single kink does not change.
+/// The typical departure of numbers at equal distances from the straight line of their neighbours, without the largest
+/// ones, which a single kink makes.
 fn departure(values: &[f64]) -> f64 {
     let mut second: Vec<f64> = values.windows(3).map(|three| (three[0] - 2.0 * three[1] + three[2]).abs()).collect();
     second.sort_by(f64::total_cmp);
-    second[second.len() / 2]
+    second[second.len() - 1 - OF_KINKS]
 }
+
+/// So many second differences may be those of kinks.
+const OF_KINKS: usize = 4;
 
 #[cfg(test)]
 mod tests {
