@@ -78,7 +78,7 @@ impl Law {
         use libloading::os::unix::{Library, RTLD_LAZY, RTLD_LOCAL};
         // SAFETY: what a library does as it is loaded is its author's affair; this process is there to bear it.
         let library = unsafe { Library::open(Some(path), RTLD_LAZY | RTLD_LOCAL) };
-        let library = libloading::Library::from(library.map_err(|error| error.to_string())?);
+        let library = libloading::Library::from(library.map_err(|error| why(&error))?);
         let umat = symbol::<Umat>(&library, "umat").ok_or_else(|| without_umat(path))?;
         let (sdvini, uexternaldb) = (symbol(&library, "sdvini"), symbol(&library, "uexternaldb"));
         Ok(Law { umat, sdvini, uexternaldb, library })
@@ -100,6 +100,12 @@ impl Law {
             }
         }
     }
+}
+
+/// Why a library is not loaded, in the loader's words.
+pub fn why(error: &libloading::Error) -> String {
+    use std::error::Error;
+    error.source().map_or_else(|| error.to_string(), |source| format!("{error}: {source}"))
 }
 
 /// Has a build that counts its lines write the counts; whether it is one.

@@ -10,7 +10,7 @@ use clap::Args;
 use super::call::Call;
 use super::child::{self, ChildReply, Ending, Task};
 use super::ci;
-use super::compile::{self, Built};
+use super::compile::{self, Built, Options};
 use super::coverage;
 use super::finding::{Finding, NOT_FINITE, Question, Verdict};
 use super::guarded::Guard;
@@ -33,6 +33,18 @@ pub struct Arguments {
     /// The subroutine: Fortran, C or C++, or a shared library with it.
     #[arg(required_unless_present = "again")]
     file: Option<PathBuf>,
+    /// Further sources, in any order; files near FILE that have the modules it uses are found.
+    #[arg(long, value_delimiter = ',')]
+    with: Vec<PathBuf>,
+    /// A folder of includes, beside those below FILE's.
+    #[arg(short = 'I', long)]
+    include: Vec<PathBuf>,
+    /// A library that is linked, as lapack.
+    #[arg(long, value_delimiter = ',')]
+    link: Vec<String>,
+    /// The compiler of Fortran, as ifx or flang.
+    #[arg(long, value_name = "COMMAND")]
+    fc: Option<String>,
     /// Ask the file's VUMAT, not its UMAT; where there is no UMAT this is not needed.
     #[arg(long)]
     vumat: bool,
@@ -134,7 +146,13 @@ pub fn run(program: &str, arguments: &Arguments) -> Result<(), Error> {
     };
     let Input { mut materials, mut allowed } = input::input(file, arguments.scene.as_deref(), &overrides)?;
     allowed.extend(arguments.allow.iter().cloned());
-    let built = compile::compile(file, &work_dir.path)?;
+    let options = Options {
+        with: arguments.with.iter().map(|path| canonical(path)).collect::<Result<_, _>>()?,
+        include: arguments.include.iter().map(|path| canonical(path)).collect::<Result<_, _>>()?,
+        link: arguments.link.clone(),
+        fortran: arguments.fc.clone(),
+    };
+    let built = compile::compile(file, &work_dir.path, &options)?;
     RunDirectory::check(&arguments.output, &repeated::writes(file))?;
     if arguments.vumat || only_vumat(&built, &work_dir.path, materials.first())? {
         let single = match &arguments.single {
@@ -145,7 +163,8 @@ pub fn run(program: &str, arguments: &Arguments) -> Result<(), Error> {
     } else if arguments.single.is_some() {
         return Err(Error::Input("single is for a VUMAT; allowed: with one, or with --vumat".to_string()));
     }
-    let check = Check { file, built: &built, work_dir: &work_dir.path, allowed: &allowed, arguments };
+    let check =
+        Check { file, built: &built, options: &options, work_dir: &work_dir.path, allowed: &allowed, arguments };
     let materials: Result<Vec<MaterialReport>, Error> =
         materials.iter().map(|material| check.check_material(material)).collect();
     let mut report = Report::new(&file.display().to_string(), materials?);
@@ -218,6 +237,7 @@ const LONGEST_CALL_AFTER_HANG: Duration = Duration::from_secs(1);
 struct Check<'a> {
     file: &'a Path,
     built: &'a Built,
+    options: &'a Options,
     work_dir: &'a Path,
     allowed: &'a BTreeMap<String, f64>,
     arguments: &'a Arguments,
@@ -467,7 +487,13 @@ impl Check<'_> {
 
     /// The file of a call, for `--again`.
     fn keep_call(&self, material: &Material, question: Question, guard: Guard, call: Call) -> Result<String, Error> {
-        let repeated = Repeated { file: self.file.to_path_buf(), material: material.clone(), guard, call };
+        let repeated = Repeated {
+            file: self.file.to_path_buf(),
+            options: self.options.clone(),
+            material: material.clone(),
+            guard,
+            call,
+        };
         Ok(repeated.write(&self.arguments.output, question)?.display().to_string())
     }
 }

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::call::Call;
 use super::child::{self, ChildReply, Task};
-use super::compile;
+use super::compile::{self, Options};
 use super::finding::Question;
 use super::guarded::Guard;
 use super::material::Material;
@@ -18,6 +18,7 @@ use toron_shared::toml_file;
 /// What is needed to repeat a call.
 pub struct Repeated {
     pub file: PathBuf,
+    pub options: Options,
     pub material: Material,
     pub guard: Guard,
     pub call: Call,
@@ -39,6 +40,8 @@ pub fn writes(file: &Path) -> Writes<'_> {
 #[derive(Serialize, Deserialize)]
 struct Written {
     file: PathBuf,
+    #[serde(default)]
+    options: Options,
     material: Material,
     #[serde(alias = "fence")]
     guard: Guard,
@@ -59,6 +62,7 @@ impl Repeated {
         });
         let written = Written {
             file: self.file.canonicalize().map_err(|reason| error(reason.to_string()))?,
+            options: self.options.clone(),
             material: self.material.clone(),
             guard: self.guard,
             arguments: arguments.to_vec(),
@@ -78,7 +82,8 @@ impl Repeated {
         let numbers = texts.map(|text| text.parse().map_err(|_| error(format!("\"{text}\"; allowed: a number"))));
         let numbers: Vec<f64> = numbers.collect::<Result<_, _>>()?;
         let call = Call::from_numbers(&numbers).ok_or_else(|| error("arguments are missing".to_string()))?;
-        Ok(Repeated { file: written.file, material: written.material, guard: written.guard, call })
+        let Written { file, options, material, guard, .. } = written;
+        Ok(Repeated { file, options, material, guard, call })
     }
 
     /// Compiles the law again and repeats the call.
@@ -86,7 +91,7 @@ impl Repeated {
     /// # Errors
     /// The law does not compile, or the call ends the process again.
     pub fn run(&self, work_dir: &Path) -> Result<(), Error> {
-        let built = compile::compile(&self.file, work_dir)?;
+        let built = compile::compile(&self.file, work_dir, &self.options)?;
         let numbers = self.call.numbers().into_iter().map(f64::to_bits).collect();
         match child::run_task(
             work_dir,
