@@ -58,6 +58,9 @@ type Umat = unsafe extern "C" fn(
 );
 /// `SUBROUTINE SDVINI(STATEV, COORDS, NSTATV, NCRDS, NOEL, NPT, LAYER, KSPT)`.
 type Sdvini = unsafe extern "C" fn(Reals, Reals, Whole, Whole, Whole, Whole, Whole, Whole);
+/// `SUBROUTINE SIGINI(SIGMA, COORDS, NTENS, NCRDS, NOEL, NPT, LAYER, KSPT, LREBAR, NAMES)`, NAMES of two.
+type Sigini =
+    unsafe extern "C" fn(Reals, Reals, Whole, Whole, Whole, Whole, Whole, Whole, Whole, *mut [c_char; 80], usize);
 /// `SUBROUTINE UEXTERNALDB(LOP, LRESTART, TIME, DTIME, KSTEP, KINC)`.
 type Uexternaldb = unsafe extern "C" fn(Whole, Whole, Reals, Reals, Whole, Whole);
 
@@ -65,6 +68,7 @@ type Uexternaldb = unsafe extern "C" fn(Whole, Whole, Reals, Reals, Whole, Whole
 pub struct Law {
     umat: Umat,
     sdvini: Option<Sdvini>,
+    sigini: Option<Sigini>,
     uexternaldb: Option<Uexternaldb>,
     library: libloading::Library,
 }
@@ -81,7 +85,8 @@ impl Law {
         let library = libloading::Library::from(library.map_err(|error| why(&error))?);
         let umat = symbol::<Umat>(&library, "umat").ok_or_else(|| without_umat(path))?;
         let (sdvini, uexternaldb) = (symbol(&library, "sdvini"), symbol(&library, "uexternaldb"));
-        Ok(Law { umat, sdvini, uexternaldb, library })
+        let sigini = symbol(&library, "sigini");
+        Ok(Law { umat, sdvini, sigini, uexternaldb, library })
     }
 
     /// Has a build that counts its lines write the counts; whether it is one.
@@ -362,6 +367,37 @@ impl<'a> Session<'a> {
             }
         }
         self.state.numbers().to_vec()
+    }
+
+    /// The stress of a point before its first increment, by SIGINI if there is one.
+    pub fn initial_stress(&mut self, place: [i32; 2]) -> Components {
+        let mut stress = self.material.stress;
+        if let Some(sigini) = self.law.sigini {
+            if let Some(shared) = self.shared {
+                shared.count();
+            }
+            let (mut coordinates, mut names) = ([0.0; 3], [[b' ' as c_char; 80]; 2]);
+            let mut components = self.material.components as i32;
+            let [mut element, mut point] = place;
+            let [mut axes, mut layer, mut section, mut rebar] = [3, 1, 1, 0];
+            // SAFETY: the arguments that Abaqus passes, each as long as it is declared.
+            unsafe {
+                sigini(
+                    stress.as_mut_ptr(),
+                    coordinates.as_mut_ptr(),
+                    &mut components,
+                    &mut axes,
+                    &mut element,
+                    &mut point,
+                    &mut layer,
+                    &mut section,
+                    &mut rebar,
+                    names.as_mut_ptr(),
+                    80,
+                );
+            }
+        }
+        stress
     }
 
     /// Takes 13 and 23 for each other from now on, as a law does that was written for VUMAT's order; or no longer.

@@ -255,13 +255,17 @@ pub fn run_task(
     let program = std::env::current_exe().map_err(io_error)?;
     let mut command = Command::new(program);
     command.arg("check-child").arg(&request).current_dir(work_dir::running(folder));
-    command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::piped());
+    command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
+    // What a law writes before it ends must not stay in a buffer.
+    command.env("GFORTRAN_UNBUFFERED_PRECONNECTED", "1");
     bound_child::bind(&mut command);
     let mut child = command.spawn().map_err(io_error)?;
-    let errors = child.stderr.take();
+    let (errors, said) = (child.stderr.take(), child.stdout.take());
     let reader = std::thread::spawn(move || errors.map_or(String::new(), last_bytes));
+    let listener = std::thread::spawn(move || said.map_or(String::new(), last_bytes));
     let status = watch(&mut child, &shared, longest_call).map_err(io_error)?;
     let messages = reader.join().unwrap_or_default();
+    let said = last_words(&listener.join().unwrap_or_default());
     let reply = std::fs::read(&result).ok().and_then(|text| serde_json::from_slice::<ChildReply>(&text).ok());
     if let (Some(reply), Watched::Ended(status)) = (reply, &status)
         && status.success()
@@ -276,7 +280,11 @@ pub fn run_task(
         }
     }
     let seen = Seen::read(&shared).map_err(io_error)?;
-    Ok(Err(ending(&status, &messages, &seen)))
+    let mut ending = ending(&status, &messages, &seen);
+    if matches!(ending.kind.as_str(), "XIT" | "stop") && !said.is_empty() {
+        ending.text.push_str(&format!("; its last words: {said}"));
+    }
+    Ok(Err(ending))
 }
 
 enum Watched {
@@ -380,6 +388,15 @@ fn at_signal(seen: &Seen, after: &str, call: Option<Call>) -> Ending {
     };
     Ending { kind, text, call }
 }
+
+/// The last lines that a law has written, in one.
+fn last_words(text: &str) -> String {
+    let lines: Vec<&str> = text.lines().map(str::trim).filter(|line| !line.is_empty()).collect();
+    lines[lines.len().saturating_sub(LAST_WORDS)..].join(" / ")
+}
+
+/// So many of them.
+const LAST_WORDS: usize = 3;
 
 fn last_line(messages: &str) -> &str {
     messages.lines().rev().map(str::trim).find(|line| !line.is_empty()).unwrap_or_default()

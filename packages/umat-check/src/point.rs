@@ -56,11 +56,11 @@ impl Point {
     /// A point that has not been deformed, of this element and number. The element is 1 everywhere: laws may have
     /// tables by it.
     pub fn virgin(session: &mut Session, place: [i32; 2]) -> Point {
-        let state = session.initial_state(place);
+        let (state, stress) = (session.initial_state(place), session.initial_stress(place));
         let nothing = [0.0; 6];
         Point {
             f: Matrix3::identity(),
-            stress: session.material.stress,
+            stress,
             state,
             energies: [0.0; 3],
             strain: nothing,
