@@ -6,56 +6,12 @@ use std::path::Path;
 
 use nalgebra::Matrix3;
 
+use super::arguments::{Arguments, Reals, Umat, Whole};
 use super::guarded::{Guard, Guarded};
 use super::kinematics::{Components, Modulus};
 use super::material::Material;
 use super::shared::Shared;
 
-type Reals = *mut f64;
-/// A law may write to what is its caller's own.
-type Whole = *mut i32;
-
-/// `SUBROUTINE UMAT(STRESS, STATEV, DDSDDE, SSE, ...)`, with the length of CMNAME behind the last argument.
-type Umat = unsafe extern "C" fn(
-    Reals,       // STRESS
-    Reals,       // STATEV
-    Reals,       // DDSDDE
-    Reals,       // SSE
-    Reals,       // SPD
-    Reals,       // SCD
-    Reals,       // RPL
-    Reals,       // DDSDDT
-    Reals,       // DRPLDE
-    Reals,       // DRPLDT
-    Reals,       // STRAN
-    Reals,       // DSTRAN
-    Reals,       // TIME
-    Reals,       // DTIME
-    Reals,       // TEMP
-    Reals,       // DTEMP
-    Reals,       // PREDEF
-    Reals,       // DPRED
-    *mut c_char, // CMNAME
-    Whole,       // NDI
-    Whole,       // NSHR
-    Whole,       // NTENS
-    Whole,       // NSTATV
-    Reals,       // PROPS
-    Whole,       // NPROPS
-    Reals,       // COORDS
-    Reals,       // DROT
-    Reals,       // PNEWDT
-    Reals,       // CELENT
-    Reals,       // DFGRD0
-    Reals,       // DFGRD1
-    Whole,       // NOEL
-    Whole,       // NPT
-    Whole,       // LAYER
-    Whole,       // KSPT
-    Whole,       // JSTEP(4)
-    Whole,       // KINC
-    usize,
-);
 /// `SUBROUTINE SDVINI(STATEV, COORDS, NSTATV, NCRDS, NOEL, NPT, LAYER, KSPT)`.
 type Sdvini = unsafe extern "C" fn(Reals, Reals, Whole, Whole, Whole, Whole, Whole, Whole);
 /// `SUBROUTINE SIGINI(SIGMA, COORDS, NTENS, NCRDS, NOEL, NPT, LAYER, KSPT, LREBAR, NAMES)`, NAMES of two.
@@ -168,6 +124,8 @@ pub struct Call {
     pub unset: f64,
     /// KSTEP.
     pub step: i32,
+    /// DTEMP.
+    pub temperature_step: f64,
 }
 
 impl Call {
@@ -177,7 +135,7 @@ impl Call {
     }
 
     /// The numbers of the row with their names, in order.
-    pub fn named(&self) -> [(&'static str, Vec<f64>); 16] {
+    pub fn named(&self) -> [(&'static str, Vec<f64>); 17] {
         [
             ("NSTATV", vec![self.state.len() as f64]),
             ("STRESS", self.stress.to_vec()),
@@ -195,6 +153,7 @@ impl Call {
             ("KINC", vec![f64::from(self.increment)]),
             ("DDSDDE before the call", vec![self.unset]),
             ("KSTEP", vec![f64::from(self.step)]),
+            ("DTEMP", vec![self.temperature_step]),
         ]
     }
 
@@ -228,6 +187,7 @@ impl Call {
             increment: take(1)?[0] as i32,
             unset: take(1)?[0],
             step: take(1).map_or(1, |step| step[0] as i32),
+            temperature_step: take(1).map_or(0.0, |step| step[0]),
         })
     }
 }
@@ -243,6 +203,8 @@ pub struct Answer {
     pub energies: [f64; 3],
     /// PNEWDT; below 1 the law wants a smaller increment.
     pub next_step: f64,
+    /// DDSDDT.
+    pub by_temperature: Components,
 }
 
 impl Answer {
@@ -267,7 +229,7 @@ impl Answer {
 }
 
 /// PNEWDT before a call; Abaqus sets it to a large number.
-const NO_WISH: f64 = 1e36;
+pub const NO_WISH: f64 = 1e36;
 
 /// WorkDir for the calls of one thread.
 pub struct Session<'a> {
@@ -433,108 +395,19 @@ impl<'a> Session<'a> {
         self.state.numbers_mut().copy_from_slice(&call.state);
         self.modulus.numbers_mut().fill(call.unset);
         self.constants.numbers_mut().copy_from_slice(&self.properties);
-        let mut name = self.name;
-        let [mut elastic, mut plastic, mut creep] = call.energies;
-        let (mut heat, mut heat_by_temperature) = (0.0, 0.0);
-        let (mut by_temperature, mut heat_by_strain) = ([0.0; 6], [0.0; 6]);
-        let (mut strain, mut strain_increment) = (call.strain, call.strain_increment);
-        let (mut time, mut time_step) = (call.time, call.time_step);
-        let (mut temperature, mut temperature_step) = (call.temperature, 0.0);
-        let (mut field, mut field_step) = ([0.0; 8], [0.0; 8]);
-        let (mut coordinates, mut rotation) = ([0.0; 3], call.rotation);
-        let (mut next_step, mut length) = (NO_WISH, 1.0);
-        let (mut f0, mut f1) = (call.f0, call.f1);
-        let mut direct = self.material.direct() as i32;
-        let mut all = components as i32;
-        let mut shear = all - direct;
-        let mut states = call.state.len() as i32;
-        let mut constants = self.properties.len() as i32;
-        let [mut element, mut point] = call.place;
-        let [mut layer, mut section, mut increment] = [1, 1, call.increment];
-        // JSTEP: the step, a static one, NLGEOM=YES, no perturbation.
-        let mut step = [call.step, 1, 1, 0];
-        // SAFETY: the arguments of a UMAT, each as long as Abaqus declares it; matrices are in Fortran's order. What
-        // the subroutine does beyond is its author's affair, and this process is there to bear it.
-        unsafe {
-            (self.law.umat)(
-                self.stress.as_mut_ptr(),
-                self.state.as_mut_ptr(),
-                self.modulus.as_mut_ptr(),
-                &mut elastic,
-                &mut plastic,
-                &mut creep,
-                &mut heat,
-                by_temperature.as_mut_ptr(),
-                heat_by_strain.as_mut_ptr(),
-                &mut heat_by_temperature,
-                strain.as_mut_ptr(),
-                strain_increment.as_mut_ptr(),
-                time.as_mut_ptr(),
-                &mut time_step,
-                &mut temperature,
-                &mut temperature_step,
-                field.as_mut_ptr(),
-                field_step.as_mut_ptr(),
-                name.as_mut_ptr(),
-                &mut direct,
-                &mut shear,
-                &mut all,
-                &mut states,
-                self.constants.as_mut_ptr(),
-                &mut constants,
-                coordinates.as_mut_ptr(),
-                rotation.as_mut_slice().as_mut_ptr(),
-                &mut next_step,
-                &mut length,
-                f0.as_mut_slice().as_mut_ptr(),
-                f1.as_mut_slice().as_mut_ptr(),
-                &mut element,
-                &mut point,
-                &mut layer,
-                &mut section,
-                step.as_mut_ptr(),
-                &mut increment,
-                self.name.len(),
-            );
-        }
+        let mut arguments = Arguments::new(call, self.material, self.properties.len());
+        let arrays = [&mut self.stress, &mut self.state, &mut self.modulus, &mut self.constants];
+        arguments.pass(self.law.umat, arrays.map(Guarded::as_mut_ptr), self.name);
         if let Some(watched) = &mut self.watched {
-            let changed = |before: &[f64], after: &[f64]| {
-                !before.iter().map(|value| value.to_bits()).eq(after.iter().map(|value| value.to_bits()))
-            };
-            let counts = [
-                (direct, self.material.direct() as i32),
-                (all, components as i32),
-                (states, call.state.len() as i32),
-                (constants, self.properties.len() as i32),
-                (element, call.place[0]),
-                (point, call.place[1]),
-                (increment, call.increment),
-                (step[0], call.step),
-            ];
-            let inputs = [
-                ("PROPS", changed(&self.properties, self.constants.numbers())),
-                ("STRAN", changed(&call.strain, &strain)),
-                ("DSTRAN", changed(&call.strain_increment, &strain_increment)),
-                ("DFGRD0", changed(call.f0.as_slice(), f0.as_slice())),
-                ("DFGRD1", changed(call.f1.as_slice(), f1.as_slice())),
-                ("DROT", changed(call.rotation.as_slice(), rotation.as_slice())),
-                ("TIME", changed(&call.time, &time)),
-                ("DTIME", changed(&[call.time_step], &[time_step])),
-                ("TEMP", changed(&[call.temperature], &[temperature])),
-                ("a count or number", counts.iter().any(|(after, before)| after != before)),
-            ];
-            for (name, changed) in inputs {
-                if changed && !watched.contains(&name) {
-                    watched.push(name);
-                }
-            }
+            arguments.note_written(call, &self.properties, self.constants.numbers(), watched);
         }
         let mut answer = Answer {
             stress: [0.0; 6],
             state: self.state.numbers().to_vec(),
             modulus: [[0.0; 6]; 6],
-            energies: [elastic, plastic, creep],
-            next_step,
+            energies: arguments.energies,
+            next_step: arguments.next_step,
+            by_temperature: arguments.by_temperature,
         };
         answer.stress[..components].copy_from_slice(self.stress.numbers());
         for (index, &entry) in self.modulus.numbers().iter().enumerate() {
@@ -566,11 +439,12 @@ mod tests {
             increment: 5,
             unset: 0.0,
             step: 2,
+            temperature_step: 6.0,
         };
         assert_eq!(Call::from_numbers(&call.numbers()), Some(call.clone()));
         let numbers = call.numbers();
-        // Files of earlier versions have no KSTEP.
-        let without = &numbers[..numbers.len() - 1];
+        // Files of earlier versions have neither KSTEP nor DTEMP.
+        let without = &numbers[..numbers.len() - 2];
         assert_eq!(Call::from_numbers(without).map(|call| call.step), Some(1));
         assert_eq!(Call::from_numbers(&without[..without.len() - 1]), None);
     }

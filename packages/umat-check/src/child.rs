@@ -17,8 +17,8 @@ use super::guarded::Guard;
 use super::material::{Material, Reads};
 use super::shared::{self, SIGNALLED, Seen, Shared};
 use super::{
-    coverage, energy, expect, job, jumps, objectivity, place, process, properties, rest, steps, stress, tangent, vumat,
-    work_dir,
+    coverage, energy, expect, job, jumps, objectivity, place, process, properties, rest, steps, stress, tangent,
+    thermal, vumat, work_dir,
 };
 use toron_shared::bound_child;
 use toron_shared::error::Error;
@@ -188,6 +188,7 @@ fn answer_question(
         Question::Tangent => tangent::tangent(session, reads, allowed),
         Question::Objectivity => objectivity::objectivity(session, reads),
         Question::Isotropy => objectivity::isotropy(session),
+        Question::Thermal => thermal::thermal(session),
         Question::Steps => steps::steps(session),
         Question::Jumps => jumps::jumps(session),
         Question::Job => job::job(session),

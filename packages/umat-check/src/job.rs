@@ -87,7 +87,7 @@ fn differences(session: &mut Session, paths: &[Vec<Matrix3<f64>>], one: &[Vec<An
 }
 
 fn different(one: &Answer, two: &Answer) -> Option<String> {
-    let far = |a: f64, b: f64, size: f64| !((a - b).abs() <= SAME * size);
+    let far = |a: f64, b: f64, size: f64| (a - b).is_nan() || (a - b).abs() > SAME * size;
     let size = one.stress.iter().fold(0.0_f64, |size, stress| size.max(stress.abs()));
     if (0..6).any(|i| far(one.stress[i], two.stress[i], size)) {
         let change = one.stress.iter().zip(&two.stress).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);

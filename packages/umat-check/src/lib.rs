@@ -7,6 +7,7 @@
 
 #![cfg(target_os = "linux")]
 
+pub mod arguments;
 pub mod call;
 pub mod child;
 pub mod ci;
@@ -47,5 +48,6 @@ pub mod sources;
 pub mod steps;
 pub mod stress;
 pub mod tangent;
+pub mod thermal;
 pub mod vumat;
 pub mod work_dir;

@@ -93,6 +93,7 @@ impl Point {
             increment: self.increment + 1,
             unset: 0.0,
             step: self.step,
+            temperature_step: 0.0,
         };
         if material.orientation {
             // The axes turn with the material, and everything is written on them.

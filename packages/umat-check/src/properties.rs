@@ -28,11 +28,11 @@ pub fn properties(session: &mut Session) -> Finding {
         return line(Verdict::NotSure, "there was no answer".to_string());
     }
     let mut idle = Vec::new();
-    for index in 0..count {
+    for (index, &value) in given.iter().enumerate() {
         let changed = CHANGES.iter().any(|change| {
-            session.properties[index] = if given[index] == 0.0 { *change } else { given[index] * (1.0 + change) };
+            session.properties[index] = if value == 0.0 { *change } else { value * (1.0 + change) };
             let found = answers(session, &paths);
-            session.properties[index] = given[index];
+            session.properties[index] = value;
             differs(&found, &alone)
         });
         if !changed {

@@ -68,6 +68,7 @@ fn answer_question(question: Question, law: &Law, session: &mut Session, reads: 
         | Question::Properties
         | Question::Jumps
         | Question::Job
-        | Question::Expect => Ok(Finding::new(question, Verdict::NotAsked, None, "not asked of a VUMAT")),
+        | Question::Expect
+        | Question::Thermal => Ok(Finding::new(question, Verdict::NotAsked, None, "not asked of a VUMAT")),
     }
 }
