@@ -33,13 +33,13 @@ impl Law {
     /// Loads a library; symbols that are missing are looked for when they are called.
     ///
     /// # Errors
-    /// It cannot be loaded, or has no UMAT.
-    pub fn load(path: &Path) -> Result<Law, String> {
+    /// It cannot be loaded, or has no UMAT, or nothing of the name that it should have.
+    pub fn load(path: &Path, name: Option<&str>) -> Result<Law, String> {
         use libloading::os::unix::{Library, RTLD_LAZY, RTLD_LOCAL};
         // SAFETY: what a library does as it is loaded is its author's affair; this process is there to bear it.
         let library = unsafe { Library::open(Some(path), RTLD_LAZY | RTLD_LOCAL) };
         let library = libloading::Library::from(library.map_err(|error| why(&error))?);
-        let umat = symbol::<Umat>(&library, "umat").ok_or_else(|| without_umat(path))?;
+        let umat = symbol::<Umat>(&library, name.unwrap_or("umat")).ok_or_else(|| without_umat(path, name))?;
         let (sdvini, uexternaldb) = (symbol(&library, "sdvini"), symbol(&library, "uexternaldb"));
         let sigini = symbol(&library, "sigini");
         Ok(Law { umat, sdvini, sigini, uexternaldb, library })
@@ -77,7 +77,10 @@ pub fn write_counts(library: &libloading::Library) -> bool {
 }
 
 /// The error of a library without UMAT: which other routine it has, by the names of its symbols.
-fn without_umat(path: &Path) -> String {
+fn without_umat(path: &Path, wanted: Option<&str>) -> String {
+    if let Some(name) = wanted {
+        return format!("there is no subroutine {name}");
+    }
     let bytes = std::fs::read(path).unwrap_or_default();
     let is_name = |text: &&str| text.bytes().all(|byte| byte.is_ascii_alphanumeric() || byte == b'_');
     let texts = bytes.split(|&byte| byte == 0).filter_map(|text| std::str::from_utf8(text).ok()).filter(is_name);
@@ -93,7 +96,15 @@ fn without_umat(path: &Path) -> String {
 
 /// The address of a subroutine, under the names that compilers give it.
 pub fn symbol<T: Copy>(library: &libloading::Library, name: &str) -> Option<T> {
-    [format!("{name}_"), name.to_uppercase(), name.to_string()].iter().find_map(|name| {
+    [
+        format!("{name}_"),
+        name.to_uppercase(),
+        name.to_string(),
+        format!("{}_", name.to_lowercase()),
+        name.to_lowercase(),
+    ]
+    .iter()
+    .find_map(|name| {
         // SAFETY: the caller's type is that of the subroutine of this name.
         unsafe { library.get::<T>(name.as_bytes()) }.ok().map(|symbol| *symbol)
     })

@@ -125,7 +125,7 @@ fn reply_to(request: &Path) -> Result<(), Error> {
         let reply = reply.ok_or_else(|| Error::Input("this is asked of a UMAT alone".to_string()))?;
         return write_reply(&result, &reply);
     }
-    let law = loaded(Law::load(&library));
+    let law = loaded(Law::load(&library, material.symbol.as_deref()));
     Shared::catch_signals();
     law.begin();
     let mut session = Session::new(&law, &material, guard, Some(shared)).map_err(io_error)?;

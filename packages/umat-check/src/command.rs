@@ -48,6 +48,9 @@ pub struct Arguments {
     /// Ask the file's VUMAT, not its UMAT; where there is no UMAT this is not needed.
     #[arg(long)]
     vumat: bool,
+    /// What a UMAT is called in a library, as that of CalculiX's *MATERIAL, NAME=@ABAQUSNL_LIBRARY_NAME.
+    #[arg(long, conflicts_with = "vumat")]
+    symbol: Option<String>,
     /// The library of the same VUMAT for single precision, where FILE is a library.
     #[arg(long, requires = "file")]
     single: Option<PathBuf>,
@@ -154,7 +157,10 @@ pub fn run(program: &str, arguments: &Arguments) -> Result<(), Error> {
     };
     let built = compile::compile(file, &work_dir.path, &options)?;
     RunDirectory::check(&arguments.output, &repeated::writes(file))?;
-    if arguments.vumat || only_vumat(&built, &work_dir.path, materials.first())? {
+    for material in &mut materials {
+        material.symbol.clone_from(&arguments.symbol);
+    }
+    if arguments.vumat || arguments.symbol.is_none() && only_vumat(&built, &work_dir.path, materials.first())? {
         let single = match &arguments.single {
             Some(library) => Some(Ok(canonical(library)?)),
             None => built.single(file, &work_dir.path)?,
@@ -322,15 +328,14 @@ impl Check<'_> {
         guard: Guard,
         ended: &mut Vec<(String, Question)>,
     ) -> Result<Finding, Error> {
-        let checked = question == Question::Runtime;
+        let mut left_out = "";
         let library = match question {
             Question::Runtime => self.built.checked.as_ref().ok_or("no second build with checks at run time"),
             Question::Coverage => self.built.counted.as_ref().ok_or("a library says nothing of its lines"),
             _ => Ok(&self.built.library),
         };
-        let library = match library {
-            Ok(library) => library,
-            Err(text) => return Ok(Finding::new(question, Verdict::NotAsked, None, text)),
+        let Ok(library) = library.map_err(|text| left_out = text) else {
+            return Ok(Finding::new(question, Verdict::NotAsked, None, left_out));
         };
         let task = Task::Question { question, reads, allowed: self.allowed.get(question.name()).copied() };
         let guards: &[Guard] = match question {
@@ -360,32 +365,28 @@ impl Check<'_> {
             }
         }
         let finding = answer.unwrap_or_else(|| Finding::new(question, Verdict::NotSure, None, "no answer"));
-        if question == Question::Coverage && finding.verdict == Verdict::Right {
-            return Ok(coverage::of_counts(self.work_dir));
-        }
-        if checked && finding.kinds.iter().any(|kind| kind == NOT_FINITE) {
-            let unset = self.built.used_unset(self.file, self.work_dir);
-            let unset = if unset.is_empty() { String::new() } else { format!(": by gfortran {}", unset.join(", ")) };
-            return Ok(Finding { text: format!("{}{unset}", finding.text), ..finding });
-        }
-        if question == Question::Repeat && finding.verdict == Verdict::Right {
-            let mut run = |task: Task| self.run_task(material, task, guard, library, longest_call);
-            return Ok(kept::properties(&mut run, material)?.unwrap_or(finding));
-        }
-        if matches!(question, Question::Repeat | Question::Threads) && finding.verdict == Verdict::Wrong {
-            return Ok(self.perhaps_unset(finding));
-        }
-        if question == Question::Tangent && finding.kinds.iter().any(|kind| kind == noise::NOISE) {
-            return Ok(self.single_precision(finding));
-        }
-        if question == Question::Objectivity
-            && !material.explicit.called
-            && finding.verdict == Verdict::Right
-            && reads != Reads::Total
-        {
-            return self.at_large_turns(material, finding, guard, longest_call);
-        }
-        Ok(finding)
+        let has = |kind: &str| finding.kinds.iter().any(|known| known == kind);
+        Ok(match (question, finding.verdict) {
+            (Question::Coverage, Verdict::Right) => coverage::of_counts(self.work_dir),
+            (Question::Runtime, _) if has(NOT_FINITE) => self.with_unset(finding),
+            (Question::Repeat, Verdict::Right) => {
+                let mut run = |task: Task| self.run_task(material, task, guard, library, longest_call);
+                kept::properties(&mut run, material)?.unwrap_or(finding)
+            }
+            (Question::Repeat | Question::Threads, Verdict::Wrong) => self.perhaps_unset(finding),
+            (Question::Tangent, _) if has(noise::NOISE) => self.single_precision(finding),
+            (Question::Objectivity, Verdict::Right) if !material.explicit.called && reads != Reads::Total => {
+                self.at_large_turns(material, finding, guard, longest_call)?
+            }
+            _ => finding,
+        })
+    }
+
+    /// What is not finite with unset reals, with the variables that gfortran sees unset.
+    fn with_unset(&self, finding: Finding) -> Finding {
+        let unset = self.built.used_unset(self.file, self.work_dir);
+        let unset = if unset.is_empty() { String::new() } else { format!(": by gfortran {}", unset.join(", ")) };
+        Finding { text: format!("{}{unset}", finding.text), ..finding }
     }
 
     /// Answers that depend on order may be those of variables that are never set.

@@ -154,22 +154,7 @@ fn material(source: &Source, file: &File, own: &Own, overrides: &Overrides) -> R
         (None, Some(name)) => allowed_name(name.get_ref()).map_err(|message| source.error(name.span(), &message))?,
         (None, None) => DEFAULT_NAME.to_string(),
     };
-    let given = own.initial.as_ref().or(file.initial.as_ref());
-    let mut initial = given.map_or(Vec::new(), |initial| initial.get_ref().clone());
-    let states = overrides.states.or(own.statev).or(file.statev).unwrap_or(initial.len());
-    if states > MOST_STATES {
-        return Err(Error::Input(format!("statev is {states}; allowed: 0 to {MOST_STATES}")));
-    }
-    if let Some(given) = given
-        && states < initial.len()
-    {
-        if overrides.states.is_none() {
-            let message = format!("initial has {} numbers; allowed: statev = {states} or fewer", initial.len());
-            return Err(source.error(given.span(), &message));
-        }
-        initial.truncate(states);
-    }
-    initial.resize(states, 0.0);
+    let initial = initial_state(source, file, own, overrides)?;
     let properties =
         overrides.properties.clone().or(own.properties.clone()).or(file.properties.clone()).unwrap_or_default();
     let key = if overrides.properties.is_some() { "--props" } else { "properties" };
@@ -188,7 +173,6 @@ fn material(source: &Source, file: &File, own: &Own, overrides: &Overrides) -> R
     Ok(Material {
         name,
         properties,
-        initial,
         stress: initial_stress(source, file.stress.as_ref(), components)?,
         components,
         stretch,
@@ -203,12 +187,35 @@ fn material(source: &Source, file: &File, own: &Own, overrides: &Overrides) -> R
         orientation: overrides.orientation || file.orientation.unwrap_or(false),
         fibres: fibres(source, own.fibres.as_ref().or(file.fibres.as_ref()))?,
         seed: overrides.seed.or(file.seed).unwrap_or(1),
-        explicit: explicit(source, file, states)?,
+        explicit: explicit(source, file, initial.len())?,
+        initial,
         deck: None,
         unsymmetric: None,
         remarks: Vec::new(),
+        symbol: None,
         expected: known_answers(source, file, components)?,
     })
+}
+
+/// STATEV at the beginning.
+fn initial_state(source: &Source, file: &File, own: &Own, overrides: &Overrides) -> Result<Vec<f64>, Error> {
+    let given = own.initial.as_ref().or(file.initial.as_ref());
+    let mut initial = given.map_or(Vec::new(), |initial| initial.get_ref().clone());
+    let states = overrides.states.or(own.statev).or(file.statev).unwrap_or(initial.len());
+    if states > MOST_STATES {
+        return Err(Error::Input(format!("statev is {states}; allowed: 0 to {MOST_STATES}")));
+    }
+    if let Some(given) = given
+        && states < initial.len()
+    {
+        if overrides.states.is_none() {
+            let message = format!("initial has {} numbers; allowed: statev = {states} or fewer", initial.len());
+            return Err(source.error(given.span(), &message));
+        }
+        initial.truncate(states);
+    }
+    initial.resize(states, 0.0);
+    Ok(initial)
 }
 
 fn known_answers(source: &Source, file: &File, components: usize) -> Result<Vec<Expected>, Error> {

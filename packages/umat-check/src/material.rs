@@ -48,6 +48,9 @@ pub struct Material {
     pub unsymmetric: Option<bool>,
     #[serde(default)]
     pub remarks: Vec<String>,
+    /// What the subroutine is called in a library, where not UMAT or VUMAT.
+    #[serde(default)]
+    pub symbol: Option<String>,
     /// Known answers.
     #[serde(default)]
     pub expected: Vec<Expected>,

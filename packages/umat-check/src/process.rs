@@ -284,16 +284,8 @@ pub fn outputs(session: &mut Session) -> Finding {
     if asked == 0 {
         return Finding::new(Question::Outputs, Verdict::NotSure, None, "there was no answer");
     }
-    if written.contains(&"PROPS") {
-        let text = format!(
-            "{} are inputs, and are written to: the next call of any point gets other PROPS",
-            written.join(", ")
-        );
-        return Finding::new(Question::Outputs, Verdict::Wrong, None, text).with("input overwritten");
-    }
     if !written.is_empty() {
-        let text = format!("{} are inputs, and are written to", written.join(", "));
-        return Finding::new(Question::Outputs, Verdict::Warning, None, text).with("input overwritten");
+        return inputs_written(&written);
     }
     if used.iter().flatten().any(|used| *used) {
         let text = if unset == used {
@@ -304,6 +296,16 @@ pub fn outputs(session: &mut Session) -> Finding {
         return Finding::new(Question::Outputs, Verdict::Warning, None, text).with("unset");
     }
     Finding::new(Question::Outputs, Verdict::Right, None, "every entry of DDSDDE is set, inputs are left alone")
+}
+
+/// PROPS are those of all points; of others Abaqus hands over a copy.
+fn inputs_written(written: &[&str]) -> Finding {
+    let text = format!("{} are inputs, and are written to", written.join(", "));
+    let line = |verdict, text: String| Finding::new(Question::Outputs, verdict, None, text).with("input overwritten");
+    match written.contains(&"PROPS") {
+        true => line(Verdict::Wrong, format!("{text}: the next call of any point gets other PROPS")),
+        false => line(Verdict::Warning, text),
+    }
 }
 
 /// Exceptions, in C's names of this processor.

@@ -173,3 +173,29 @@ fn a_quick_check_asks_less() {
     let (code, report) = check(&law, &["--props=.8,.1,20".to_string(), "--only=build".to_string()]);
     assert_eq!((code, report["materials"][0]["lines"].as_array().map(Vec::len)), (0, Some(1)));
 }
+
+// ---- libraries
+
+/// A plugin of CalculiX has a UMAT under another name.
+#[test]
+fn a_library_is_asked_under_the_name_of_its_subroutine() {
+    let library = written("libplugin.so");
+    let built = std::process::Command::new("gcc")
+        .args(["-shared", "-fPIC", "-w", "-Dumat_=plugin", "-o", &library])
+        .arg(corpus("laws/ogden.c"))
+        .status();
+    assert!(built.expect("gcc").success());
+    let scene = corpus("laws/ogden.toml").display().to_string();
+    let run = |symbol: &str| {
+        let arguments = ["--scene", &scene, "--only=tangent", &format!("--symbol={symbol}")].map(str::to_string);
+        std::process::Command::new(env!("CARGO_BIN_EXE_umat-check"))
+            .arg(&library)
+            .args(arguments)
+            .output()
+            .expect("runs")
+    };
+    assert!(run("PLUGIN").status.success());
+    let missing = run("OTHER");
+    assert_eq!(missing.status.code(), Some(2));
+    assert!(String::from_utf8_lossy(&missing.stderr).contains("there is no subroutine OTHER"));
+}

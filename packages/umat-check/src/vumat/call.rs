@@ -455,14 +455,20 @@ impl<'a> Session<'a> {
         }
     }
 
-    fn call(&self, arrays: &mut Arrays, time: Time) {
-        // The first argument of laws that declare it as JBLOCK(*) has the elements' numbers behind.
+    /// nblock and lanneal, each with what stands behind it.
+    fn whole_numbers(&self, points: usize) -> [Vec<i32>; 2] {
         let elements = |k: usize| if self.numbered { k as i32 } else { 1 };
-        let elements: Vec<i32> = (1..=arrays.points).map(elements).collect();
-        let mut block: Vec<i32> = [arrays.points as i32, 1, 1, 1].into_iter().chain(elements.clone()).collect();
+        let elements: Vec<i32> = (1..=points).map(elements).collect();
+        // The first argument of laws that declare it as JBLOCK(*) has the elements' numbers behind.
+        let block = [points as i32, 1, 1, 1].into_iter().chain(elements.clone()).collect();
         // lanneal, or in newer versions jInfoArray, whose first entry it is: integration point, layer, section point,
         // whether moduli are asked for, and where the elements' numbers begin.
-        let mut information: Vec<i32> = [0, 1, 1, 1, 0, 7].into_iter().chain(elements).collect();
+        let information = [0, 1, 1, 1, 0, 7].into_iter().chain(elements).collect();
+        [block, information]
+    }
+
+    fn call(&self, arrays: &mut Arrays, time: Time) {
+        let [mut block, mut information] = self.whole_numbers(arrays.points);
         let [mut direct, mut shear] = [3, self.material.components as i32 - 3];
         let mut states = self.material.initial.len() as i32;
         let mut fields = 0;
