@@ -22,6 +22,7 @@ use super::relate;
 use super::repeated::{self, Repeated};
 use super::report::{MaterialReport, Report};
 use super::shared;
+use super::tangent;
 use super::work_dir::WorkDir;
 use toron_shared::console::print;
 use toron_shared::error::Error;
@@ -102,6 +103,9 @@ pub struct Arguments {
     /// Write the report as SARIF.
     #[arg(long)]
     sarif: Option<PathBuf>,
+    /// Keep the worst call of a wrong tangent too, and each call as a program in Fortran.
+    #[arg(long)]
+    reproduce: bool,
     /// Print the report as JSON.
     #[arg(long)]
     json: bool,
@@ -351,7 +355,9 @@ impl Check<'_> {
         for &guard in guards {
             match self.run_task(material, task.clone(), guard, library, longest_call)? {
                 Ok(ChildReply::Finding(mut finding)) => {
-                    if let Some(call) = finding.call_bits.take().and_then(|bits| Call::from_bits(&bits)) {
+                    let few = finding.kinds.iter().any(|kind| kind == tangent::FEW_STATES);
+                    let kept = finding.call_bits.take().filter(|_| few || self.arguments.reproduce);
+                    if let Some(call) = kept.and_then(|bits| Call::from_bits(&bits)) {
                         finding.call = Some(self.keep_call(material, question, guard, call)?);
                     }
                     answer = Some(finding);
@@ -495,7 +501,7 @@ impl Check<'_> {
             guard,
             call,
         };
-        Ok(repeated.write(&self.arguments.output, question)?.display().to_string())
+        Ok(repeated.write(&self.arguments.output, question, self.arguments.reproduce)?.display().to_string())
     }
 }
 

@@ -17,7 +17,7 @@ use super::point::Point;
 /// The kind of what has not run.
 pub const NOT_EXECUTED: &str = "not executed";
 
-const TIME: Duration = Duration::from_secs(8);
+const TIME: Duration = Duration::from_secs(4);
 const HISTORIES: usize = 60;
 /// Increments of a straight path out and back, and how many such paths.
 const STRAIGHT: usize = 100;

@@ -17,6 +17,7 @@ pub mod compiler;
 pub mod coverage;
 pub mod diagnose;
 pub mod differences;
+pub mod driver;
 pub mod energy;
 pub mod expect;
 pub mod finding;

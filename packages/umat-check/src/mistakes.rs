@@ -12,7 +12,7 @@ use super::kinematics::{Increment, Modulus, of_stress, rotation_of, tensor};
 use super::tangent::{Convention, State, add_volume_term};
 
 /// How long mistakes are looked for.
-const TIME: Duration = Duration::from_secs(14);
+const TIME: Duration = Duration::from_secs(10);
 /// States on which mistakes are tried, of the wrong and of the right ones.
 const TRIED: usize = 24;
 /// Relative difference from which the modulus of unloading is another than that of loading.

@@ -404,7 +404,7 @@ pub fn invalid(session: &mut Session, reads: Reads) -> Finding {
 }
 
 const HISTORIES: usize = 100_000;
-const TIME: Duration = Duration::from_secs(12);
+const TIME: Duration = Duration::from_secs(6);
 
 /// Very many short random histories from the initial call.
 pub fn histories(session: &mut Session, reads: Reads) -> Finding {

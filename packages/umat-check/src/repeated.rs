@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::call::Call;
 use super::child::{self, ChildReply, Task};
 use super::compile::{self, Options};
+use super::driver;
 use super::finding::Question;
 use super::guarded::Guard;
 use super::material::Material;
@@ -49,11 +50,11 @@ struct Written {
 }
 
 impl Repeated {
-    /// Writes `NAME-LINE.json` into the folder, under its lock.
+    /// Writes `NAME-LINE.json` into the folder, under its lock, and if asked `NAME-LINE.f90`, the call as a program.
     ///
     /// # Errors
     /// It cannot be written, or the files there are another law's.
-    pub fn write(&self, output: &Path, question: Question) -> Result<PathBuf, Error> {
+    pub fn write(&self, output: &Path, question: Question, as_program: bool) -> Result<PathBuf, Error> {
         let _directory = RunDirectory::lock(output, writes(&self.file))?.claim()?;
         let path = output.join(format!("{}.json", name(&self.file, question)));
         let error = |reason: String| Error::Input(format!("{}: {reason}", path.display()));
@@ -69,6 +70,10 @@ impl Repeated {
         };
         let text = serde_json::to_string_pretty(&written).map_err(|reason| error(reason.to_string()))?;
         std::fs::write(&path, text).map_err(|reason| error(reason.to_string()))?;
+        let law = self.file.display().to_string();
+        if let Some(program) = driver::driver(&self.call, &self.material, &law).filter(|_| as_program) {
+            std::fs::write(path.with_extension("f90"), program).map_err(|reason| error(reason.to_string()))?;
+        }
         Ok(path)
     }
 

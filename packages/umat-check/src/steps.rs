@@ -17,7 +17,7 @@ const PARTS: [usize; 5] = [1, 2, 4, 8, 16];
 /// Where these tell no order: a threshold that is crossed within an increment makes differences uneven, and a law that
 /// relaxes faster than the time passes shows none before parts are shorter than its relaxation.
 const MOST_PARTS: usize = 4096;
-const LONGEST: Duration = Duration::from_secs(10);
+const LONGEST: Duration = Duration::from_secs(6);
 /// Increments of a history.
 const INCREMENTS: usize = 12;
 /// Of the stress.

@@ -19,13 +19,15 @@ use super::point::{Failure, Point};
 
 /// States that are asked at, if the time suffices.
 const STATES: usize = 200;
-const TIME: Duration = Duration::from_secs(14);
+const TIME: Duration = Duration::from_secs(10);
 /// Histories, at most; each gives some states.
 const HISTORIES: usize = 60;
 
 /// Of DTIME, in turn: what is divided by it is wrong for 1 alone, or right.
 const TIME_STEPS: [f64; 3] = [1.0, 0.4, 1.7];
 
+/// The kind of a tangent that is wrong at some.
+pub const FEW_STATES: &str = "few states";
 /// So many wrong states of at least [`MANY`] times as many are a warning.
 const FEW: usize = 2;
 const MANY: usize = 25;
@@ -330,15 +332,16 @@ fn wrong_tangent(
     let slows = convergence(factor.fold(0.0, f64::max));
     let few = wrong.len() <= FEW && states.len() >= MANY * FEW;
     let (kinds, way) = if few {
-        (vec!["few states".to_string()], "in few states alone, perhaps at kinks that are not seen".to_string())
+        (vec![FEW_STATES.to_string()], "in few states alone, perhaps at kinks that are not seen".to_string())
     } else {
         mistakes::name(session, &Sample::new(components, states, found, &wrong, &right), conventions)
     };
     let where_ = states_named(states, &wrong);
     let all = judged.entries();
     let (entries, size) = (judged.named(&all), mistakes::percent(difference.worst));
+    let growth = growth(states, found);
     let text = format!(
-        "{way}; wrong by up to {size} {entries} at {} of {} states ({where_}), worst at {place} {}, {is:.5e} instead of {instead:.5e}; {slows}{aside}",
+        "{way}; wrong by up to {size} {entries}{growth} at {} of {} states ({where_}), worst at {place} {}, {is:.5e} instead of {instead:.5e}; {slows}{aside}",
         wrong.len(),
         states.len(),
         states[at].name,
@@ -353,10 +356,25 @@ fn wrong_tangent(
     let verdict = if few || across || difference.worst <= tolerance { Verdict::Warning } else { Verdict::Wrong };
     let mut finding = Finding::new(Question::Tangent, verdict, Some(difference.worst), text);
     finding.kinds = kinds;
-    if few {
-        finding.call_bits = Some(states[at].call.numbers().into_iter().map(f64::to_bits).collect());
-    }
+    finding.call_bits = Some(states[at].call.numbers().into_iter().map(f64::to_bits).collect());
     finding
+}
+
+/// How the error goes with the strain, where that can be said: at rest, and at the smaller and the larger strains.
+fn growth(states: &[State], found: &[Option<Difference>]) -> &'static str {
+    let strain = |state: &State| Increment::between(&Matrix3::identity(), &state.f1).strain.norm();
+    let mut all: Vec<(f64, f64)> =
+        states.iter().zip(found).filter_map(|(state, found)| Some((strain(state), (*found)?.worst))).collect();
+    all.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let third = all.len() / 3;
+    let largest = |part: &[(f64, f64)]| part.iter().map(|(_, error)| *error).fold(0.0, f64::max);
+    let Some((_, at_rest)) = all.first().filter(|(strain, _)| *strain < 1e-12 && third > 3) else { return "" };
+    let (small, large) = (largest(&all[..third]), largest(&all[all.len() - third..]));
+    match (*at_rest <= TOLERANCE, small < 0.4 * large) {
+        (true, true) => ", right at rest, growing with the strain,",
+        (true, false) => ", right at rest,",
+        (false, _) => ", at rest too,",
+    }
 }
 
 fn convergence(factor: f64) -> String {

@@ -199,3 +199,30 @@ fn a_library_is_asked_under_the_name_of_its_subroutine() {
     assert_eq!(missing.status.code(), Some(2));
     assert!(String::from_utf8_lossy(&missing.stderr).contains("there is no subroutine OTHER"));
 }
+
+/// The call as a program compiles beside the law, and shows the entry that is wrong.
+#[test]
+fn a_wrong_tangent_is_reproduced_by_a_program() {
+    let (folder, program) = (written("reproduced"), written("reproduced-one"));
+    let law = corpus("cases/volume.f");
+    let arguments = ["--props=1,10,.5,.5,0", "--only=tangent", "--reproduce", "--output", &folder].map(str::to_string);
+    let output = std::process::Command::new(env!("CARGO_BIN_EXE_umat-check")).arg(&law).args(arguments).output();
+    assert_eq!(output.expect("runs").status.code(), Some(1));
+    let include = Path::new(&folder).join("ABA_PARAM.INC");
+    std::fs::write(include, "      implicit real*8(a-h,o-z)\n").expect("an include");
+    let compiled = std::process::Command::new("gfortran")
+        .current_dir(&folder)
+        .args(["-std=legacy", "-ffixed-line-length-132", "-I.", "-w"])
+        .arg(&law)
+        .args(["volume-tangent.f90", "-o", &program])
+        .status();
+    assert!(compiled.expect("gfortran").success());
+    let output = std::process::Command::new(&program).output().expect("it runs");
+    let text = String::from_utf8_lossy(&output.stdout);
+    let entry = |kind: &str| -> f64 {
+        let line = text.lines().find(|line| line.starts_with(&format!("1 {kind}"))).expect("a column");
+        line.split_whitespace().nth(2).and_then(|number| number.parse().ok()).expect("a number")
+    };
+    let (given, kirchhoff) = (entry("DDSDDE"), entry("Kirchhoff"));
+    assert!((given - kirchhoff).abs() > 1e-3 * given, "{text}");
+}

@@ -263,7 +263,7 @@ pub fn invalid(session: &mut Session) -> io::Result<Finding> {
 }
 
 const HISTORIES: usize = 100_000;
-const TIME: Duration = Duration::from_secs(12);
+const TIME: Duration = Duration::from_secs(6);
 /// Increments of a random history.
 const OF_HISTORY: usize = 4;
 
