@@ -323,6 +323,15 @@ impl Check<'_> {
         })
     }
 
+    /// The build that a question is asked of, or why there is none.
+    fn library_of(&self, question: Question) -> Result<&Path, &'static str> {
+        match question {
+            Question::Runtime => self.built.checked.as_deref().ok_or("no second build with checks at run time"),
+            Question::Coverage => self.built.counted.as_deref().ok_or("a library says nothing of its lines"),
+            _ => Ok(&self.built.library),
+        }
+    }
+
     /// Runs a question's task in a child, twice for the memory, and makes a finding of how it ends.
     fn answer_question(
         &self,
@@ -332,14 +341,9 @@ impl Check<'_> {
         guard: Guard,
         ended: &mut Vec<(String, Question)>,
     ) -> Result<Finding, Error> {
-        let mut left_out = "";
-        let library = match question {
-            Question::Runtime => self.built.checked.as_ref().ok_or("no second build with checks at run time"),
-            Question::Coverage => self.built.counted.as_ref().ok_or("a library says nothing of its lines"),
-            _ => Ok(&self.built.library),
-        };
-        let Ok(library) = library.map_err(|text| left_out = text) else {
-            return Ok(Finding::new(question, Verdict::NotAsked, None, left_out));
+        let library = match self.library_of(question) {
+            Ok(library) => library,
+            Err(text) => return Ok(Finding::new(question, Verdict::NotAsked, None, text)),
         };
         let task = Task::Question { question, reads, allowed: self.allowed.get(question.name()).copied() };
         let guards: &[Guard] = match question {

@@ -54,7 +54,7 @@ const MOST_KINDS: usize = 3;
 /// Of the largest error, what a reading that is told leaves at most.
 const BETTER: f64 = 0.3;
 /// What the nearest mistake may leave of the error, at most.
-const NEAR: f64 = 0.25;
+const NEAR: f64 = 0.1;
 
 /// As `1.2 %`.
 pub fn percent(part: f64) -> String {

@@ -6,6 +6,7 @@ use super::finding::{Finding, NOT_FINITE, Question, Verdict};
 pub fn relate(findings: &mut [Finding]) {
     not_finite_once(findings);
     stress_before_tangent(findings);
+    build_before_tangent(findings);
     crash_of_unset_variable(findings);
 }
 
@@ -21,6 +22,20 @@ fn stress_before_tangent(findings: &mut [Finding]) {
             let kind = finding.text.strip_prefix("none of the usual mistakes; ");
             let text = kind.map_or_else(|| format!("perhaps {}", finding.text), str::to_string);
             finding.text = format!("the stress itself is wrong (see {of_stress}): mend it first; {text}");
+        }
+    }
+}
+
+/// A tangent that no usual mistake explains may follow from what the compiler warns of.
+fn build_before_tangent(findings: &mut [Finding]) {
+    let of = |question: Question| move |finding: &&Finding| finding.check == question.name();
+    let Some(build) = findings.iter().find(of(Question::Build)).filter(|build| !build.kinds.is_empty()).cloned() else {
+        return;
+    };
+    for finding in findings.iter_mut().filter(|finding| finding.check == Question::Tangent.name()) {
+        if finding.verdict == Verdict::Wrong && finding.kinds.first().is_some_and(|kind| kind == "unknown") {
+            finding.text = format!("perhaps what build says ({}); {}", build.kinds.join(", "), finding.text);
+            finding.kinds.extend(build.kinds.iter().cloned());
         }
     }
 }
