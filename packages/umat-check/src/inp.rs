@@ -41,6 +41,8 @@ enum Data {
     Set(bool),
     Stress,
     Solution,
+    /// Of a composite section, whose layers name their materials.
+    Layers,
 }
 
 #[derive(Default)]
@@ -102,6 +104,10 @@ impl abaqus::Reader for Deck {
                 (Some("SOLUTION"), None) => Data::Solution,
                 _ => Data::None,
             },
+            name if name.ends_with("SECTION") && keyword.value("COMPOSITE").is_some() => {
+                self.current = keyword.label("ELSET").unwrap_or_default();
+                Data::Layers
+            }
             name if name.ends_with("SECTION") => {
                 if let (Some(material), Some(set)) = (keyword.label("MATERIAL"), keyword.label("ELSET")) {
                     self.sections.push((material, set, keyword.value("ORIENTATION").is_some()));
@@ -146,6 +152,12 @@ impl abaqus::Reader for Deck {
             Data::Elements => self.element(line),
             Data::Set(generated) => self.set(line, generated),
             Data::Stress | Data::Solution => self.initial(line)?,
+            // Thickness, points, material, angle.
+            Data::Layers => {
+                if let Some(material) = fields(line.text).nth(2).filter(|name| !name.is_empty()) {
+                    self.sections.push((label(material), self.current.clone(), true));
+                }
+            }
         }
         Ok(())
     }
@@ -293,13 +305,10 @@ impl Deck {
             }
         }
         if let Some(element) = user.element.as_deref().filter(|_| !given.components) {
-            let (components, plane) = of_element(element).ok_or_else(|| {
-                Error::Input(format!(
-                    "{file}: {} is of {element}; allowed: C3D, CPE, CAX, CPS, S, SC and M3D elements, or --ntens",
-                    user.name
-                ))
+            (material.components, material.plane) = of_element(element).ok_or_else(|| {
+                let allowed = "solids, plane, axisymmetric, shell and membrane elements, or --ntens";
+                Error::Input(format!("{file}: {} is of {element}; allowed: {allowed}", user.name))
             })?;
-            (material.components, material.plane) = (components, plane);
         }
         if let Some(values) = of_set(&self.stresses) {
             for (stress, value) in material.stress.iter_mut().zip(values) {
@@ -319,22 +328,37 @@ impl Deck {
 /// NTENS of an element's type, and of four components which they are.
 fn of_element(name: &str) -> Option<(usize, Option<Plane>)> {
     let begins = |letters: &[&str]| letters.iter().any(|letters| name.starts_with(letters));
-    if begins(&["C3D", "CSS", "CCL"]) {
-        Some((6, None))
-    } else if begins(&["CPE", "CGPE"]) {
+    if begins(&["CPE", "CGPE"]) {
         Some((4, Some(Plane::Strain)))
-    } else if begins(&["CAX", "AC"]) {
+    } else if begins(&["CAX"]) {
         Some((4, Some(Plane::Axisymmetric)))
     } else if begins(&["CPS", "S3", "S4", "S8", "SC", "STRI", "M3D"]) {
         Some((3, None))
-    } else {
+    } else if begins(&["COH", "T2", "T3", "B2", "B3", "SAX", "MAX"]) {
         None
+    } else {
+        // Solids, and what a user element may be.
+        Some((6, None))
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_layer_of_a_shell_is_in_plane_stress() {
+        let mut deck = Deck::default();
+        let text = "*Element, type=S4R, elset=PLY\n1, 1, 2, 3, 4\n*Shell Section, elset=PLY, composite\n0.2, 3, UD, 45., Ply-1\n";
+        abaqus::read("deck.inp", text, &mut deck).expect("valid");
+        deck.resolve();
+        let [(material, _, oriented, element)] = &deck.used[..] else { panic!("one layer") };
+        assert_eq!(
+            (material.as_str(), *oriented, element.as_deref().and_then(of_element)),
+            ("UD", true, Some((3, None)))
+        );
+        assert_eq!(of_element("COH3D8"), None);
+    }
 
     #[test]
     fn a_deck_says_what_its_materials_are() {
