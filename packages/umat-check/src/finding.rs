@@ -61,6 +61,9 @@ pub struct Finding {
     /// That call as the child says it, as bits: the parent writes the file.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub call_bits: Option<Vec<u64>>,
+    /// A picture, in lines.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub map: Vec<String>,
     /// Whether an earlier report, the baseline, has it too.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub known: bool,
@@ -78,6 +81,7 @@ impl Finding {
             kinds: Vec::new(),
             call: None,
             call_bits: None,
+            map: Vec::new(),
             known: false,
         }
     }

@@ -32,6 +32,7 @@ pub mod judgement;
 pub mod jumps;
 pub mod kept;
 pub mod kinematics;
+pub mod map;
 pub mod material;
 pub mod mistakes;
 pub mod noise;

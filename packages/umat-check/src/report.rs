@@ -134,7 +134,8 @@ fn as_text(line: &Finding, program: &str, colours: bool) -> String {
     }
     let indent = " ".repeat(NAME + FIGURE + 2 + VERDICT);
     let words = folded(&words, WORDS).replace("\n  ", &format!("\n{indent}"));
-    format!("{:<NAME$}{figure:>FIGURE$}  {verdict}{words}\n", line.check)
+    let map: String = line.map.iter().map(|row| format!("{indent}{row}\n")).collect();
+    format!("{:<NAME$}{figure:>FIGURE$}  {verdict}{words}\n{map}", line.check)
 }
 
 /// Three digits.

@@ -6,12 +6,13 @@ use fastrand::Rng;
 use nalgebra::Matrix3;
 
 use super::call::{Call, Session};
-use super::differences::{Derivative, TOLERANCE, of_deformation, of_strain_increment};
+use super::differences::{Derivative, TOLERANCE, of_deformation, of_strain_increment, scale};
 use super::finding::{Finding, NOT_FINITE, Question, Verdict};
 use super::histories::history;
 use super::hypotheses::stress_by_volume;
 use super::judgement::{Difference, compare, contraction, wrong_entries};
 use super::kinematics::{Components, Increment, Modulus, name};
+use super::map::{self, Branch};
 use super::material::Reads;
 use super::mistakes::{self, Sample};
 use super::noise;
@@ -238,6 +239,24 @@ impl Judged<'_> {
         errors.fold(0.0, f64::max)
     }
 
+    /// The largest errors of the entries, drawn by branch.
+    fn map(&self) -> Vec<String> {
+        let mut branches: Vec<Branch> = Vec::new();
+        for state in self.states {
+            let Some((differences, truth)) = state.truth(self.convention, self.components) else { continue };
+            let at = branches.iter().position(|branch| branch.name == state.name).unwrap_or_else(|| {
+                branches.push(Branch { name: &state.name, errors: [[0.0; 6]; 6] });
+                branches.len() - 1
+            });
+            let scale = scale(&differences.value, self.components);
+            for (i, j) in wrong_entries(&state.modulus, &truth, differences, self.components) {
+                let error = (state.modulus[i][j] - truth[i][j]).abs() / scale[i][j];
+                branches[at].errors[i][j] = branches[at].errors[i][j].max(error);
+            }
+        }
+        map::drawn(&branches, self.components)
+    }
+
     /// The entries that are wrong at some state.
     fn entries(&self) -> Vec<(usize, usize)> {
         let mut all: Vec<(usize, usize)> = Vec::new();
@@ -356,6 +375,7 @@ fn wrong_tangent(
     let verdict = if few || across || difference.worst <= tolerance { Verdict::Warning } else { Verdict::Wrong };
     let mut finding = Finding::new(Question::Tangent, verdict, Some(difference.worst), text);
     finding.kinds = kinds;
+    finding.map = judged.map();
     finding.call_bits = Some(states[at].call.numbers().into_iter().map(f64::to_bits).collect());
     finding
 }
