@@ -88,7 +88,8 @@ pub struct Arguments {
     /// These lines alone, as in tangent,energy.
     #[arg(long, value_delimiter = ',', value_parser = question)]
     only: Vec<Question>,
-    /// The lines that take no time alone: build, memory, rest, stress, known answers, tangent, objectivity, repeat, outputs.
+    /// The lines that take no time alone: build, memory, rest, stress, known answers, tangent, objectivity, repeat,
+    /// outputs.
     #[arg(long, conflicts_with = "only")]
     quick: bool,
     /// Warnings fail too, and lines of the law that are never executed.
@@ -413,8 +414,8 @@ impl Check<'_> {
         finding
     }
 
-    /// Steps of the stress, where the source has variables of single precision, are theirs; a right tangent is right with
-    /// others.
+    /// Steps of the stress, where the source has variables of single precision, are theirs; a right tangent is right
+    /// with others.
     fn single_precision(&self, mut finding: Finding) -> Finding {
         let places: Vec<String> =
             self.built.warnings.single.iter().map(|place| format!("{}: {}", place.named(), place.text)).collect();

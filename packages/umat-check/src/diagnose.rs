@@ -1,5 +1,5 @@
-//! What gfortran warns of in a source that it compiles: lines that it cuts, numbers that it shortens, divisions of whole
-//! numbers.
+//! What gfortran warns of in a source that it compiles: lines that it cuts, numbers that it shortens, divisions of
+//! whole numbers.
 
 use std::path::Path;
 

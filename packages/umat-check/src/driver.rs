@@ -1,4 +1,5 @@
-//! A call as a program in Fortran: what a solver's support or a colleague can compile beside the law, without this check.
+//! A call as a program in Fortran: what a solver's support or a colleague can compile beside the law, without this
+//! check.
 
 use super::call::Call;
 use super::material::Material;

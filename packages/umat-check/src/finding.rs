@@ -86,8 +86,8 @@ impl Finding {
         }
     }
 
-    /// Whether it fails the check: what is wrong, and of a strict one warnings and lines that never ran; nothing that is
-    /// known.
+    /// Whether it fails the check: what is wrong, and of a strict one warnings and lines that never ran; nothing that
+    /// is known.
     pub fn fails(&self, strict: bool) -> bool {
         let doubtful = self.verdict == Verdict::Warning
             || (self.verdict == Verdict::NotSure && self.check == Question::Coverage.name());

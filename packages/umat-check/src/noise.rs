@@ -1,5 +1,5 @@
-//! Whether the stress moves in steps, as a variable of single precision makes it: differences cannot be taken of it, and
-//! Newton's method does not get beyond it.
+//! Whether the stress moves in steps, as a variable of single precision makes it: differences cannot be taken of it,
+//! and Newton's method does not get beyond it.
 
 use super::call::Session;
 use super::kinematics::{Modulus, exp, unit_strain};

@@ -1,5 +1,5 @@
-//! Whether the answer depends on NOEL and NPT, as of laws with tables of fibres or random fields. Every other question is
-//! asked at one element and point.
+//! Whether the answer depends on NOEL and NPT, as of laws with tables of fibres or random fields. Every other question
+//! is asked at one element and point.
 
 use fastrand::Rng;
 

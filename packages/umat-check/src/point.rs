@@ -137,8 +137,8 @@ impl Point {
         self.advance_in(session, f1, time_step)
     }
 
-    /// The same within another time. PNEWDT is obeyed as Abaqus does: the increment begins again from the old state with
-    /// that part of DTIME, so often and no oftener, and later ones may grow again.
+    /// The same within another time. PNEWDT is obeyed as Abaqus does: the increment begins again from the old state
+    /// with that part of DTIME, so often and no oftener, and later ones may grow again.
     ///
     /// # Errors
     /// As [`advance`](Self::advance).

@@ -1,5 +1,5 @@
-//! `umat-check` on public sources (`ffi-tests/check/public.toml`), which a folder of checkouts has: what is wrong in each
-//! is what was judged by hand.
+//! `umat-check` on public sources (`ffi-tests/check/public.toml`), which a folder of checkouts has: what is wrong in
+//! each is what was judged by hand.
 
 mod support;
 

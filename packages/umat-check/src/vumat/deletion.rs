@@ -1,5 +1,5 @@
-//! The state variable by which elements are deleted: once it is 0 it stays 0, and there is no stress. Abaqus sees to both
-//! itself, and calls no more; other solvers that take the routine may not.
+//! The state variable by which elements are deleted: once it is 0 it stays 0, and there is no stress. Abaqus sees to
+//! both itself, and calls no more; other solvers that take the routine may not.
 
 use std::io;
 
