@@ -6,58 +6,17 @@ use std::path::Path;
 
 use nalgebra::Matrix3;
 
+use super::arguments::{Arguments, Reals, Umat, Whole};
 use super::guarded::{Guard, Guarded};
 use super::kinematics::{Components, Modulus};
 use super::material::Material;
 use super::shared::Shared;
 
-type Reals = *mut f64;
-/// A law may write to what is its caller's own.
-type Whole = *mut i32;
-
-/// `SUBROUTINE UMAT(STRESS, STATEV, DDSDDE, SSE, ...)`, with the length of CMNAME behind the last argument.
-type Umat = unsafe extern "C" fn(
-    Reals,       // STRESS
-    Reals,       // STATEV
-    Reals,       // DDSDDE
-    Reals,       // SSE
-    Reals,       // SPD
-    Reals,       // SCD
-    Reals,       // RPL
-    Reals,       // DDSDDT
-    Reals,       // DRPLDE
-    Reals,       // DRPLDT
-    Reals,       // STRAN
-    Reals,       // DSTRAN
-    Reals,       // TIME
-    Reals,       // DTIME
-    Reals,       // TEMP
-    Reals,       // DTEMP
-    Reals,       // PREDEF
-    Reals,       // DPRED
-    *mut c_char, // CMNAME
-    Whole,       // NDI
-    Whole,       // NSHR
-    Whole,       // NTENS
-    Whole,       // NSTATV
-    Reals,       // PROPS
-    Whole,       // NPROPS
-    Reals,       // COORDS
-    Reals,       // DROT
-    Reals,       // PNEWDT
-    Reals,       // CELENT
-    Reals,       // DFGRD0
-    Reals,       // DFGRD1
-    Whole,       // NOEL
-    Whole,       // NPT
-    Whole,       // LAYER
-    Whole,       // KSPT
-    Whole,       // JSTEP(4)
-    Whole,       // KINC
-    usize,
-);
 /// `SUBROUTINE SDVINI(STATEV, COORDS, NSTATV, NCRDS, NOEL, NPT, LAYER, KSPT)`.
 type Sdvini = unsafe extern "C" fn(Reals, Reals, Whole, Whole, Whole, Whole, Whole, Whole);
+/// `SUBROUTINE SIGINI(SIGMA, COORDS, NTENS, NCRDS, NOEL, NPT, LAYER, KSPT, LREBAR, NAMES)`, NAMES of two.
+type Sigini =
+    unsafe extern "C" fn(Reals, Reals, Whole, Whole, Whole, Whole, Whole, Whole, Whole, *mut [c_char; 80], usize);
 /// `SUBROUTINE UEXTERNALDB(LOP, LRESTART, TIME, DTIME, KSTEP, KINC)`.
 type Uexternaldb = unsafe extern "C" fn(Whole, Whole, Reals, Reals, Whole, Whole);
 
@@ -65,23 +24,30 @@ type Uexternaldb = unsafe extern "C" fn(Whole, Whole, Reals, Reals, Whole, Whole
 pub struct Law {
     umat: Umat,
     sdvini: Option<Sdvini>,
+    sigini: Option<Sigini>,
     uexternaldb: Option<Uexternaldb>,
-    _library: libloading::Library,
+    library: libloading::Library,
 }
 
 impl Law {
     /// Loads a library; symbols that are missing are looked for when they are called.
     ///
     /// # Errors
-    /// It cannot be loaded, or has no UMAT.
-    pub fn load(path: &Path) -> Result<Law, String> {
+    /// It cannot be loaded, or has no UMAT, or nothing of the name that it should have.
+    pub fn load(path: &Path, name: Option<&str>) -> Result<Law, String> {
         use libloading::os::unix::{Library, RTLD_LAZY, RTLD_LOCAL};
         // SAFETY: what a library does as it is loaded is its author's affair; this process is there to bear it.
         let library = unsafe { Library::open(Some(path), RTLD_LAZY | RTLD_LOCAL) };
-        let library = libloading::Library::from(library.map_err(|error| error.to_string())?);
-        let umat = symbol::<Umat>(&library, "umat").ok_or_else(|| without_umat(path))?;
+        let library = libloading::Library::from(library.map_err(|error| why(&error))?);
+        let umat = symbol::<Umat>(&library, name.unwrap_or("umat")).ok_or_else(|| without_umat(path, name))?;
         let (sdvini, uexternaldb) = (symbol(&library, "sdvini"), symbol(&library, "uexternaldb"));
-        Ok(Law { umat, sdvini, uexternaldb, _library: library })
+        let sigini = symbol(&library, "sigini");
+        Ok(Law { umat, sdvini, sigini, uexternaldb, library })
+    }
+
+    /// Has a build that counts its lines write the counts; whether it is one.
+    pub fn write_counts(&self) -> bool {
+        write_counts(&self.library)
     }
 
     /// LOP = 0: the beginning of the analysis; Abaqus calls it before all else.
@@ -97,8 +63,24 @@ impl Law {
     }
 }
 
+/// Why a library is not loaded, in the loader's words.
+pub fn why(error: &libloading::Error) -> String {
+    use std::error::Error;
+    error.source().map_or_else(|| error.to_string(), |source| format!("{error}: {source}"))
+}
+
+/// Has a build that counts its lines write the counts; whether it is one.
+pub fn write_counts(library: &libloading::Library) -> bool {
+    let write = symbol::<unsafe extern "C" fn()>(library, "toron_counts");
+    // SAFETY: the routine of `counts.c`, without arguments.
+    write.map(|write| unsafe { write() }).is_some()
+}
+
 /// The error of a library without UMAT: which other routine it has, by the names of its symbols.
-fn without_umat(path: &Path) -> String {
+fn without_umat(path: &Path, wanted: Option<&str>) -> String {
+    if let Some(name) = wanted {
+        return format!("there is no subroutine {name}");
+    }
     let bytes = std::fs::read(path).unwrap_or_default();
     let is_name = |text: &&str| text.bytes().all(|byte| byte.is_ascii_alphanumeric() || byte == b'_');
     let texts = bytes.split(|&byte| byte == 0).filter_map(|text| std::str::from_utf8(text).ok()).filter(is_name);
@@ -113,8 +95,16 @@ fn without_umat(path: &Path) -> String {
 }
 
 /// The address of a subroutine, under the names that compilers give it.
-fn symbol<T: Copy>(library: &libloading::Library, name: &str) -> Option<T> {
-    [format!("{name}_"), name.to_uppercase(), name.to_string()].iter().find_map(|name| {
+pub fn symbol<T: Copy>(library: &libloading::Library, name: &str) -> Option<T> {
+    [
+        format!("{name}_"),
+        name.to_uppercase(),
+        name.to_string(),
+        format!("{}_", name.to_lowercase()),
+        name.to_lowercase(),
+    ]
+    .iter()
+    .find_map(|name| {
         // SAFETY: the caller's type is that of the subroutine of this name.
         unsafe { library.get::<T>(name.as_bytes()) }.ok().map(|symbol| *symbol)
     })
@@ -143,6 +133,10 @@ pub struct Call {
     pub increment: i32,
     /// What DDSDDE has before.
     pub unset: f64,
+    /// KSTEP.
+    pub step: i32,
+    /// DTEMP.
+    pub temperature_step: f64,
 }
 
 impl Call {
@@ -152,7 +146,7 @@ impl Call {
     }
 
     /// The numbers of the row with their names, in order.
-    pub fn named(&self) -> [(&'static str, Vec<f64>); 15] {
+    pub fn named(&self) -> [(&'static str, Vec<f64>); 17] {
         [
             ("NSTATV", vec![self.state.len() as f64]),
             ("STRESS", self.stress.to_vec()),
@@ -169,6 +163,8 @@ impl Call {
             ("NOEL, NPT", self.place.map(f64::from).to_vec()),
             ("KINC", vec![f64::from(self.increment)]),
             ("DDSDDE before the call", vec![self.unset]),
+            ("KSTEP", vec![f64::from(self.step)]),
+            ("DTEMP", vec![self.temperature_step]),
         ]
     }
 
@@ -201,6 +197,8 @@ impl Call {
             place: [take(1)?[0] as i32, take(1)?[0] as i32],
             increment: take(1)?[0] as i32,
             unset: take(1)?[0],
+            step: take(1).map_or(1, |step| step[0] as i32),
+            temperature_step: take(1).map_or(0.0, |step| step[0]),
         })
     }
 }
@@ -216,6 +214,8 @@ pub struct Answer {
     pub energies: [f64; 3],
     /// PNEWDT; below 1 the law wants a smaller increment.
     pub next_step: f64,
+    /// DDSDDT.
+    pub by_temperature: Components,
 }
 
 impl Answer {
@@ -240,17 +240,23 @@ impl Answer {
 }
 
 /// PNEWDT before a call; Abaqus sets it to a large number.
-const NO_WISH: f64 = 1e36;
+pub const NO_WISH: f64 = 1e36;
 
 /// WorkDir for the calls of one thread.
 pub struct Session<'a> {
     law: &'a Law,
     pub material: &'a Material,
     name: [c_char; 80],
+    /// PROPS, at first those of the material.
+    pub properties: Vec<f64>,
+    /// Whether inputs that a call writes to are noted, and which these are.
+    pub watched: Option<Vec<&'static str>>,
+    /// The stress moves in steps: differences are to be taken of large ones.
+    pub coarse: bool,
     stress: Guarded,
     state: Guarded,
     modulus: Guarded,
-    properties: Guarded,
+    constants: Guarded,
     shared: Option<Shared>,
     records: bool,
     exchanged: bool,
@@ -271,22 +277,31 @@ impl<'a> Session<'a> {
             stress: Guarded::new(components, guard)?,
             state: Guarded::new(material.initial.len(), guard)?,
             modulus: Guarded::new(components * components, guard)?,
-            properties: Guarded::new(material.properties.len(), guard)?,
+            properties: material.properties.clone(),
+            watched: None,
+            coarse: false,
+            constants: Guarded::new(material.properties.len(), guard)?,
             shared,
             records: true,
             exchanged: false,
         };
-        for (place, letter) in session.name.iter_mut().zip(material.name.to_uppercase().bytes()) {
-            *place = letter as c_char;
-        }
+        session.call_material(&material.name);
         if let Some(shared) = shared {
-            let arrays = [&session.state, &session.properties, &session.stress, &session.modulus];
+            let arrays = [&session.state, &session.constants, &session.stress, &session.modulus];
             for (index, array) in arrays.into_iter().enumerate() {
                 let (first, end) = array.addresses();
                 shared.keep_array(index, first, end);
             }
         }
         Ok(session)
+    }
+
+    /// CMNAME from now on.
+    pub fn call_material(&mut self, name: &str) {
+        self.name = [b' ' as c_char; 80];
+        for (place, letter) in self.name.iter_mut().zip(name.to_uppercase().bytes()) {
+            *place = letter as c_char;
+        }
     }
 
     pub fn shared(&self) -> Option<Shared> {
@@ -327,6 +342,37 @@ impl<'a> Session<'a> {
         self.state.numbers().to_vec()
     }
 
+    /// The stress of a point before its first increment, by SIGINI if there is one.
+    pub fn initial_stress(&mut self, place: [i32; 2]) -> Components {
+        let mut stress = self.material.stress;
+        if let Some(sigini) = self.law.sigini {
+            if let Some(shared) = self.shared {
+                shared.count();
+            }
+            let (mut coordinates, mut names) = ([0.0; 3], [[b' ' as c_char; 80]; 2]);
+            let mut components = self.material.components as i32;
+            let [mut element, mut point] = place;
+            let [mut axes, mut layer, mut section, mut rebar] = [3, 1, 1, 0];
+            // SAFETY: the arguments that Abaqus passes, each as long as it is declared.
+            unsafe {
+                sigini(
+                    stress.as_mut_ptr(),
+                    coordinates.as_mut_ptr(),
+                    &mut components,
+                    &mut axes,
+                    &mut element,
+                    &mut point,
+                    &mut layer,
+                    &mut section,
+                    &mut rebar,
+                    names.as_mut_ptr(),
+                    80,
+                );
+            }
+        }
+        stress
+    }
+
     /// Takes 13 and 23 for each other from now on, as a law does that was written for VUMAT's order; or no longer.
     pub fn exchange(&mut self, exchanged: bool) {
         self.exchanged = exchanged && self.material.components == 6;
@@ -359,77 +405,20 @@ impl<'a> Session<'a> {
         self.stress.numbers_mut().copy_from_slice(&call.stress[..components]);
         self.state.numbers_mut().copy_from_slice(&call.state);
         self.modulus.numbers_mut().fill(call.unset);
-        self.properties.numbers_mut().copy_from_slice(&self.material.properties);
-        let mut name = self.name;
-        let [mut elastic, mut plastic, mut creep] = call.energies;
-        let (mut heat, mut heat_by_temperature) = (0.0, 0.0);
-        let (mut by_temperature, mut heat_by_strain) = ([0.0; 6], [0.0; 6]);
-        let (mut strain, mut strain_increment) = (call.strain, call.strain_increment);
-        let (mut time, mut time_step) = (call.time, call.time_step);
-        let (mut temperature, mut temperature_step) = (call.temperature, 0.0);
-        let (mut field, mut field_step) = ([0.0; 8], [0.0; 8]);
-        let (mut coordinates, mut rotation) = ([0.0; 3], call.rotation);
-        let (mut next_step, mut length) = (NO_WISH, 1.0);
-        let (mut f0, mut f1) = (call.f0, call.f1);
-        let mut direct = self.material.direct() as i32;
-        let mut all = components as i32;
-        let mut shear = all - direct;
-        let mut states = call.state.len() as i32;
-        let mut constants = self.material.properties.len() as i32;
-        let [mut element, mut point] = call.place;
-        let [mut layer, mut section, mut increment] = [1, 1, call.increment];
-        // JSTEP: the step, a static one, NLGEOM=YES, no perturbation.
-        let mut step = [1, 1, 1, 0];
-        // SAFETY: the arguments of a UMAT, each as long as Abaqus declares it; matrices are in Fortran's order. What
-        // the subroutine does beyond is its author's affair, and this process is there to bear it.
-        unsafe {
-            (self.law.umat)(
-                self.stress.as_mut_ptr(),
-                self.state.as_mut_ptr(),
-                self.modulus.as_mut_ptr(),
-                &mut elastic,
-                &mut plastic,
-                &mut creep,
-                &mut heat,
-                by_temperature.as_mut_ptr(),
-                heat_by_strain.as_mut_ptr(),
-                &mut heat_by_temperature,
-                strain.as_mut_ptr(),
-                strain_increment.as_mut_ptr(),
-                time.as_mut_ptr(),
-                &mut time_step,
-                &mut temperature,
-                &mut temperature_step,
-                field.as_mut_ptr(),
-                field_step.as_mut_ptr(),
-                name.as_mut_ptr(),
-                &mut direct,
-                &mut shear,
-                &mut all,
-                &mut states,
-                self.properties.as_mut_ptr(),
-                &mut constants,
-                coordinates.as_mut_ptr(),
-                rotation.as_mut_slice().as_mut_ptr(),
-                &mut next_step,
-                &mut length,
-                f0.as_mut_slice().as_mut_ptr(),
-                f1.as_mut_slice().as_mut_ptr(),
-                &mut element,
-                &mut point,
-                &mut layer,
-                &mut section,
-                step.as_mut_ptr(),
-                &mut increment,
-                self.name.len(),
-            );
+        self.constants.numbers_mut().copy_from_slice(&self.properties);
+        let mut arguments = Arguments::new(call, self.material, self.properties.len());
+        let arrays = [&mut self.stress, &mut self.state, &mut self.modulus, &mut self.constants];
+        arguments.pass(self.law.umat, arrays.map(Guarded::as_mut_ptr), self.name);
+        if let Some(watched) = &mut self.watched {
+            arguments.note_written(call, &self.properties, self.constants.numbers(), watched);
         }
         let mut answer = Answer {
             stress: [0.0; 6],
             state: self.state.numbers().to_vec(),
             modulus: [[0.0; 6]; 6],
-            energies: [elastic, plastic, creep],
-            next_step,
+            energies: arguments.energies,
+            next_step: arguments.next_step,
+            by_temperature: arguments.by_temperature,
         };
         answer.stress[..components].copy_from_slice(self.stress.numbers());
         for (index, &entry) in self.modulus.numbers().iter().enumerate() {
@@ -460,9 +449,14 @@ mod tests {
             place: [3, 4],
             increment: 5,
             unset: 0.0,
+            step: 2,
+            temperature_step: 6.0,
         };
         assert_eq!(Call::from_numbers(&call.numbers()), Some(call.clone()));
         let numbers = call.numbers();
-        assert_eq!(Call::from_numbers(&numbers[..numbers.len() - 1]), None);
+        // Files of earlier versions have neither KSTEP nor DTEMP.
+        let without = &numbers[..numbers.len() - 2];
+        assert_eq!(Call::from_numbers(without).map(|call| call.step), Some(1));
+        assert_eq!(Call::from_numbers(&without[..without.len() - 1]), None);
     }
 }

@@ -16,7 +16,10 @@ use super::finding::{Finding, Question, Verdict};
 use super::guarded::Guard;
 use super::material::{Material, Reads};
 use super::shared::{self, SIGNALLED, Seen, Shared};
-use super::{energy, objectivity, process, rest, steps, tangent, vumat, work_dir};
+use super::{
+    coverage, energy, expect, job, jumps, objectivity, place, process, properties, rest, steps, stress, tangent,
+    thermal, vumat, work_dir,
+};
 use toron_shared::bound_child;
 use toron_shared::error::Error;
 
@@ -52,6 +55,11 @@ pub enum Task {
     },
     /// Objectivity where turns are larger than solvers have them.
     LargeTurns,
+    /// Another material of the same library: its stresses, after those of the first material, or alone.
+    Other {
+        material: Box<Material>,
+        after: bool,
+    },
     /// One call, as the bits of its numbers: they need not be finite.
     Call(Vec<u64>),
 }
@@ -70,8 +78,11 @@ pub struct Request {
 #[derive(Debug, Serialize, Deserialize)]
 pub enum ChildReply {
     OnlyVumat(bool),
-    Reads(Reads),
+    /// What it reads, and whether a strain 33 changes the stress.
+    Reads(Reads, bool),
     Finding(Finding),
+    /// Numbers as bits.
+    Bits(Vec<u64>),
     /// Stress, state, DDSDDE by rows, PNEWDT, as text: they need not be finite.
     Answer(Vec<(String, String)>),
 }
@@ -114,17 +125,27 @@ fn reply_to(request: &Path) -> Result<(), Error> {
         let reply = reply.ok_or_else(|| Error::Input("this is asked of a UMAT alone".to_string()))?;
         return write_reply(&result, &reply);
     }
-    let law = loaded(Law::load(&library));
+    let law = loaded(Law::load(&library, material.symbol.as_deref()));
     Shared::catch_signals();
     law.begin();
     let mut session = Session::new(&law, &material, guard, Some(shared)).map_err(io_error)?;
     let reply = match task {
         Task::OnlyVumat => ChildReply::OnlyVumat(false),
-        Task::Reads => ChildReply::Reads(process::reads(&mut session)),
+        Task::Reads => {
+            let (reads, across) = process::reads(&mut session);
+            ChildReply::Reads(reads, across)
+        }
         Task::Question { question, reads, allowed } => {
             ChildReply::Finding(answer_question(question, &law, &material, &mut session, reads, allowed))
         }
         Task::LargeTurns => ChildReply::Finding(objectivity::at_large_turns(&mut session)),
+        Task::Other { material: other, after } => {
+            if after {
+                process::stresses(&mut session);
+            }
+            let mut session = Session::new(&law, &other, guard, Some(shared)).map_err(io_error)?;
+            ChildReply::Bits(process::stresses(&mut session))
+        }
         Task::Call(bits) => {
             let call = Call::from_bits(&bits).ok_or_else(|| Error::Input("a call is not whole".to_string()))?;
             ChildReply::Answer(answer_table(&session.call_law(&call), &material))
@@ -158,12 +179,19 @@ fn answer_question(
     allowed: Option<f64>,
 ) -> Finding {
     match question {
-        Question::Build | Question::Memory => process::touch(session),
+        Question::Build | Question::Deck | Question::Memory => process::touch(session),
         Question::Rest => rest::rest(session),
+        Question::Stress => stress::stress(session),
+        Question::Properties => properties::properties(session),
+        Question::Place => place::place(session),
+        Question::Expect => expect::expect(session),
         Question::Tangent => tangent::tangent(session, reads, allowed),
         Question::Objectivity => objectivity::objectivity(session, reads),
         Question::Isotropy => objectivity::isotropy(session),
+        Question::Thermal => thermal::thermal(session),
         Question::Steps => steps::steps(session),
+        Question::Jumps => jumps::jumps(session),
+        Question::Job => job::job(session),
         Question::Energy => energy::energy(session),
         Question::Cycles => energy::cycles(session, reads),
         Question::Dissipation => energy::dissipation(session),
@@ -174,6 +202,7 @@ fn answer_question(
         Question::Invalid => process::invalid(session, reads),
         Question::Histories => process::histories(session, reads),
         Question::Runtime => process::runtime(session),
+        Question::Coverage => coverage::walk(law, session),
         Question::DataCheck | Question::Blocks | Question::Single | Question::Deletion => {
             Finding::new(question, Verdict::NotAsked, None, "asked of a VUMAT alone")
         }
@@ -227,13 +256,17 @@ pub fn run_task(
     let program = std::env::current_exe().map_err(io_error)?;
     let mut command = Command::new(program);
     command.arg("check-child").arg(&request).current_dir(work_dir::running(folder));
-    command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::piped());
+    command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
+    // What a law writes before it ends must not stay in a buffer.
+    command.env("GFORTRAN_UNBUFFERED_PRECONNECTED", "1");
     bound_child::bind(&mut command);
     let mut child = command.spawn().map_err(io_error)?;
-    let errors = child.stderr.take();
+    let (errors, said) = (child.stderr.take(), child.stdout.take());
     let reader = std::thread::spawn(move || errors.map_or(String::new(), last_bytes));
+    let listener = std::thread::spawn(move || said.map_or(String::new(), last_bytes));
     let status = watch(&mut child, &shared, longest_call).map_err(io_error)?;
     let messages = reader.join().unwrap_or_default();
+    let said = last_words(&listener.join().unwrap_or_default());
     let reply = std::fs::read(&result).ok().and_then(|text| serde_json::from_slice::<ChildReply>(&text).ok());
     if let (Some(reply), Watched::Ended(status)) = (reply, &status)
         && status.success()
@@ -248,7 +281,11 @@ pub fn run_task(
         }
     }
     let seen = Seen::read(&shared).map_err(io_error)?;
-    Ok(Err(ending(&status, &messages, &seen)))
+    let mut ending = ending(&status, &messages, &seen);
+    if matches!(ending.kind.as_str(), "XIT" | "stop") && !said.is_empty() {
+        ending.text.push_str(&format!("; its last words: {said}"));
+    }
+    Ok(Err(ending))
 }
 
 enum Watched {
@@ -352,6 +389,15 @@ fn at_signal(seen: &Seen, after: &str, call: Option<Call>) -> Ending {
     };
     Ending { kind, text, call }
 }
+
+/// The last lines that a law has written, in one.
+fn last_words(text: &str) -> String {
+    let lines: Vec<&str> = text.lines().map(str::trim).filter(|line| !line.is_empty()).collect();
+    lines[lines.len().saturating_sub(LAST_WORDS)..].join(" / ")
+}
+
+/// So many of them.
+const LAST_WORDS: usize = 3;
 
 fn last_line(messages: &str) -> &str {
     messages.lines().rev().map(str::trim).find(|line| !line.is_empty()).unwrap_or_default()

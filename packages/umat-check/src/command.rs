@@ -9,33 +9,58 @@ use clap::Args;
 
 use super::call::Call;
 use super::child::{self, ChildReply, Ending, Task};
-use super::compile::{self, Built};
+use super::ci;
+use super::compile::{self, Built, Options};
+use super::coverage;
 use super::finding::{Finding, NOT_FINITE, Question, Verdict};
 use super::guarded::Guard;
 use super::input::{self, Input, Overrides};
-use super::material::{DEFAULT_NAME, Material, Reads};
+use super::kept;
+use super::material::{DEFAULT_NAME, Material, Plane, Reads};
+use super::noise;
+use super::relate;
 use super::repeated::{self, Repeated};
 use super::report::{MaterialReport, Report};
 use super::shared;
+use super::tangent;
 use super::work_dir::WorkDir;
 use toron_shared::console::print;
 use toron_shared::error::Error;
 use toron_shared::run_directory::RunDirectory;
+use toron_shared::toml_file;
 
 #[derive(Args)]
 pub struct Arguments {
     /// The subroutine: Fortran, C or C++, or a shared library with it.
     #[arg(required_unless_present = "again")]
     file: Option<PathBuf>,
+    /// Further sources, in any order; files near FILE that have the modules it uses are found.
+    #[arg(long, value_delimiter = ',')]
+    with: Vec<PathBuf>,
+    /// A folder of includes, beside those below FILE's.
+    #[arg(short = 'I', long)]
+    include: Vec<PathBuf>,
+    /// A library that is linked, as lapack.
+    #[arg(long, value_delimiter = ',')]
+    link: Vec<String>,
+    /// The compiler of Fortran, as ifx or flang.
+    #[arg(long, value_name = "COMMAND")]
+    fc: Option<String>,
     /// Ask the file's VUMAT, not its UMAT; where there is no UMAT this is not needed.
     #[arg(long)]
     vumat: bool,
+    /// What a UMAT is called in a library, as that of CalculiX's *MATERIAL, NAME=@ABAQUSNL_LIBRARY_NAME.
+    #[arg(long, conflicts_with = "vumat")]
+    symbol: Option<String>,
     /// The library of the same VUMAT for single precision, where FILE is a library.
     #[arg(long, requires = "file")]
     single: Option<PathBuf>,
     /// Properties, states and traits, a TOML file; without it, FILE's name with .toml if that is there.
     #[arg(long)]
     scene: Option<PathBuf>,
+    /// An input of Abaqus: PROPS, DEPVAR, DELETE, density, orientation, elements, initial stress of its user materials.
+    #[arg(long)]
+    inp: Option<PathBuf>,
     /// PROPS.
     #[arg(long, value_delimiter = ',', allow_hyphen_values = true)]
     props: Option<Vec<f64>>,
@@ -63,6 +88,25 @@ pub struct Arguments {
     /// These lines alone, as in tangent,energy.
     #[arg(long, value_delimiter = ',', value_parser = question)]
     only: Vec<Question>,
+    /// The lines that take no time alone: build, memory, rest, stress, known answers, tangent, objectivity, repeat,
+    /// outputs.
+    #[arg(long, conflicts_with = "only")]
+    quick: bool,
+    /// Warnings fail too, and lines of the law that are never executed.
+    #[arg(long)]
+    strict: bool,
+    /// An earlier report in JSON: what it has does not fail.
+    #[arg(long)]
+    baseline: Option<PathBuf>,
+    /// Write the report as JUnit's XML.
+    #[arg(long)]
+    junit: Option<PathBuf>,
+    /// Write the report as SARIF.
+    #[arg(long)]
+    sarif: Option<PathBuf>,
+    /// Keep the worst call of a wrong tangent too, and each call as a program in Fortran.
+    #[arg(long)]
+    reproduce: bool,
     /// Print the report as JSON.
     #[arg(long)]
     json: bool,
@@ -101,16 +145,27 @@ pub fn run(program: &str, arguments: &Arguments) -> Result<(), Error> {
         properties: arguments.props.clone(),
         states: arguments.statev,
         components: arguments.ntens,
+        plane: None,
         traits: arguments.traits.clone(),
         name: arguments.name.clone(),
         orientation: arguments.orientation,
         seed: arguments.seed,
+        deck: arguments.inp.clone(),
     };
     let Input { mut materials, mut allowed } = input::input(file, arguments.scene.as_deref(), &overrides)?;
     allowed.extend(arguments.allow.iter().cloned());
-    let built = compile::compile(file, &work_dir.path)?;
+    let options = Options {
+        with: arguments.with.iter().map(|path| canonical(path)).collect::<Result<_, _>>()?,
+        include: arguments.include.iter().map(|path| canonical(path)).collect::<Result<_, _>>()?,
+        link: arguments.link.clone(),
+        fortran: arguments.fc.clone(),
+    };
+    let built = compile::compile(file, &work_dir.path, &options)?;
     RunDirectory::check(&arguments.output, &repeated::writes(file))?;
-    if arguments.vumat || only_vumat(&built, &work_dir.path, materials.first())? {
+    for material in &mut materials {
+        material.symbol.clone_from(&arguments.symbol);
+    }
+    if arguments.vumat || arguments.symbol.is_none() && only_vumat(&built, &work_dir.path, materials.first())? {
         let single = match &arguments.single {
             Some(library) => Some(Ok(canonical(library)?)),
             None => built.single(file, &work_dir.path)?,
@@ -119,22 +174,44 @@ pub fn run(program: &str, arguments: &Arguments) -> Result<(), Error> {
     } else if arguments.single.is_some() {
         return Err(Error::Input("single is for a VUMAT; allowed: with one, or with --vumat".to_string()));
     }
-    let check = Check { file, built: &built, work_dir: &work_dir.path, allowed: &allowed, arguments };
+    let check =
+        Check { file, built: &built, options: &options, work_dir: &work_dir.path, allowed: &allowed, arguments };
     let materials: Result<Vec<MaterialReport>, Error> =
         materials.iter().map(|material| check.check_material(material)).collect();
-    let mut report = Report { file: file.display().to_string(), verdict: Verdict::Right, materials: materials? };
-    let wrong = report.wrong().join(", ");
-    if !wrong.is_empty() {
-        report.verdict = Verdict::Wrong;
+    let mut report = Report::new(&file.display().to_string(), materials?);
+    report_to(program, arguments, &mut report)
+}
+
+/// Writes and prints the report.
+fn report_to(program: &str, arguments: &Arguments, report: &mut Report) -> Result<(), Error> {
+    if let Some(baseline) = &arguments.baseline {
+        let (name, text) = toml_file::read(baseline)?;
+        let earlier = serde_json::from_str(&text).map_err(|error| Error::Input(format!("{name}: {error}")))?;
+        report.mark_known(&earlier);
+    }
+    let wrong = report.judge(arguments.strict).join(", ");
+    if let Some(path) = &arguments.junit {
+        write(path, &ci::junit(report, arguments.strict))?;
+    }
+    if let Some(path) = &arguments.sarif {
+        write(path, &json_text(&ci::sarif(report, arguments.strict))?)?;
     }
     if arguments.json {
-        let text = serde_json::to_string_pretty(&report).map_err(|error| Error::Input(error.to_string()))?;
-        print(&format!("{text}\n"));
+        print(&json_text(report)?);
     } else {
         let colours = std::io::stdout().is_terminal() && std::env::var_os("NO_COLOR").is_none();
         print(&report.as_text(program, colours));
     }
-    if wrong.is_empty() { Ok(()) } else { Err(Error::Evaluation(format!("{}: wrong: {wrong}", file.display()))) }
+    if wrong.is_empty() { Ok(()) } else { Err(Error::Evaluation(format!("{}: wrong: {wrong}", report.file))) }
+}
+
+fn json_text(value: &impl serde::Serialize) -> Result<String, Error> {
+    let text = serde_json::to_string_pretty(value).map_err(|error| Error::Input(error.to_string()))?;
+    Ok(format!("{text}\n"))
+}
+
+fn write(path: &Path, text: &str) -> Result<(), Error> {
+    std::fs::write(path, text).map_err(|error| Error::Input(format!("{}: {error}", path.display())))
 }
 
 /// Whether a library has a VUMAT and no UMAT; the child finds out, as it does everything else.
@@ -171,6 +248,7 @@ const LONGEST_CALL_AFTER_HANG: Duration = Duration::from_secs(1);
 struct Check<'a> {
     file: &'a Path,
     built: &'a Built,
+    options: &'a Options,
     work_dir: &'a Path,
     allowed: &'a BTreeMap<String, f64>,
     arguments: &'a Arguments,
@@ -179,25 +257,34 @@ struct Check<'a> {
 impl Check<'_> {
     /// Asks all questions about one material, in their order.
     fn check_material(&self, material: &Material) -> Result<MaterialReport, Error> {
-        let mut findings = vec![Finding::new(Question::Build, Verdict::Right, None, self.built.by.clone())];
+        let mut material = material.clone();
+        let mut findings = vec![self.built.warnings.line(&self.built.by, &material)];
+        findings.extend(of_deck(&material));
         // With padding, since the law may need it; guard pages come with the questions.
-        let reads = match self.run_task(material, Task::Reads, Guard::Padded, false, child::LONGEST_CALL)? {
-            Ok(ChildReply::Reads(reads)) => Some(reads),
-            Ok(_) => None,
-            Err(_) => None,
-        };
+        let reads =
+            match self.run_task(&material, Task::Reads, Guard::Padded, &self.built.library, child::LONGEST_CALL)? {
+                Ok(ChildReply::Reads(reads, across)) => {
+                    if !across {
+                        // A law that never sees a strain 33 is for plane strain.
+                        material.plane = material.plane.or(Some(Plane::Strain));
+                    }
+                    Some(reads)
+                }
+                Ok(_) | Err(_) => None,
+            };
         let explicit = material.explicit.called;
-        let questions = if explicit { &Question::OF_VUMAT[..] } else { &Question::ASKED };
+        let questions = if explicit { Question::OF_VUMAT } else { Question::ASKED };
         let asked = questions
             .iter()
             .copied()
-            .filter(|question| self.arguments.only.is_empty() || self.arguments.only.contains(question));
+            .filter(|question| self.arguments.only.is_empty() || self.arguments.only.contains(question))
+            .filter(|question| !self.arguments.quick || question.is_quick());
         let mut guard = Guard::Behind;
         let mut ended: Vec<(String, Question)> = Vec::new();
         for question in asked {
             // A law that ends before it is known what it reads is not called with an inverted F.
             let unknown = if question == Question::Invalid { Reads::Rate } else { Reads::Mixed };
-            let mut finding = self.answer_question(material, question, reads.unwrap_or(unknown), guard, &mut ended)?;
+            let mut finding = self.answer_question(&material, question, reads.unwrap_or(unknown), guard, &mut ended)?;
             if question == Question::Memory && finding.verdict != Verdict::Right {
                 guard = Guard::Padded;
             }
@@ -215,7 +302,7 @@ impl Check<'_> {
             }
             findings.push(finding);
         }
-        relate(&mut findings);
+        relate::relate(&mut findings);
         Ok(MaterialReport {
             name: material.name.clone(),
             law: reads.map(|reads| reads.name().to_string()),
@@ -228,14 +315,22 @@ impl Check<'_> {
         material: &Material,
         task: Task,
         guard: Guard,
-        checked: bool,
+        library: &Path,
         longest_call: Duration,
     ) -> Result<Result<ChildReply, Ending>, Error> {
-        let library = self.built.checked.as_ref().filter(|_| checked).unwrap_or(&self.built.library);
         child::run_task(self.work_dir, library, material, task, guard, longest_call).map_err(|error| match error {
             Error::Input(text) => Error::Input(format!("{}: {text}", self.file.display())),
             other => other,
         })
+    }
+
+    /// The build that a question is asked of, or why there is none.
+    fn library_of(&self, question: Question) -> Result<&Path, &'static str> {
+        match question {
+            Question::Runtime => self.built.checked.as_deref().ok_or("no second build with checks at run time"),
+            Question::Coverage => self.built.counted.as_deref().ok_or("a library says nothing of its lines"),
+            _ => Ok(&self.built.library),
+        }
     }
 
     /// Runs a question's task in a child, twice for the memory, and makes a finding of how it ends.
@@ -247,16 +342,15 @@ impl Check<'_> {
         guard: Guard,
         ended: &mut Vec<(String, Question)>,
     ) -> Result<Finding, Error> {
-        let checked = question == Question::Runtime;
-        if checked && self.built.checked.is_none() {
-            let text = "no second build with checks at run time";
-            return Ok(Finding::new(question, Verdict::NotAsked, None, text));
-        }
+        let library = match self.library_of(question) {
+            Ok(library) => library,
+            Err(text) => return Ok(Finding::new(question, Verdict::NotAsked, None, text)),
+        };
         let task = Task::Question { question, reads, allowed: self.allowed.get(question.name()).copied() };
         let guards: &[Guard] = match question {
             Question::Memory => &[Guard::Behind, Guard::Before],
             // The compiler's own checks say more than a page that must not be touched.
-            Question::Runtime => &[Guard::Padded],
+            Question::Runtime | Question::Coverage => &[Guard::Padded],
             _ => &[guard],
         };
         // A law that has hung once is not waited for as long again.
@@ -264,31 +358,75 @@ impl Check<'_> {
         let longest_call = if hung { LONGEST_CALL_AFTER_HANG } else { child::LONGEST_CALL };
         let mut answer = None;
         for &guard in guards {
-            match self.run_task(material, task.clone(), guard, checked, longest_call)? {
+            match self.run_task(material, task.clone(), guard, library, longest_call)? {
                 Ok(ChildReply::Finding(mut finding)) => {
-                    if let Some(call) = finding.call_bits.take().and_then(|bits| Call::from_bits(&bits)) {
+                    let few = finding.kinds.iter().any(|kind| kind == tangent::FEW_STATES);
+                    let kept = finding.call_bits.take().filter(|_| few || self.arguments.reproduce);
+                    if let Some(call) = kept.and_then(|bits| Call::from_bits(&bits)) {
                         finding.call = Some(self.keep_call(material, question, guard, call)?);
                     }
                     answer = Some(finding);
                 }
                 Ok(_) => {}
+                Err(ending) if question.may_end() => {
+                    let text = format!("the law does not answer: {}", ending.text);
+                    return Ok(Finding::new(question, Verdict::NotAsked, None, text));
+                }
                 Err(ending) => return self.ending_as_finding(material, question, ending, guard, ended),
             }
         }
         let finding = answer.unwrap_or_else(|| Finding::new(question, Verdict::NotSure, None, "no answer"));
-        if checked && finding.kinds.iter().any(|kind| kind == NOT_FINITE) {
-            let unset = self.built.used_unset(self.file, self.work_dir);
-            let unset = if unset.is_empty() { String::new() } else { format!(": by gfortran {}", unset.join(", ")) };
-            return Ok(Finding { text: format!("{}{unset}", finding.text), ..finding });
+        let has = |kind: &str| finding.kinds.iter().any(|known| known == kind);
+        Ok(match (question, finding.verdict) {
+            (Question::Coverage, Verdict::Right) => coverage::of_counts(self.work_dir),
+            (Question::Runtime, _) if has(NOT_FINITE) => self.with_unset(finding),
+            (Question::Repeat, Verdict::Right) => {
+                let mut run = |task: Task| self.run_task(material, task, guard, library, longest_call);
+                kept::properties(&mut run, material)?.unwrap_or(finding)
+            }
+            (Question::Repeat | Question::Threads, Verdict::Wrong) => self.perhaps_unset(finding),
+            (Question::Tangent, _) if has(noise::NOISE) => self.single_precision(finding),
+            (Question::Objectivity, Verdict::Right) if !material.explicit.called && reads != Reads::Total => {
+                self.at_large_turns(material, finding, guard, longest_call)?
+            }
+            _ => finding,
+        })
+    }
+
+    /// What is not finite with unset reals, with the variables that gfortran sees unset.
+    fn with_unset(&self, finding: Finding) -> Finding {
+        let unset = self.built.used_unset(self.file, self.work_dir);
+        let unset = if unset.is_empty() { String::new() } else { format!(": by gfortran {}", unset.join(", ")) };
+        Finding { text: format!("{}{unset}", finding.text), ..finding }
+    }
+
+    /// Answers that depend on order may be those of variables that are never set.
+    fn perhaps_unset(&self, mut finding: Finding) -> Finding {
+        let unset = self.built.used_unset(self.file, self.work_dir);
+        if !unset.is_empty() {
+            let shared = "variables are shared (SAVE, COMMON, DATA)";
+            let named = format!("by gfortran {} used before it is set", unset.join(", "));
+            finding.text = match finding.text.contains(shared) {
+                true => finding.text.replace(shared, &format!("{named}, or {shared}")),
+                false => format!("{}; {named}", finding.text),
+            };
         }
-        if question == Question::Objectivity
-            && !material.explicit.called
-            && finding.verdict == Verdict::Right
-            && reads != Reads::Total
-        {
-            return self.at_large_turns(material, finding, guard, longest_call);
+        finding
+    }
+
+    /// Steps of the stress, where the source has variables of single precision, are theirs; a right tangent is right
+    /// with others.
+    fn single_precision(&self, mut finding: Finding) -> Finding {
+        let places: Vec<String> =
+            self.built.warnings.single.iter().map(|place| format!("{}: {}", place.named(), place.text)).collect();
+        if places.is_empty() {
+            if finding.verdict == Verdict::Right {
+                finding.kinds.clear();
+            }
+            return finding;
         }
-        Ok(finding)
+        let text = format!("single precision: {}; {}", places.join(", "), finding.text);
+        Finding { verdict: Verdict::Wrong, kinds: vec![noise::SINGLE.to_string()], text, ..finding }
     }
 
     /// Turns of 90° in one increment: no solver has them, and a law that is right for small ones is only warned of.
@@ -299,7 +437,7 @@ impl Check<'_> {
         guard: Guard,
         longest_call: Duration,
     ) -> Result<Finding, Error> {
-        let text = match self.run_task(material, Task::LargeTurns, guard, false, longest_call)? {
+        let text = match self.run_task(material, Task::LargeTurns, guard, &self.built.library, longest_call)? {
             Ok(ChildReply::Finding(finding)) if finding.verdict == Verdict::Right => return Ok(finding),
             Ok(ChildReply::Finding(finding)) => finding.text,
             Ok(_) => return Ok(right),
@@ -347,6 +485,8 @@ impl Check<'_> {
             "XIT" | "stop" if material.name == DEFAULT_NAME => {
                 format!("; CMNAME is {DEFAULT_NAME} here: --name, if the law asks for it")
             }
+            "behind STATEV" if material.deck.is_some() => format!("; *DEPVAR says {}", material.initial.len()),
+            "behind PROPS" if material.deck.is_some() => format!("; CONSTANTS is {}", material.properties.len()),
             _ => String::new(),
         };
         let mut finding = Finding::new(question, verdict, None, format!("{text}{hint}")).with(&kind);
@@ -359,9 +499,32 @@ impl Check<'_> {
 
     /// The file of a call, for `--again`.
     fn keep_call(&self, material: &Material, question: Question, guard: Guard, call: Call) -> Result<String, Error> {
-        let repeated = Repeated { file: self.file.to_path_buf(), material: material.clone(), guard, call };
-        Ok(repeated.write(&self.arguments.output, question)?.display().to_string())
+        let repeated = Repeated {
+            file: self.file.to_path_buf(),
+            options: self.options.clone(),
+            material: material.clone(),
+            guard,
+            call,
+        };
+        Ok(repeated.write(&self.arguments.output, question, self.arguments.reproduce)?.display().to_string())
     }
+}
+
+/// The line of an input of Abaqus, if there is one.
+fn of_deck(material: &Material) -> Option<Finding> {
+    let deck = material.deck.as_ref()?;
+    if !material.remarks.is_empty() {
+        let text = format!("{deck}: {}", material.remarks.join("; "));
+        return Some(Finding::new(Question::Deck, Verdict::Wrong, None, text).with("numbers of the deck"));
+    }
+    let axes = if material.orientation { ", on axes that turn (*ORIENTATION, or no NLGEOM)" } else { "" };
+    let text = format!(
+        "{} constants, {} state variables, {} components{axes}",
+        material.properties.len(),
+        material.initial.len(),
+        material.components
+    );
+    Some(Finding::new(Question::Deck, Verdict::Right, None, text))
 }
 
 /// The array of a message of gfortran's checks that has one entry by its declaration, and more by its use.
@@ -369,60 +532,6 @@ fn old_assumed_size(message: &str) -> Option<&str> {
     let (_, rest) = message.split_once(" of dimension 1 of array '")?;
     let (array, rest) = rest.split_once('\'')?;
     (rest.trim() == "above upper bound of 1").then_some(array)
-}
-
-/// Findings that follow from others: one cause is reported once.
-fn relate(findings: &mut [Finding]) {
-    stress_before_tangent(findings);
-    not_finite_once(findings);
-    crash_of_unset_variable(findings);
-}
-
-/// Where the stress itself is wrong, the tangent's kind may follow from it.
-fn stress_before_tangent(findings: &mut [Finding]) {
-    let is_wrong = |question: Question| {
-        findings.iter().any(|finding| finding.check == question.name() && finding.verdict == Verdict::Wrong)
-    };
-    let of_stress = [Question::Objectivity, Question::Isotropy].into_iter().find(|&question| is_wrong(question));
-    let Some(of_stress) = of_stress.map(Question::name) else { return };
-    for finding in findings.iter_mut().filter(|finding| finding.check == Question::Tangent.name()) {
-        if finding.verdict == Verdict::Wrong && !finding.kinds.is_empty() {
-            let kind = finding.text.strip_prefix("none of the usual mistakes; ");
-            let text = kind.map_or_else(|| format!("perhaps {}", finding.text), str::to_string);
-            finding.text = format!("the stress itself is wrong (see {of_stress}): mend it first; {text}");
-        }
-    }
-}
-
-/// What is not finite in one line is so in others.
-fn not_finite_once(findings: &mut [Finding]) {
-    let mut first: Option<String> = None;
-    for finding in findings.iter_mut() {
-        if finding.verdict != Verdict::Wrong || !finding.kinds.iter().any(|kind| kind == NOT_FINITE) {
-            continue;
-        }
-        match &first {
-            Some(first) => {
-                finding.verdict = Verdict::NotSure;
-                finding.text = format!("not finite, as in {first}");
-            }
-            None => first = Some(finding.check.clone()),
-        }
-    }
-}
-
-/// A crash where the build with checks has found the cause.
-fn crash_of_unset_variable(findings: &mut [Finding]) {
-    let runtime = Question::Runtime.name();
-    if !findings.iter().any(|finding| finding.check == runtime && finding.verdict == Verdict::Wrong) {
-        return;
-    }
-    for finding in findings.iter_mut() {
-        if finding.verdict.fails() && finding.kinds.iter().any(|kind| kind == "crash") {
-            finding.verdict = Verdict::NotSure;
-            finding.text.push_str("; see runtime");
-        }
-    }
 }
 
 #[cfg(test)]
@@ -435,21 +544,5 @@ mod tests {
             |bound: &str| format!("umat.f:17: Index '2' of dimension 1 of array 'props' above upper bound of {bound}");
         assert_eq!(old_assumed_size(&of("1")), Some("props"));
         assert_eq!(old_assumed_size(&of("12")), None);
-    }
-
-    #[test]
-    fn a_wrong_stress_comes_before_the_tangent() {
-        let tangent = Finding::new(Question::Tangent, Verdict::Wrong, None, "symmetrised").with("symmetrised");
-        let mut alone = [tangent.clone(), Finding::new(Question::Objectivity, Verdict::Right, None, "")];
-        relate(&mut alone);
-        assert_eq!(alone[0].text, "symmetrised");
-        let mut both = [tangent, Finding::new(Question::Objectivity, Verdict::Wrong, None, "")];
-        relate(&mut both);
-        assert!(both[0].text.starts_with("the stress itself is wrong (see objectivity)"));
-        let not_finite = |question| Finding::new(question, Verdict::Wrong, None, "").with(NOT_FINITE);
-        let mut both = [not_finite(Question::Rest), not_finite(Question::Tangent)];
-        relate(&mut both);
-        assert_eq!([both[0].verdict, both[1].verdict], [Verdict::Wrong, Verdict::NotSure]);
-        assert_eq!(both[1].text, "not finite, as in rest");
     }
 }

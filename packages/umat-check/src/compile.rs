@@ -1,15 +1,20 @@
-//! From a subroutine's source to a library that is loaded, by whatever compiler there is.
+//! From a subroutine's sources to a library that is loaded, by whatever compiler there is.
 
-use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use super::work_dir;
+use serde::{Deserialize, Serialize};
+
+use super::compiler::{Compiler, Form, Language, NO_FORM, Variant, language};
+use super::diagnose::{self, Warnings};
+use super::{sources, work_dir};
 use toron_shared::error::Error;
-use toron_shared::toml_file::is_standard_input;
 
 /// The routines of Abaqus that subroutines call.
 const UTILITIES: &str = include_str!("utilities.c");
+
+/// Writes the counts of lines to their files: the child ends in a way in which that is not done.
+const COUNTS: &str = "void __gcov_dump(void);\nvoid toron_counts_(void) { __gcov_dump(); }\n";
 
 /// What Abaqus's own include files say, as far as a subroutine sees it. It is valid in fixed and in free form.
 const PARAMETERS: &str = "      implicit real*8(a-h,o-z)\n      parameter (nprecd=2)\n";
@@ -20,94 +25,184 @@ const FOR_C: &str = "#define FOR_NAME(small, capital) small##_\n#define CDECL\n"
 /// Lines of a compiler's messages that are shown.
 const SHOWN: usize = 20;
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Language {
-    FixedForm,
-    FreeForm,
-    C,
-    Cpp,
-    /// A library that is loaded as it is.
-    Library,
+/// What is compiled along, and how.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+pub struct Options {
+    /// Further sources, in any order.
+    pub with: Vec<PathBuf>,
+    /// Where includes are looked for too.
+    pub include: Vec<PathBuf>,
+    /// Libraries, as `lapack`.
+    pub link: Vec<String>,
+    /// The compiler of Fortran.
+    pub fortran: Option<String>,
 }
-
-/// The flags with which gfortran reads a source.
-#[derive(Clone, Copy, Debug)]
-struct Form {
-    flags: &'static [&'static str],
-    /// Its name in the report.
-    said: &'static str,
-}
-
-const fn form(flags: &'static [&'static str], said: &'static str) -> Form {
-    Form { flags, said }
-}
-
-/// In this order, until one compiles: what Abaqus's compiler takes comes first. `-fdec` is the dialect that it has from
-/// DEC. A leading tab counts for less there than here, so that lines may be too long.
-const FIXED_FORMS: [Form; 5] = [
-    form(&["-ffixed-form", "-ffixed-line-length-132"], ""),
-    form(&["-ffixed-form", "-ffixed-line-length-132", "-fdec"], ""),
-    form(&["-ffixed-form", "-ffixed-line-length-none", "-fdec"], ""),
-    form(&["-ffixed-form", "-ffixed-line-length-72", "-fdec"], ", in lines of 72 columns; Abaqus's have 132"),
-    form(
-        &["-ffree-form", "-ffree-line-length-none", "-fdec"],
-        ", as free form, which Abaqus takes with !DIR$ FREEFORM or -free",
-    ),
-];
-const FREE_FORMS: [Form; 2] = [
-    form(&["-ffree-form", "-ffree-line-length-none"], ""),
-    form(&["-ffree-form", "-ffree-line-length-none", "-fdec"], ""),
-];
-/// Of other compilers and languages.
-const NO_FORM: [Form; 1] = [form(&[], "")];
 
 /// What a file became.
 pub struct Built {
     pub library: PathBuf,
     /// The same with checks at run time, where the compiler has them.
     pub checked: Option<PathBuf>,
+    /// The same with counts of each line, where the compiler has them.
+    pub counted: Option<PathBuf>,
     /// By which compiler.
     pub by: String,
+    pub warnings: Warnings,
     form: Form,
+    objects: Vec<PathBuf>,
+    options: Options,
+}
+
+/// A source that is compiled, in a folder.
+struct Job<'a> {
+    file: &'a Path,
+    language: Language,
+    compiler: &'a Compiler,
+    folder: &'a Path,
+    options: &'a Options,
 }
 
 /// Compiles the file into the folder, or takes it as it is.
 ///
 /// # Errors
 /// It cannot be read, its kind is not known, there is no compiler, or it does not compile.
-pub fn compile(file: &Path, folder: &Path) -> Result<Built, Error> {
+pub fn compile(file: &Path, folder: &Path, options: &Options) -> Result<Built, Error> {
     let language = language(file)?;
-    let file = file.canonicalize().map_err(|error| Error::Input(format!("{}: {error}", file.display())))?;
+    let file = canonical(file)?;
     work_dir::furnish(folder, &file)?;
+    let options = &Options {
+        with: options.with.iter().map(|path| canonical(path)).collect::<Result<_, _>>()?,
+        include: options.include.iter().map(|path| canonical(path)).collect::<Result<_, _>>()?,
+        ..options.clone()
+    };
     if language == Language::Library {
-        let by = "loaded as it is".to_string();
-        return Ok(Built { library: file, checked: None, by, form: NO_FORM[0] });
+        return Ok(Built {
+            library: file,
+            checked: None,
+            counted: None,
+            by: "loaded as it is".to_string(),
+            warnings: Warnings::default(),
+            form: NO_FORM[0],
+            objects: Vec::new(),
+            options: options.clone(),
+        });
     }
     includes(folder).map_err(|error| Error::Input(format!("{}: {error}", folder.display())))?;
-    let compiler = compiler(language)?;
-    let utilities = folder.join("utilities.o");
-    let mut command = Command::new("gcc");
-    command.args(["-c", "-O1", "-fPIC", "-w"]).arg(folder.join("utilities.c")).arg("-o").arg(&utilities);
-    run(&mut command, "utilities.c")?;
-    let build = |checked, form| build(&file, language, compiler, folder, &utilities, checked, form);
-    let fortran = compiler == "gfortran";
-    let forms: &[Form] = match language {
-        Language::FixedForm if fortran => &FIXED_FORMS,
-        Language::FreeForm if fortran => &FREE_FORMS,
-        _ => &NO_FORM,
-    };
-    let (first, others) = forms.split_first().ok_or_else(|| Error::Input("no form is known".to_string()))?;
-    let (library, form) = match build(false, *first) {
-        Ok(library) => (library, *first),
-        // What is said is of the form that it should have.
-        Err(error) => {
-            let other = others.iter().find_map(|form| build(false, *form).ok().map(|library| (library, *form)));
-            other.ok_or(error)?
-        }
-    };
+    for (name, flags) in [("utilities", &["-c", "-O1", "-fPIC", "-w"][..]), ("counts", &["-c", "-fPIC"])] {
+        let mut command = Command::new("gcc");
+        command.args(flags).arg(folder.join(format!("{name}.c"))).arg("-o").arg(folder.join(format!("{name}.o")));
+        run(&mut command, name)?;
+    }
+    let compiler = &Compiler::of(language, options.fortran.as_deref())?;
+    let job = Job { file: &file, language, compiler, folder, options };
+    let others = sources::others(&file, &options.with)?;
+    let objects = job.objects(&others)?;
+    let (library, form) = job.in_some_form(|form| job.library(Variant::Plain, form, &objects))?;
     // Where the checks do not compile there is no second build, which is said.
-    let checked = fortran.then(|| build(true, form).ok()).flatten();
-    Ok(Built { library, checked, by: format!("{compiler}{}", form.said), form })
+    let gfortran = compiler.is_gfortran(language);
+    let checked = gfortran.then(|| job.library(Variant::Checked, form, &objects).ok()).flatten();
+    let counts = gfortran || ["gcc", "g++"].contains(&compiler.command.as_str());
+    let counted = counts.then(|| job.library(Variant::Counted, form, &objects).ok()).flatten();
+    let warnings = if gfortran { job.warnings(form) } else { Warnings::default() };
+    let with = match others.len() {
+        0 => String::new(),
+        _ => format!(", with {}", others.iter().map(|path| name_of(path)).collect::<Vec<_>>().join(", ")),
+    };
+    let by = format!("{}{}{with}", compiler.command, form.said);
+    Ok(Built { library, checked, counted, by, warnings, form, objects, options: options.clone() })
+}
+
+fn canonical(path: &Path) -> Result<PathBuf, Error> {
+    path.canonicalize().map_err(|error| Error::Input(format!("{}: {error}", path.display())))
+}
+
+fn name_of(path: &Path) -> String {
+    path.file_name().map_or(String::new(), |name| name.to_string_lossy().to_string())
+}
+
+impl Job<'_> {
+    /// The objects of other sources, which are compiled in this order: modules before those that use them.
+    fn objects(&self, others: &[PathBuf]) -> Result<Vec<PathBuf>, Error> {
+        let mut objects = Vec::new();
+        for (number, file) in others.iter().enumerate() {
+            let language = language(file)?;
+            let compiler = &Compiler::of(language, self.options.fortran.as_deref())?;
+            let job = Job { file, language, compiler, ..*self };
+            let object = self.folder.join(format!("other-{number}.o"));
+            job.in_some_form(|form| {
+                let mut command = Command::new(&compiler.command);
+                command.args(["-c", "-fPIC", "-g"]);
+                job.including(&mut command);
+                compiler.translating(&mut command, language, Variant::Plain, form);
+                compiler.source(&mut command, language, file);
+                run(command.arg("-o").arg(&object), &file.display().to_string())
+            })?;
+            objects.push(object);
+        }
+        Ok(objects)
+    }
+
+    /// In the first form that compiles. Where none does, what is said is of the form with the fewest errors.
+    fn in_some_form<T>(&self, build: impl Fn(Form) -> Result<T, Error>) -> Result<(T, Form), Error> {
+        let mut fewest: Option<(usize, Error)> = None;
+        for &form in self.compiler.forms(self.language) {
+            match build(form) {
+                Ok(built) => return Ok((built, form)),
+                Err(error) => {
+                    let count = error.to_string().matches("Error").count();
+                    if fewest.as_ref().is_none_or(|(least, _)| count < *least) {
+                        fewest = Some((count, error));
+                    }
+                }
+            }
+        }
+        Err(fewest.map_or_else(|| Error::Input("no form is known".to_string()), |(_, error)| error))
+    }
+
+    fn library(&self, variant: Variant, form: Form, objects: &[PathBuf]) -> Result<PathBuf, Error> {
+        let library = self.folder.join(variant.library());
+        let mut command = Command::new(&self.compiler.command);
+        command.args(["-shared", "-fPIC", "-g"]);
+        self.including(&mut command);
+        self.compiler.translating(&mut command, self.language, variant, form);
+        self.compiler.source(&mut command, self.language, self.file);
+        command.args(objects);
+        if variant == Variant::Counted {
+            command.arg(self.folder.join("counts.o"));
+        }
+        command.arg(self.folder.join("utilities.o")).args(["-Wl,-z,lazy", "-o"]).arg(&library);
+        command.args(self.options.link.iter().map(|library| format!("-l{library}"))).args(["-lm", "-lpthread"]);
+        run(&mut command, &self.file.display().to_string())?;
+        Ok(library)
+    }
+
+    /// What gfortran warns of, in the form in which it reads the source.
+    fn warnings(&self, form: Form) -> Warnings {
+        let mut command = Command::new(&self.compiler.command);
+        self.including(&mut command);
+        command.args(["-fsyntax-only", "-cpp", "-std=legacy", "-fallow-argument-mismatch"]).args(diagnose::FLAGS);
+        command.args(form.flags).args(["-x", "f95"]).arg(self.file);
+        let messages = command.output().map(|output| String::from_utf8_lossy(&output.stderr).to_string());
+        let columns = form.flags.iter().find_map(|flag| flag.strip_prefix("-ffixed-line-length-")?.parse().ok());
+        Warnings::read(self.file, &messages.unwrap_or_default(), columns)
+    }
+
+    fn including(&self, command: &mut Command) {
+        including(command, self.file, self.folder, self.options);
+    }
+}
+
+fn including(command: &mut Command, file: &Path, folder: &Path, options: &Options) {
+    command.current_dir(folder).arg("-I").arg(folder);
+    for path in &options.include {
+        command.arg("-I").arg(path);
+    }
+    if let Some(beside) = file.parent() {
+        for path in sources::folders(beside) {
+            command.arg("-I").arg(path);
+        }
+    }
+    command.arg("-I").arg(work_dir::in_either_case(folder));
 }
 
 impl Built {
@@ -115,7 +210,7 @@ impl Built {
     pub fn used_unset(&self, file: &Path, folder: &Path) -> Vec<String> {
         let Ok(file) = file.canonicalize() else { return Vec::new() };
         let mut command = Command::new("gfortran");
-        including(&mut command, &file, folder);
+        including(&mut command, &file, folder, &self.options);
         command.args(["-c", "-O1", "-cpp", "-std=legacy", "-fallow-argument-mismatch", "-frecursive"]);
         command.args(["-Wuninitialized", "-Wmaybe-uninitialized", "-fdiagnostics-plain-output"]).args(self.form.flags);
         command.arg("-x").arg("f95").arg(&file).arg("-o").arg(folder.join("unset.o"));
@@ -130,7 +225,7 @@ impl Built {
     /// Files cannot be read or written.
     pub fn single(&self, file: &Path, folder: &Path) -> Result<Option<Result<PathBuf, String>>, Error> {
         let language = language(file)?;
-        if !matches!(language, Language::FixedForm | Language::FreeForm) {
+        if !language.is_fortran() {
             return Ok(None);
         }
         let error = |error: std::io::Error| Error::Input(format!("{}: {error}", file.display()));
@@ -146,10 +241,11 @@ impl Built {
         }
         std::os::unix::fs::symlink(work_dir::in_either_case(folder), work_dir::in_either_case(&inner))
             .map_err(error)?;
+        std::fs::copy(folder.join("utilities.o"), inner.join("utilities.o")).map_err(error)?;
         let file = file.canonicalize().map_err(error)?;
-        let compiler = compiler(language)?;
-        let utilities = folder.join("utilities.o");
-        let library = build(&file, language, compiler, &inner, &utilities, false, self.form);
+        let compiler = &Compiler::of(language, self.options.fortran.as_deref())?;
+        let job = Job { file: &file, language, compiler, folder: &inner, options: &self.options };
+        let library = job.library(Variant::Plain, self.form, &self.objects);
         Ok(Some(library.map_err(|error| error.to_string())))
     }
 }
@@ -170,50 +266,6 @@ fn unset_in(messages: &str) -> Vec<String> {
     found.into_iter().map(|(_, said)| said).collect()
 }
 
-fn including(command: &mut Command, file: &Path, folder: &Path) {
-    command.current_dir(folder).arg("-I").arg(folder);
-    if let Some(beside) = file.parent() {
-        command.arg("-I").arg(beside);
-    }
-    command.arg("-I").arg(work_dir::in_either_case(folder));
-}
-
-fn language(file: &Path) -> Result<Language, Error> {
-    let name = file.display();
-    let ending = file.extension().and_then(OsStr::to_str).unwrap_or_default().to_lowercase();
-    let language = match ending.as_str() {
-        "f" | "for" | "ftn" | "f77" => {
-            let text = std::fs::read(file).map_err(|error| Error::Input(format!("{name}: {error}")))?;
-            if free_form(&String::from_utf8_lossy(&text)) { Language::FreeForm } else { Language::FixedForm }
-        }
-        "f90" | "f95" | "f03" | "f08" => Language::FreeForm,
-        "c" => Language::C,
-        "cpp" | "cc" | "cxx" => Language::Cpp,
-        "so" | "dylib" => Language::Library,
-        _ if is_standard_input(file) => {
-            let allowed = "a file; the standard input may be the materials, --scene -";
-            return Err(Error::Input(format!("the subroutine is {name}; allowed: {allowed}")));
-        }
-        _ => {
-            let allowed = "Fortran (.f .for .f90 …), C (.c), C++ (.cpp .cc), a shared library (.so)";
-            return Err(Error::Input(format!("{name} ends in \"{ending}\"; allowed: {allowed}")));
-        }
-    };
-    match std::fs::metadata(file) {
-        Ok(_) => Ok(language),
-        Err(error) => Err(Error::Input(format!("{name}: {error}"))),
-    }
-}
-
-/// By the directive of Intel's compiler, which Abaqus uses.
-fn free_form(text: &str) -> bool {
-    text.lines().any(|line| {
-        let line = line.trim().to_lowercase();
-        let directive = line.strip_prefix(['!', 'c', '*']).and_then(|line| line.strip_prefix("dir$"));
-        directive.is_some_and(|directive| directive.trim().starts_with("freeform") || directive.trim() == "free")
-    })
-}
-
 fn includes(folder: &Path) -> std::io::Result<()> {
     for (name, text) in [
         ("aba_param.inc", PARAMETERS),
@@ -230,73 +282,8 @@ fn includes(folder: &Path) -> std::io::Result<()> {
     for name in ["aba_for_c.h", "omi_for_c.h"] {
         std::fs::write(folder.join(name), FOR_C)?;
     }
+    std::fs::write(folder.join("counts.c"), COUNTS)?;
     std::fs::write(folder.join("utilities.c"), UTILITIES)
-}
-
-fn compiler(language: Language) -> Result<&'static str, Error> {
-    let known: &[&str] = match language {
-        Language::C => &["gcc", "cc", "clang"],
-        Language::Cpp => &["g++", "c++", "clang++"],
-        _ => &["gfortran", "ifx", "ifort"],
-    };
-    let there = |name: &&&str| Command::new(name).arg("--version").output().is_ok();
-    known
-        .iter()
-        .find(there)
-        .copied()
-        .ok_or_else(|| Error::Input(format!("no compiler is found; wanted: one of {} in PATH", known.join(", "))))
-}
-
-fn build(
-    file: &Path,
-    language: Language,
-    compiler: &str,
-    folder: &Path,
-    utilities: &Path,
-    checked: bool,
-    form: Form,
-) -> Result<PathBuf, Error> {
-    let library = folder.join(if checked { "checked.so" } else { "law.so" });
-    let mut command = Command::new(compiler);
-    command.args(["-shared", "-fPIC", "-g"]);
-    including(&mut command, file, folder);
-    match (language, compiler) {
-        (Language::C, _) => {
-            command.args(["-O2", "-w"]);
-        }
-        (Language::Cpp, _) => {
-            command.args(["-O2", "-w", "-std=c++17"]);
-        }
-        (_, "gfortran") => {
-            // Without -frecursive large local arrays are static, and threads would fail for no fault of the law.
-            command.args(["-std=legacy", "-fallow-argument-mismatch", "-frecursive", "-w", "-cpp"]);
-            command.args(if checked {
-                &["-O0", "-fcheck=all,no-array-temps", "-finit-real=snan", "-finit-integer=-77777777", "-fno-backtrace"]
-                    [..]
-            } else {
-                &["-O2"][..]
-            });
-            command.args(form.flags);
-        }
-        _ => {
-            command.args(["-O2", "-auto", "-fpp", "-extend-source", "132", "-w"]);
-            command.arg(if language == Language::FreeForm { "-free" } else { "-fixed" });
-        }
-    }
-    // Compilers know fewer endings than there are, and one in capitals as another.
-    match (language, compiler) {
-        (Language::C, _) => command.args(["-x", "c"]),
-        (Language::Cpp, _) => command.args(["-x", "c++"]),
-        (_, "gfortran") => command.args(["-x", "f95"]),
-        _ => command.arg("-Tf"),
-    };
-    command.arg(file);
-    if compiler != "ifx" && compiler != "ifort" {
-        command.args(["-x", "none"]);
-    }
-    command.arg(utilities).args(["-Wl,-z,lazy", "-o"]).arg(&library).args(["-lm", "-lpthread"]);
-    run(&mut command, &file.display().to_string())?;
-    Ok(library)
 }
 
 fn run(command: &mut Command, what: &str) -> Result<(), Error> {
@@ -307,19 +294,15 @@ fn run(command: &mut Command, what: &str) -> Result<(), Error> {
     }
     let messages = String::from_utf8_lossy(&output.stderr);
     let shown: Vec<&str> = messages.lines().filter(|line| !line.trim().is_empty()).take(SHOWN).collect();
-    Err(Error::Input(format!("{what} does not compile with {program}:\n{}", shown.join("\n"))))
+    // What Intel's compilers take and gfortran does not: SIGN, MAX and others of two kinds.
+    let kinds = messages.contains("must be the same type and kind") || messages.contains("must have the same kind");
+    let hint = if kinds { "\nIntel's compilers take reals of two kinds here, and flang too: --fc COMMAND" } else { "" };
+    Err(Error::Input(format!("{what} does not compile with {program}:\n{}{hint}", shown.join("\n"))))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn the_form_of_the_source_is_known() {
-        assert!(free_form("!DIR$ FREEFORM\n"));
-        assert!(free_form("      subroutine a\n!dir$ freeform\n"));
-        assert!(!free_form("C     a comment about !DIR$ FREEFORM\n"));
-    }
 
     #[test]
     fn variables_that_are_not_set_are_named_once() {

@@ -23,9 +23,10 @@ pub fn scale(truth: &Modulus, components: usize) -> Modulus {
     scale
 }
 
-/// The largest step of strain, and how many halvings follow.
+/// The largest step of strain, and how many halvings follow; of a stress that moves in steps fewer do.
 const LARGEST: f64 = 2e-3;
 const HALVINGS: usize = 10;
+const HALVINGS_OF_STEPS: usize = 2;
 /// Columns of the extrapolation.
 const ORDERS: usize = 4;
 
@@ -61,8 +62,9 @@ impl Candidate {
 /// A stress of the strain of one component of this size; none where the law refuses.
 type Stress<'a> = dyn FnMut(usize, f64) -> Option<Components> + 'a;
 
-fn differences(components: usize, stress: &mut Stress) -> Option<Derivative> {
-    let columns: Option<Vec<[Vec<Candidate>; 6]>> = (0..components).map(|column| candidates(column, stress)).collect();
+fn differences(components: usize, halvings: usize, stress: &mut Stress) -> Option<Derivative> {
+    let columns = (0..components).map(|column| candidates(column, halvings, stress));
+    let columns: Option<Vec<[Vec<Candidate>; 6]>> = columns.collect();
     let columns = columns?;
     let (value, error) = chosen(&columns, |_, _, _| true);
     let scale = scale(&value, components);
@@ -95,12 +97,12 @@ fn chosen(columns: &[[Vec<Candidate>; 6]], taken: impl Fn(usize, usize, &Candida
 }
 
 /// The entries of a column, by rows, with ever smaller steps.
-fn candidates(column: usize, stress: &mut Stress) -> Option<[Vec<Candidate>; 6]> {
+fn candidates(column: usize, halvings: usize, stress: &mut Stress) -> Option<[Vec<Candidate>; 6]> {
     let centre = stress(column, 0.0)?;
     let mut all: [Vec<Candidate>; 6] = Default::default();
     let mut above: Vec<Components> = Vec::new();
     let mut jumps_before: Components = [0.0; 6];
-    for k in 0..=HALVINGS {
+    for k in 0..=halvings {
         let size = LARGEST / (1 << k) as f64;
         let (Some(plus), Some(minus)) = (stress(column, size), stress(column, -size)) else {
             above.clear();
@@ -124,6 +126,10 @@ fn candidates(column: usize, stress: &mut Stress) -> Option<[Vec<Candidate>; 6]>
     Some(all)
 }
 
+fn halvings(session: &Session) -> usize {
+    if session.coarse { HALVINGS_OF_STEPS } else { HALVINGS }
+}
+
 fn answered(answer: &Answer) -> bool {
     !answer.refused() && answer.stress.iter().all(|value| value.is_finite())
 }
@@ -140,7 +146,7 @@ pub fn of_deformation(
     let components = material.components;
     let volume = f1.determinant();
     let axes = if material.orientation { rotation_of(f1) } else { nalgebra::Matrix3::identity() };
-    differences(components, &mut |column, size| {
+    differences(components, halvings(session), &mut |column, size| {
         let strain = axes * unit_strain(components, column) * axes.transpose();
         let strained = exp(&(strain * size)) * f1;
         let mut call = point.call(&strained, material);
@@ -154,7 +160,7 @@ pub fn of_deformation(
 /// The plain ∂Δσ/∂Δε: the strain increment grows, the rotation stays.
 pub fn of_strain_increment(session: &mut Session, base: &Call) -> Option<Derivative> {
     let components = session.material.components;
-    differences(components, &mut |column, size| {
+    differences(components, halvings(session), &mut |column, size| {
         let mut call = base.clone();
         call.strain_increment[column] += size;
         call.f1 = exp(&(unit_strain(components, column) * size)) * base.f1;
@@ -169,7 +175,7 @@ mod tests {
 
     #[test]
     fn a_smooth_function_a_kink_and_noise() {
-        let smooth = differences(3, &mut |column, h| {
+        let smooth = differences(3, HALVINGS, &mut |column, h| {
             Some(std::array::from_fn(|i| ((i + 1) as f64 * (0.3 + h)).exp() * (column + 1) as f64))
         });
         let smooth = smooth.expect("finite");
@@ -184,19 +190,19 @@ mod tests {
         assert_eq!(smooth.kinks, [[false; 6]; 6]);
 
         for away in [0.0, 1e-12, -1e-9, 1e-7, -5e-7] {
-            let kinked = differences(3, &mut |_, h| Some([if h > away { 2.0 * h - away } else { h }; 6]));
+            let kinked = differences(3, HALVINGS, &mut |_, h| Some([if h > away { 2.0 * h - away } else { h }; 6]));
             let kinked = kinked.expect("finite");
             assert!(kinked.kinks[..3].iter().all(|row| row[..3] == [true; 3]), "{away}");
         }
         // A kink beside the state is outside the smaller steps: never the mean of both sides.
         for (away, slope) in [(1e-4, 1.0), (1e-5, 1.0), (-1e-4, 2.0), (-1e-5, 2.0), (4e-6, 1.0), (-2.5e-6, 2.0)] {
-            let kinked = differences(3, &mut |_, h| Some([if h > away { 2.0 * h - away } else { h }; 6]));
+            let kinked = differences(3, HALVINGS, &mut |_, h| Some([if h > away { 2.0 * h - away } else { h }; 6]));
             let kinked = kinked.expect("finite");
             let sure = !kinked.kinks[0][0] && kinked.error[0][0] < 0.1 * TOLERANCE;
             assert!(!sure || (kinked.value[0][0] - slope).abs() < TOLERANCE, "{away}: {kinked:?}");
         }
 
-        let noisy = differences(3, &mut |_, h| Some([h + 1e-4 * (1e9 * h).sin(); 6])).expect("finite");
+        let noisy = differences(3, HALVINGS, &mut |_, h| Some([h + 1e-4 * (1e9 * h).sin(); 6])).expect("finite");
         assert!(noisy.error[0][0] > 1e-4, "{}", noisy.error[0][0]);
     }
 }

@@ -190,18 +190,7 @@ fn reported(session: &mut Session, increments: usize) -> Result<Option<Reported>
             ));
         }
         all.dissipated += point.energies[1] + point.energies[2];
-        let mut regained_back = 0.0_f64;
-        for k in (0..increments).rev() {
-            let before = point.energies;
-            let f = exp(&(strain * (k as f64 / increments as f64)));
-            match point.advance_in(session, &f, time_step) {
-                Ok(_) => {}
-                Err(Failure::Refused) => break,
-                Err(Failure::NotFinite(_)) => return Err("not finite on the way back to rest".to_string()),
-            }
-            let [_, plastic, creep] = point.energies;
-            regained_back = regained_back.max(before[1] + before[2] - plastic - creep);
-        }
+        let regained_back = regained_back(session, &mut point, &strain, increments)?;
         if largest > 0.0 {
             asked += 1;
             all.regained = all.regained.max(regained_back / largest);
@@ -216,6 +205,32 @@ fn reported(session: &mut Session, increments: usize) -> Result<Option<Reported>
     }
     Ok((asked > 0).then_some(all))
 }
+
+/// The largest decrease of SPD + SCD on the way back to rest, as far as there is one.
+fn regained_back(
+    session: &mut Session,
+    point: &mut Point,
+    strain: &Matrix3<f64>,
+    increments: usize,
+) -> Result<f64, String> {
+    let time_step = session.material.time_step * STRAIGHT as f64 / increments as f64;
+    let mut regained = 0.0_f64;
+    for k in (0..increments).rev() {
+        let before = point.energies;
+        let f = exp(&(strain * (k as f64 / increments as f64)));
+        match point.advance_in(session, &f, time_step) {
+            Ok(_) => {}
+            Err(Failure::Refused) => break,
+            Err(Failure::NotFinite(_)) => return Err("not finite on the way back to rest".to_string()),
+        }
+        let [_, plastic, creep] = point.energies;
+        regained = regained.max(before[1] + before[2] - plastic - creep);
+    }
+    Ok(regained)
+}
+
+/// Of the work: what is no energy at all.
+const NO_ENERGY: f64 = 1e8;
 
 /// What SSE is.
 pub fn energy(session: &mut Session) -> Finding {
@@ -251,6 +266,12 @@ pub fn energy(session: &mut Session) -> Finding {
     let near = if hyperelastic { 2e-3 } else { 3e-2 };
     if figure <= near {
         return Finding::new(Question::Energy, Verdict::Right, Some(figure), format!("{of} is {name}, the work done"));
+    }
+    if figure > NO_ENERGY {
+        let text =
+            format!("{of} is no energy, {figure:.0e} times the work: it is set from a variable that is not set?");
+        let verdict = if hyperelastic { Verdict::Wrong } else { Verdict::Warning };
+        return Finding::new(Question::Energy, verdict, None, text).with("SSE");
     }
     let text = format!("{of} differs from the work done by {:.1e} of W, {:.1e} of W/J", differences[0], differences[1]);
     let declared = session.material.traits;

@@ -61,6 +61,12 @@ pub struct Finding {
     /// That call as the child says it, as bits: the parent writes the file.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub call_bits: Option<Vec<u64>>,
+    /// A picture, in lines.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub map: Vec<String>,
+    /// Whether an earlier report, the baseline, has it too.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub known: bool,
 }
 
 impl Finding {
@@ -75,11 +81,31 @@ impl Finding {
             kinds: Vec::new(),
             call: None,
             call_bits: None,
+            map: Vec::new(),
+            known: false,
         }
     }
 
+    /// Whether it fails the check: what is wrong, and of a strict one warnings and lines that never ran; nothing that
+    /// is known.
+    pub fn fails(&self, strict: bool) -> bool {
+        let doubtful = self.verdict == Verdict::Warning
+            || (self.verdict == Verdict::NotSure && self.check == Question::Coverage.name());
+        !self.known && (self.verdict.fails() || (strict && doubtful))
+    }
+
+    /// The line of this source that the text names first: `umat.f:17`.
+    pub fn source_line(&self, file: &str) -> Option<usize> {
+        let name = std::path::Path::new(file).file_name()?.to_string_lossy();
+        let (_, rest) = self.text.split_once(&format!("{name}:"))?;
+        let digits: String = rest.chars().take_while(char::is_ascii_digit).collect();
+        digits.parse().ok()
+    }
+
     pub fn with(mut self, kind: &str) -> Self {
-        self.kinds.push(kind.to_string());
+        if !self.kinds.iter().any(|known| known == kind) {
+            self.kinds.push(kind.to_string());
+        }
         self
     }
 }
@@ -89,12 +115,20 @@ impl Finding {
 #[serde(rename_all = "lowercase")]
 pub enum Question {
     Build,
+    /// Of an input of Abaqus.
+    Deck,
     Memory,
     Rest,
+    Stress,
+    Properties,
+    Place,
     Tangent,
     Objectivity,
     Isotropy,
+    Thermal,
     Steps,
+    Jumps,
+    Job,
     Energy,
     Cycles,
     Dissipation,
@@ -105,6 +139,8 @@ pub enum Question {
     Invalid,
     Histories,
     Runtime,
+    Coverage,
+    Expect,
     /// Those of a VUMAT alone.
     DataCheck,
     Blocks,
@@ -114,13 +150,20 @@ pub enum Question {
 
 impl Question {
     /// Those that a law answers in a child process.
-    pub const ASKED: [Question; 16] = [
+    pub const ASKED: &[Question] = &[
         Question::Memory,
         Question::Rest,
+        Question::Stress,
+        Question::Properties,
+        Question::Place,
+        Question::Expect,
         Question::Tangent,
         Question::Objectivity,
         Question::Isotropy,
+        Question::Thermal,
         Question::Steps,
+        Question::Jumps,
+        Question::Job,
         Question::Energy,
         Question::Cycles,
         Question::Dissipation,
@@ -131,12 +174,15 @@ impl Question {
         Question::Invalid,
         Question::Histories,
         Question::Runtime,
+        Question::Coverage,
     ];
 
     /// Those that a VUMAT answers.
-    pub const OF_VUMAT: [Question; 18] = [
+    pub const OF_VUMAT: &[Question] = &[
         Question::Memory,
         Question::Rest,
+        Question::Stress,
+        Question::Place,
         Question::DataCheck,
         Question::Objectivity,
         Question::Isotropy,
@@ -153,17 +199,25 @@ impl Question {
         Question::Invalid,
         Question::Histories,
         Question::Runtime,
+        Question::Coverage,
     ];
 
     pub fn name(self) -> &'static str {
         match self {
             Question::Build => "build",
+            Question::Deck => "deck",
             Question::Memory => "memory",
             Question::Rest => "rest",
+            Question::Stress => "stress",
+            Question::Properties => "properties",
+            Question::Place => "place",
             Question::Tangent => "tangent",
             Question::Objectivity => "objectivity",
             Question::Isotropy => "isotropy",
             Question::Steps => "steps",
+            Question::Thermal => "thermal",
+            Question::Jumps => "jumps",
+            Question::Job => "job",
             Question::Energy => "energy",
             Question::Cycles => "cycles",
             Question::Dissipation => "dissipation",
@@ -174,6 +228,8 @@ impl Question {
             Question::Invalid => "invalid",
             Question::Histories => "histories",
             Question::Runtime => "runtime",
+            Question::Coverage => "coverage",
+            Question::Expect => "expect",
             Question::DataCheck => "datacheck",
             Question::Blocks => "blocks",
             Question::Single => "single",
@@ -181,10 +237,21 @@ impl Question {
         }
     }
 
+    /// Whether a law may end the process in it: it is called with what the user did not give.
+    pub fn may_end(self) -> bool {
+        matches!(self, Question::Coverage | Question::Properties | Question::Place)
+    }
+
+    /// Whether it is asked of a quick check.
+    pub fn is_quick(self) -> bool {
+        use Question::{DataCheck, Expect, Memory, Objectivity, Outputs, Repeat, Rest, Stress, Tangent};
+        matches!(self, Memory | Rest | Stress | Expect | Tangent | Objectivity | Repeat | Outputs | DataCheck)
+    }
+
     /// All that may be asked.
     pub fn all() -> impl Iterator<Item = Question> {
-        let of_vumat = Question::OF_VUMAT.into_iter().filter(|question| !Question::ASKED.contains(question));
-        Question::ASKED.into_iter().chain(of_vumat)
+        let of_vumat = Question::OF_VUMAT.iter().filter(|question| !Question::ASKED.contains(question));
+        Question::ASKED.iter().chain(of_vumat).copied()
     }
 
     /// Of all that may be asked, with commas.
@@ -193,6 +260,6 @@ impl Question {
     }
 
     pub fn parse(name: &str) -> Option<Question> {
-        Question::ASKED.into_iter().chain(Question::OF_VUMAT).find(|question| question.name() == name)
+        Question::all().chain([Question::Build]).find(|question| question.name() == name)
     }
 }

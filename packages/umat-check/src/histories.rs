@@ -73,7 +73,8 @@ fn planar(matrix: &Matrix3<f64>, material: &Material, across: f64) -> Matrix3<f6
     for (i, j) in [(0, 2), (1, 2), (2, 0), (2, 1)] {
         planar[(i, j)] = 0.0;
     }
-    planar[(2, 2)] = if material.components == 4 { across } else { 0.0 };
+    let is_across = material.components == 4 && !material.is_plane_strain();
+    planar[(2, 2)] = if is_across { across } else { 0.0 };
     planar
 }
 

@@ -13,7 +13,7 @@ pub struct ExactTangent {
     pub stress: Components,
     /// On the law's axes.
     pub f: Matrix3<f64>,
-    /// Moduli without what the increment changed in the state: by unloading a little, and in no time.
+    /// Moduli of other increments from the state: unloading a little, in no time, and going on a little.
     pub intact: Vec<Modulus>,
 }
 
@@ -63,11 +63,11 @@ fn applied(modulus: &Modulus, strain: &Matrix3<f64>, components: usize) -> Matri
     tensor(&std::array::from_fn(|i| modulus[i].iter().zip(&strain).map(|(entry, part)| entry * part).sum()), components)
 }
 
-fn sum(a: &Modulus, b: &Modulus, factor: f64) -> Modulus {
+pub fn sum(a: &Modulus, b: &Modulus, factor: f64) -> Modulus {
     map(|i, j| a[i][j] + factor * b[i][j])
 }
 
-fn times(a: &Modulus, factor: f64) -> Modulus {
+pub fn times(a: &Modulus, factor: f64) -> Modulus {
     map(|i, j| factor * a[i][j])
 }
 
@@ -99,20 +99,14 @@ fn material(spatial: &Modulus, f: &Matrix3<f64>, components: usize) -> Option<Mo
     }))
 }
 
-/// The modulus that each usual mistake gives at a state, always in the same order.
-pub fn usual_mistakes(exact: &ExactTangent, components: usize) -> Vec<Hypothesis> {
+/// The moduli of other rates.
+fn other_rates(exact: &ExactTangent, components: usize) -> Vec<(&'static str, Modulus)> {
     let ExactTangent { truth, stress, f, .. } = exact;
-    let mut found = Vec::new();
-    let mut add = |kinds: &[&'static str], text: &str, modulus: Modulus, factor: Factor| {
-        found.push(Hypothesis { kinds: kinds.to_vec(), text: text.to_string(), modulus, factor });
-    };
     let by_volume = stress_by_volume(stress, components);
     let terms = stress_terms(stress, components);
-    let volume = f.determinant();
     let spatial = sum(truth, &terms, -1.0);
     let nowhere = [[f64::NAN; 6]; 6];
-
-    let mut rates: Vec<(&str, Modulus)> = vec![
+    let mut rates = vec![
         ("the terms of the stress are missing (Truesdell, Oldroyd)", spatial),
         ("the terms of the stress twice", sum(truth, &terms, 1.0)),
         ("the terms of the stress have the wrong sign", sum(truth, &terms, -2.0)),
@@ -131,6 +125,46 @@ pub fn usual_mistakes(exact: &ExactTangent, components: usize) -> Vec<Hypothesis
             sum(&sum(truth, &terms, 1.0), &by_volume, 1.0),
         ));
     }
+    rates
+}
+
+/// The moduli with shears that are those of the tensor in some place.
+fn shears_of_tensors(truth: &Modulus, components: usize) -> Vec<(String, Modulus)> {
+    let mut found = Vec::new();
+    let mut add = |text: String, modulus: Modulus| found.push((text, modulus));
+    let direct = if components == 3 { 2 } else { 3 };
+    let shear = |i: usize| i >= direct;
+    for (text, factor) in [("twice", 2.0), ("half", 0.5), ("four times", 4.0), ("a quarter of", 0.25)] {
+        let of =
+            |scaled: &dyn Fn(usize, usize) -> bool| map(|i, j| truth[i][j] * if scaled(i, j) { factor } else { 1.0 });
+        add(format!("{text} the columns of shears"), of(&|_, j| shear(j)));
+        add(format!("{text} the rows of shears"), of(&|i, _| shear(i)));
+        add(format!("{text} the shears by shears"), of(&|i, j| shear(i) && shear(j)));
+        add(format!("{text} the shears' diagonal"), of(&|i, j| shear(i) && i == j));
+        add(format!("{text} shears by normals"), of(&|i, j| shear(i) != shear(j)));
+    }
+    for (text, factor) in
+        [("each shear twice, in rows and in columns", 2.0_f64), ("half of each shear, in rows and in columns", 0.5)]
+    {
+        let scaled = |i: usize, j: usize| factor.powi(i32::from(shear(i)) + i32::from(shear(j)));
+        add(text.to_string(), map(|i, j| truth[i][j] * scaled(i, j)));
+    }
+    found
+}
+
+/// The modulus that each usual mistake gives at a state, always in the same order.
+pub fn usual_mistakes(exact: &ExactTangent, components: usize) -> Vec<Hypothesis> {
+    let ExactTangent { truth, stress, f, .. } = exact;
+    let mut found = Vec::new();
+    let mut add = |kinds: &[&'static str], text: &str, modulus: Modulus, factor: Factor| {
+        found.push(Hypothesis { kinds: kinds.to_vec(), text: text.to_string(), modulus, factor });
+    };
+    let terms = stress_terms(stress, components);
+    let volume = f.determinant();
+    let spatial = sum(truth, &terms, -1.0);
+    let nowhere = [[f64::NAN; 6]; 6];
+
+    let rates = other_rates(exact, components);
     for (text, modulus) in &rates {
         add(&["another rate"], text, *modulus, Factor::One);
     }
@@ -152,22 +186,8 @@ pub fn usual_mistakes(exact: &ExactTangent, components: usize) -> Vec<Hypothesis
     add(&["symmetrised"], "the upper triangle on both sides", map(|i, j| truth[i.min(j)][i.max(j)]), Factor::One);
     add(&["symmetrised"], "the lower triangle on both sides", map(|i, j| truth[i.max(j)][i.min(j)]), Factor::One);
 
-    let direct = if components == 3 { 2 } else { 3 };
-    let shear = |i: usize| i >= direct;
-    for (text, factor) in [("twice", 2.0), ("half", 0.5), ("four times", 4.0), ("a quarter of", 0.25)] {
-        let of =
-            |scaled: &dyn Fn(usize, usize) -> bool| map(|i, j| truth[i][j] * if scaled(i, j) { factor } else { 1.0 });
-        add(&["tensor shears"], &format!("{text} the columns of shears"), of(&|_, j| shear(j)), Factor::One);
-        add(&["tensor shears"], &format!("{text} the rows of shears"), of(&|i, _| shear(i)), Factor::One);
-        add(&["tensor shears"], &format!("{text} the shears by shears"), of(&|i, j| shear(i) && shear(j)), Factor::One);
-        add(&["tensor shears"], &format!("{text} the shears' diagonal"), of(&|i, j| shear(i) && i == j), Factor::One);
-        add(&["tensor shears"], &format!("{text} shears by normals"), of(&|i, j| shear(i) != shear(j)), Factor::One);
-    }
-    for (text, factor) in
-        [("each shear twice, in rows and in columns", 2.0_f64), ("half of each shear, in rows and in columns", 0.5)]
-    {
-        let scaled = |i: usize, j: usize| factor.powi(i32::from(shear(i)) + i32::from(shear(j)));
-        add(&["tensor shears"], text, map(|i, j| truth[i][j] * scaled(i, j)), Factor::One);
+    for (text, modulus) in shears_of_tensors(truth, components) {
+        add(&["tensor shears"], &text, modulus, Factor::One);
     }
     if components == 6 {
         let exchanged = |i: usize| if i >= 4 { 9 - i } else { i };
@@ -176,9 +196,14 @@ pub fn usual_mistakes(exact: &ExactTangent, components: usize) -> Vec<Hypothesis
         add(&[name], "rows", map(|i, j| truth[exchanged(i)][j]), Factor::One);
         add(&[name], "columns", map(|i, j| truth[i][exchanged(j)]), Factor::One);
     }
-    for (index, text) in ["the modulus of unloading", "the modulus without time"].into_iter().enumerate() {
+    let others = [
+        ("intact", "the modulus of unloading"),
+        ("intact", "the modulus without time"),
+        ("continuum", "the modulus of a vanishing increment, not that of the increment (the consistent one)"),
+    ];
+    for (index, (kind, text)) in others.into_iter().enumerate() {
         let modulus = exact.intact.get(index).copied().unwrap_or(nowhere);
-        add(&["intact"], text, modulus, Factor::One);
+        add(&[kind], text, modulus, Factor::One);
         if index == 0 {
             add(&["intact"], "the undamaged modulus, in proportion to that of unloading", modulus, Factor::OfEachState);
         }

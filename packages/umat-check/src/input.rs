@@ -6,8 +6,11 @@ use std::path::{Path, PathBuf};
 use serde::Deserialize;
 use toml::Spanned;
 
+use super::expect::Expected;
 use super::finding::Question;
-use super::material::{DEFAULT_NAME, Explicit, Material, Traits};
+use super::given::{self, Expect};
+use super::inp::{self, Given};
+use super::material::{DEFAULT_NAME, Explicit, Material, Plane, Traits};
 use toron_shared::checked::{Checked, Positive, value};
 use toron_shared::error::Error;
 use toron_shared::toml_file::{Source, read};
@@ -20,7 +23,9 @@ struct File {
     properties: Option<Vec<f64>>,
     statev: Option<usize>,
     initial: Option<Spanned<Vec<f64>>>,
+    stress: Option<Spanned<Vec<f64>>>,
     ntens: Option<Spanned<usize>>,
+    plane: Option<Plane>,
     stretch: Option<Spanned<Vec<f64>>>,
     increment: Option<Positive>,
     temperature: Option<Spanned<f64>>,
@@ -32,6 +37,8 @@ struct File {
     density: Option<Positive>,
     deletion: Option<Spanned<usize>>,
     defgrad: Option<Spanned<String>>,
+    #[serde(default)]
+    expect: Vec<Expect>,
     #[serde(default)]
     allow: BTreeMap<String, Spanned<Positive>>,
     #[serde(default, rename = "material")]
@@ -56,10 +63,13 @@ pub struct Overrides {
     pub properties: Option<Vec<f64>>,
     pub states: Option<usize>,
     pub components: Option<usize>,
+    pub plane: Option<Plane>,
     pub traits: Option<Vec<String>>,
     pub name: Option<String>,
     pub orientation: bool,
     pub seed: Option<u64>,
+    /// An input of Abaqus.
+    pub deck: Option<PathBuf>,
 }
 
 /// Materials, and how wrong which line may be.
@@ -85,7 +95,27 @@ pub fn input(law: &Path, file: Option<&Path>, overrides: &Overrides) -> Result<I
         Some(file) => read(file)?,
         None => ("the arguments".to_string(), String::new()),
     };
-    parse(&Source { name: &name, text: &text }, overrides)
+    let mut input = parse(&Source { name: &name, text: &text }, overrides)?;
+    if let Some(deck) = &overrides.deck {
+        let given = Given {
+            properties: overrides.properties.is_some(),
+            states: overrides.states.is_some(),
+            components: overrides.components.is_some(),
+        };
+        let known = input.materials;
+        let of = |name: &str| {
+            let same = known.iter().find(|material| material.name.eq_ignore_ascii_case(name));
+            same.or(known.first()).cloned().unwrap_or_default()
+        };
+        input.materials = inp::read(deck, of, given)?;
+        if let Some(name) = &overrides.name {
+            input.materials.retain(|material| material.name.eq_ignore_ascii_case(name));
+            if input.materials.is_empty() {
+                return Err(Error::Input(format!("{}: no user material {name}", deck.display())));
+            }
+        }
+    }
+    Ok(input)
 }
 
 fn parse(source: &Source, overrides: &Overrides) -> Result<Input, Error> {
@@ -101,7 +131,14 @@ fn parse(source: &Source, overrides: &Overrides) -> Result<Input, Error> {
     let owns = if file.materials.is_empty() { vec![Own::default()] } else { file.materials.clone() };
     let materials: Result<Vec<Material>, Error> =
         owns.iter().map(|own| material(source, &file, own, overrides)).collect();
-    Ok(Input { materials: materials?, allowed })
+    let mut materials = materials?;
+    for material in &mut materials {
+        let mut given = file.expect.iter();
+        let is_of_it =
+            |expect: &Expect| expect.material.as_ref().is_none_or(|name| name.eq_ignore_ascii_case(&material.name));
+        material.expected.retain(|_| given.next().is_some_and(is_of_it));
+    }
+    Ok(Input { materials, allowed })
 }
 
 fn material(source: &Source, file: &File, own: &Own, overrides: &Overrides) -> Result<Material, Error> {
@@ -117,22 +154,7 @@ fn material(source: &Source, file: &File, own: &Own, overrides: &Overrides) -> R
         (None, Some(name)) => allowed_name(name.get_ref()).map_err(|message| source.error(name.span(), &message))?,
         (None, None) => DEFAULT_NAME.to_string(),
     };
-    let given = own.initial.as_ref().or(file.initial.as_ref());
-    let mut initial = given.map_or(Vec::new(), |initial| initial.get_ref().clone());
-    let states = overrides.states.or(own.statev).or(file.statev).unwrap_or(initial.len());
-    if states > MOST_STATES {
-        return Err(Error::Input(format!("statev is {states}; allowed: 0 to {MOST_STATES}")));
-    }
-    if let Some(given) = given
-        && states < initial.len()
-    {
-        if overrides.states.is_none() {
-            let message = format!("initial has {} numbers; allowed: statev = {states} or fewer", initial.len());
-            return Err(source.error(given.span(), &message));
-        }
-        initial.truncate(states);
-    }
-    initial.resize(states, 0.0);
+    let initial = initial_state(source, file, own, overrides)?;
     let properties =
         overrides.properties.clone().or(own.properties.clone()).or(file.properties.clone()).unwrap_or_default();
     let key = if overrides.properties.is_some() { "--props" } else { "properties" };
@@ -151,7 +173,7 @@ fn material(source: &Source, file: &File, own: &Own, overrides: &Overrides) -> R
     Ok(Material {
         name,
         properties,
-        initial,
+        stress: initial_stress(source, file.stress.as_ref(), components)?,
         components,
         stretch,
         increment: value(&file.increment).unwrap_or(0.01),
@@ -161,11 +183,55 @@ fn material(source: &Source, file: &File, own: &Own, overrides: &Overrides) -> R
         },
         time_step: value(&file.dtime).unwrap_or(1.0),
         traits: traits(source, own.traits.as_ref().or(file.traits.as_ref()), overrides)?,
+        plane: overrides.plane.or(file.plane),
         orientation: overrides.orientation || file.orientation.unwrap_or(false),
         fibres: fibres(source, own.fibres.as_ref().or(file.fibres.as_ref()))?,
         seed: overrides.seed.or(file.seed).unwrap_or(1),
-        explicit: explicit(source, file, states)?,
+        explicit: explicit(source, file, initial.len())?,
+        initial,
+        deck: None,
+        unsymmetric: None,
+        remarks: Vec::new(),
+        symbol: None,
+        expected: known_answers(source, file, components)?,
     })
+}
+
+/// STATEV at the beginning.
+fn initial_state(source: &Source, file: &File, own: &Own, overrides: &Overrides) -> Result<Vec<f64>, Error> {
+    let given = own.initial.as_ref().or(file.initial.as_ref());
+    let mut initial = given.map_or(Vec::new(), |initial| initial.get_ref().clone());
+    let states = overrides.states.or(own.statev).or(file.statev).unwrap_or(initial.len());
+    if states > MOST_STATES {
+        return Err(Error::Input(format!("statev is {states}; allowed: 0 to {MOST_STATES}")));
+    }
+    if let Some(given) = given
+        && states < initial.len()
+    {
+        if overrides.states.is_none() {
+            let message = format!("initial has {} numbers; allowed: statev = {states} or fewer", initial.len());
+            return Err(source.error(given.span(), &message));
+        }
+        initial.truncate(states);
+    }
+    initial.resize(states, 0.0);
+    Ok(initial)
+}
+
+fn known_answers(source: &Source, file: &File, components: usize) -> Result<Vec<Expected>, Error> {
+    file.expect.iter().map(|given| given::expected(source, given, components)).collect()
+}
+
+fn initial_stress(source: &Source, given: Option<&Spanned<Vec<f64>>>, components: usize) -> Result<[f64; 6], Error> {
+    let mut stress = [0.0; 6];
+    if let Some(given) = given {
+        if given.get_ref().len() != components || given.get_ref().iter().any(|value| !value.is_finite()) {
+            let message = format!("stress has {} numbers; allowed: {components} finite ones", given.get_ref().len());
+            return Err(source.error(given.span(), &message));
+        }
+        stress[..components].copy_from_slice(given.get_ref());
+    }
+    Ok(stress)
 }
 
 fn all_finite(key: &str, numbers: &[f64]) -> Result<(), Error> {
@@ -276,6 +342,11 @@ mod tests {
             ("properties = [1.0, nan]", "properties: number 2 is NaN; allowed: finite numbers"),
             ("deletion = 1", "law.toml:1: deletion is 1; allowed: a state variable, 1 to 0"),
             ("defgrad = \"R\"", "law.toml:1: defgrad is \"R\"; allowed: \"RU\", \"U\""),
+            ("[[expect]]\nstrain = [0.1]\nstress = [1.0]", "law.toml:2: strain is no path; allowed: 6 numbers"),
+            (
+                "[[expect]]\nstrain = [0, 0, 0, 0, 0, 0]\nstress = [1.0, 0, 0, 0, 0, 0]",
+                "law.toml:3: a known answer without source",
+            ),
             ("dtime = 0.0", "law.toml:1: dtime is 0.0; allowed: a finite number > 0"),
         ] {
             let error = of(text).expect_err(text);

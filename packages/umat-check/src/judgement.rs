@@ -38,6 +38,22 @@ pub fn compare(modulus: &Modulus, truth: &Modulus, differences: &Derivative, com
     difference
 }
 
+/// Which entries are wrong beyond a tolerance, where the differences are sure.
+pub fn wrong_entries(
+    modulus: &Modulus,
+    truth: &Modulus,
+    differences: &Derivative,
+    components: usize,
+) -> Vec<(usize, usize)> {
+    let scale = scale(&differences.value, components);
+    let places = (0..components).flat_map(|i| (0..components).map(move |j| (i, j)));
+    let is_wrong = |&(i, j): &(usize, usize)| {
+        let error = (modulus[i][j] - truth[i][j]).abs();
+        error > TOLERANCE * scale[i][j] && error > 20.0 * differences.error[i][j]
+    };
+    places.filter(is_wrong).collect()
+}
+
 /// By what factor an iteration of Newton's method with this modulus reduces an error, at best: the spectral radius of 1 - D⁻¹T.
 pub fn contraction(modulus: &Modulus, truth: &Modulus, components: usize) -> Option<f64> {
     let square = |entries: &Modulus| DMatrix::from_fn(components, components, |i, j| entries[i][j]);

@@ -4,10 +4,12 @@ use std::path::PathBuf;
 
 use serde::{Deserialize, Serialize};
 
+use super::expect::Expected;
+
 /// CMNAME, where none is given.
 pub const DEFAULT_NAME: &str = "MATERIAL";
 
-#[derive(Clone, Debug, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct Material {
     /// CMNAME.
     pub name: String,
@@ -15,6 +17,9 @@ pub struct Material {
     pub properties: Vec<f64>,
     /// STATEV at the beginning, of NSTATV entries; SDVINI may change it.
     pub initial: Vec<f64>,
+    /// STRESS at the beginning.
+    #[serde(default)]
+    pub stress: [f64; 6],
     /// NTENS: 6, 4 (plane strain, axisymmetric) or 3 (plane stress).
     pub components: usize,
     /// The range of the principal stretches that are reached.
@@ -25,6 +30,9 @@ pub struct Material {
     /// DTIME.
     pub time_step: f64,
     pub traits: Traits,
+    /// What NTENS = 4 is, where that is known.
+    #[serde(default)]
+    pub plane: Option<Plane>,
     /// Corotational axes, as with `*ORIENTATION`.
     pub orientation: bool,
     /// Directions in the reference configuration, of length 1.
@@ -33,6 +41,28 @@ pub struct Material {
     pub seed: u64,
     #[serde(default)]
     pub explicit: Explicit,
+    /// The input of Abaqus that it is from, whether its `*USER MATERIAL` has UNSYMM, and what is to be said of it.
+    #[serde(default)]
+    pub deck: Option<String>,
+    #[serde(default)]
+    pub unsymmetric: Option<bool>,
+    #[serde(default)]
+    pub remarks: Vec<String>,
+    /// What the subroutine is called in a library, where not UMAT or VUMAT.
+    #[serde(default)]
+    pub symbol: Option<String>,
+    /// Known answers.
+    #[serde(default)]
+    pub expected: Vec<Expected>,
+}
+
+/// What elements have four components.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Plane {
+    /// Without a strain across.
+    Strain,
+    Axisymmetric,
 }
 
 /// What Abaqus/Explicit alone has.
@@ -77,6 +107,11 @@ impl Material {
     /// NDI.
     pub fn direct(&self) -> usize {
         if self.components == 3 { 2 } else { 3 }
+    }
+
+    /// Whether no strain 33 ever is.
+    pub fn is_plane_strain(&self) -> bool {
+        self.components == 4 && self.plane == Some(Plane::Strain)
     }
 }
 

@@ -6,13 +6,13 @@ use nalgebra::Matrix3;
 
 use super::call::Session;
 use super::differences::{TOLERANCE, of_deformation, of_strain_increment};
-use super::hypotheses::{ExactTangent, Factor, Hypothesis, usual_mistakes};
+use super::hypotheses::{ExactTangent, Factor, Hypothesis, sum, times, usual_mistakes};
 use super::judgement::{Difference, compare};
 use super::kinematics::{Increment, Modulus, of_stress, rotation_of, tensor};
 use super::tangent::{Convention, State, add_volume_term};
 
 /// How long mistakes are looked for.
-const TIME: Duration = Duration::from_secs(14);
+const TIME: Duration = Duration::from_secs(10);
 /// States on which mistakes are tried, of the wrong and of the right ones.
 const TRIED: usize = 24;
 /// Relative difference from which the modulus of unloading is another than that of loading.
@@ -41,17 +41,44 @@ struct Explanation {
     everywhere: bool,
 }
 
+/// A mistake that explains a part.
+struct Near {
+    kind: &'static str,
+    text: String,
+    /// The largest error beside it.
+    leaves: f64,
+}
+
+/// So many kinds at most are told together.
+const MOST_KINDS: usize = 3;
+/// Of the largest error, what a reading that is told leaves at most.
+const BETTER: f64 = 0.3;
+/// What the nearest mistake may leave of the error, at most.
+const NEAR: f64 = 0.1;
+
+/// As `1.2 %`.
+pub fn percent(part: f64) -> String {
+    match 100.0 * part {
+        of @ 10.0.. => format!("{of:.0} %"),
+        of @ 0.01.. => format!("{of:.2} %"),
+        of => format!("{of:.0e} %"),
+    }
+}
+
 /// The kinds of the mistakes that explain the wrong states, and a text for the report.
 pub fn name(session: &mut Session, sample: &Sample, conventions: &[Convention]) -> (Vec<String>, String) {
     let unknown = |text: &str| (vec!["unknown".to_string()], text.to_string());
     let deadline = Instant::now() + TIME;
     let mut explanations: Vec<Explanation> = Vec::new();
+    let mut nearest: Option<Near> = None;
     for &convention in conventions {
         let Some(tried) = sample.tried(session, convention, deadline) else {
             return unknown("too slow a law to be asked in what way");
         };
         let count = tried.first().map_or(0, |(_, all)| all.len());
         explanations.extend((0..count).filter_map(|mistake| sample.explanation(&tried, mistake, convention)));
+        let near = (0..count).filter_map(|mistake| sample.near(&tried, mistake, convention));
+        nearest = nearest.into_iter().chain(near).min_by(|a, b| a.leaves.total_cmp(&b.leaves));
     }
     let everywhere = keep_simplest(&mut explanations);
     let mut kinds: Vec<String> = Vec::new();
@@ -60,8 +87,15 @@ pub fn name(session: &mut Session, sample: &Sample, conventions: &[Convention]) 
             kinds.push(kind.to_string());
         }
     }
+    if kinds.len() > MOST_KINDS {
+        return unknown("what the states do not tell apart: any of many mistakes");
+    }
     if kinds.is_empty() {
-        return unknown("none of the usual mistakes");
+        let Some(near) = nearest.filter(|near| near.leaves < NEAR * sample.largest_error()) else {
+            return unknown("none of the usual mistakes");
+        };
+        let text = format!("nearest to {}: {}, which leaves {}", near.kind, near.text, percent(near.leaves));
+        return (vec!["unknown".to_string(), near.kind.to_string()], text);
     }
     let texts: Vec<String> = kinds.iter().map(|kind| text_of_kind(kind, &explanations)).collect();
     let branch = if everywhere { "" } else { ", in one branch" };
@@ -147,15 +181,42 @@ impl<'a> Sample<'a> {
             let mut tried = tried.iter().filter(|(k, _)| these.contains(k));
             tried.all(|(k, all)| self.fits(*k, &all[mistake], common, convention))
         };
-        if !explains(&self.wrong) {
+        if !explains(&self.wrong) || !self.does_better(tried, mistake, common, convention) {
             return None;
         }
         let text = if *factor == Factor::OfAllStates { format!("{text} times {common:.4}") } else { text.clone() };
         Some(Explanation { kinds: kinds.clone(), text, factor: *factor, everywhere: explains(&self.right) })
     }
 
-    /// Whether a state's modulus is that of the mistake, much nearer than the right one.
-    fn fits(&self, k: usize, hypothesis: &Hypothesis, common: f64, convention: Convention) -> bool {
+    /// How far the wrong states are from this mistake, at most.
+    fn near(&self, tried: &Tried, mistake: usize, convention: Convention) -> Option<Near> {
+        let Hypothesis { kinds, text, factor, .. } = &tried[0].1[mistake];
+        if *factor != Factor::One || is_of_other_increment(kinds) || kinds.len() > 1 {
+            return None;
+        }
+        let mut leaves = 0.0_f64;
+        for (k, all) in tried.iter().filter(|(k, _)| self.wrong.contains(k)) {
+            let (differences, _) = self.states[*k].truth(convention, self.components)?;
+            let mistaken = compare(&self.states[*k].modulus, &all[mistake].modulus, differences, self.components);
+            leaves = leaves.max(if mistaken.worst.is_nan() { f64::INFINITY } else { mistaken.worst });
+        }
+        Some(Near { kind: kinds[0], text: text.clone(), leaves })
+    }
+
+    fn largest_error(&self) -> f64 {
+        self.wrong.iter().map(|&k| error_at(self.found, k)).fold(0.0, f64::max)
+    }
+
+    /// Whether the wrong states are in all nearer to this mistake than to the right modulus.
+    fn does_better(&self, tried: &Tried, mistake: usize, common: f64, convention: Convention) -> bool {
+        let wrong = tried.iter().filter(|(k, _)| self.wrong.contains(k));
+        let mistaken = wrong.map(|(k, all)| self.mistaken(*k, &all[mistake], common, convention));
+        mistaken.fold(0.0_f64, |worst, of| worst.max(if of.is_nan() { f64::INFINITY } else { of }))
+            < BETTER * self.largest_error()
+    }
+
+    /// How far a state's modulus is from that of the mistake.
+    fn mistaken(&self, k: usize, hypothesis: &Hypothesis, common: f64, convention: Convention) -> f64 {
         let components = self.components;
         let factor = match hypothesis.factor {
             Factor::One => 1.0,
@@ -163,10 +224,15 @@ impl<'a> Sample<'a> {
             Factor::OfAllStates => common,
         };
         let modulus = hypothesis.modulus.map(|row| row.map(|entry| factor * entry));
-        let Some((differences, _)) = self.states[k].truth(convention, components) else { return false };
-        let mistaken = compare(&self.states[k].modulus, &modulus, differences, components).worst;
+        let Some((differences, _)) = self.states[k].truth(convention, components) else { return f64::INFINITY };
+        compare(&self.states[k].modulus, &modulus, differences, components).worst
+    }
+
+    /// Whether a state's modulus is that of the mistake, much nearer than the right one.
+    fn fits(&self, k: usize, hypothesis: &Hypothesis, common: f64, convention: Convention) -> bool {
+        let mistaken = self.mistaken(k, hypothesis, common, convention);
         // The modulus of unloading is found a little beside the state.
-        let (near, part) = if hypothesis.kinds.contains(&"intact") { (2e-2, 0.1) } else { (5.0 * TOLERANCE, 1e-3) };
+        let (near, part) = if is_of_other_increment(&hypothesis.kinds) { (2e-2, 0.1) } else { (5.0 * TOLERANCE, 1e-3) };
         let error = error_at(self.found, k);
         // A state that is little wrong cannot tell what is found only nearly.
         if error <= TOLERANCE.max(if part > 1e-2 { 5.0 * near } else { 0.0 }) {
@@ -186,6 +252,11 @@ impl<'a> Sample<'a> {
         factors.sort_by(f64::total_cmp);
         factors[factors.len() / 2]
     }
+}
+
+/// Whether it is a modulus that is found beside the state.
+fn is_of_other_increment(kinds: &[&'static str]) -> bool {
+    kinds.contains(&"intact") || kinds.contains(&"continuum")
 }
 
 fn error_at(found: &[Option<Difference>], k: usize) -> f64 {
@@ -222,8 +293,8 @@ const LEAST_BACK: f64 = 2e-5;
 /// Of the time step, what passes in no time.
 const NO_TIME: f64 = 1e-9;
 
-/// The moduli of unloading, and without time for the state to change.
-fn intact(session: &mut Session, state: &State, convention: Convention) -> [Option<Modulus>; 2] {
+/// The moduli of unloading, without time for the state to change, and of going on a little.
+fn intact(session: &mut Session, state: &State, convention: Convention) -> [Option<Modulus>; 3] {
     let answer = session.call_law(&state.call);
     let after = state.before.after(&state.f1, &state.call, &answer);
     let components = session.material.components;
@@ -231,6 +302,8 @@ fn intact(session: &mut Session, state: &State, convention: Convention) -> [Opti
     // Differences need some room on this side of the kink.
     let part = TAKEN_BACK.max(LEAST_BACK / whole.strain.norm().max(LEAST_BACK)).min(0.5);
     let back = whole.at(1.0 - part, &state.before.f);
+    let little = LEAST_BACK / whole.strain.norm().max(LEAST_BACK);
+    let onwards = [1.0, 2.0].map(|times| (whole.at(1.0 + times * little, &state.before.f), times * little));
     let mut of = |f: &Matrix3<f64>, time: f64| {
         let mut call = after.call(f, session.material);
         call.time_step *= time;
@@ -244,5 +317,8 @@ fn intact(session: &mut Session, state: &State, convention: Convention) -> [Opti
         }
         Some(modulus)
     };
-    [of(&back, 1.0), of(&state.f1, NO_TIME)]
+    // Of a vanishing increment, by two that are not.
+    let [one, two] = onwards.map(|(f, time)| of(&f, time));
+    let vanishing = one.zip(two).map(|(one, two)| sum(&times(&one, 2.0), &two, -1.0));
+    [of(&back, 1.0), of(&state.f1, NO_TIME), vanishing]
 }

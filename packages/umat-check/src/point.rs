@@ -20,6 +20,18 @@ pub struct Point {
     time: f64,
     increment: i32,
     place: [i32; 2],
+    /// KSTEP, and the time at which the step began.
+    step: i32,
+    begun: f64,
+}
+
+/// What begins again with a further step: Abaqus has KSTEP go on, and KINC and TIME(1) begin again.
+#[derive(Clone, Copy, Debug)]
+pub struct Begun {
+    pub step: bool,
+    pub increment: bool,
+    /// TIME(1) at the beginning, if it does not go on.
+    pub time: Option<f64>,
 }
 
 /// Why an increment has no answer.
@@ -31,24 +43,32 @@ pub enum Failure {
     NotFinite(Box<Call>),
 }
 
-/// How often an increment is halved if the law asks for it.
-const HALVINGS: u32 = 6;
+/// How often an increment is tried: Abaqus's own default.
+const ATTEMPTS: u32 = 5;
+/// So many increments one may become; a job would have ended.
+const MOST_INCREMENTS: usize = 200;
+/// What PNEWDT may leave of an increment, at least.
+const SMALLEST_PART: f64 = 0.05;
+/// By what Abaqus lets increments grow that converge well.
+const GROWTH: f64 = 1.5;
 
 impl Point {
     /// A point that has not been deformed, of this element and number. The element is 1 everywhere: laws may have
     /// tables by it.
     pub fn virgin(session: &mut Session, place: [i32; 2]) -> Point {
-        let state = session.initial_state(place);
+        let (state, stress) = (session.initial_state(place), session.initial_stress(place));
         let nothing = [0.0; 6];
         Point {
             f: Matrix3::identity(),
-            stress: nothing,
+            stress,
             state,
             energies: [0.0; 3],
             strain: nothing,
             time: 0.0,
             increment: 0,
             place,
+            step: 1,
+            begun: 0.0,
         }
     }
 
@@ -63,7 +83,7 @@ impl Point {
             energies: self.energies,
             strain: of_strain(&turned(strain_tensor(&self.strain, components)), components),
             strain_increment: of_strain(&increment.strain, components),
-            time: [self.time; 2],
+            time: [self.time - self.begun, self.time],
             time_step: material.time_step,
             temperature: material.temperature,
             rotation: increment.rotation,
@@ -72,6 +92,8 @@ impl Point {
             place: self.place,
             increment: self.increment + 1,
             unset: 0.0,
+            step: self.step,
+            temperature_step: 0.0,
         };
         if material.orientation {
             // The axes turn with the material, and everything is written on them.
@@ -101,6 +123,8 @@ impl Point {
             time: self.time + call.time_step,
             increment: call.increment,
             place: self.place,
+            step: self.step,
+            begun: self.begun,
         }
     }
 
@@ -110,38 +134,54 @@ impl Point {
     /// The law asks for ever smaller increments, or answers what is not finite.
     pub fn advance(&mut self, session: &mut Session, f1: &Matrix3<f64>) -> Result<Answer, Failure> {
         let time_step = session.material.time_step;
-        self.advance_within(session, f1, time_step, HALVINGS)
+        self.advance_in(session, f1, time_step)
     }
 
-    /// The same within another time.
+    /// The same within another time. PNEWDT is obeyed as Abaqus does: the increment begins again from the old state
+    /// with that part of DTIME, so often and no oftener, and later ones may grow again.
     ///
     /// # Errors
     /// As [`advance`](Self::advance).
     pub fn advance_in(&mut self, session: &mut Session, f1: &Matrix3<f64>, time_step: f64) -> Result<Answer, Failure> {
-        self.advance_within(session, f1, time_step, HALVINGS)
+        let start = self.f;
+        let whole = Increment::between(&start, f1);
+        let (mut done, mut part, mut attempts) = (0.0, 1.0, 1);
+        for _ in 0..MOST_INCREMENTS {
+            let last = done + part >= 1.0 - 1e-9;
+            let f = if last { *f1 } else { whole.at(done + part, &start) };
+            let mut call = self.call(&f, session.material);
+            call.time_step = time_step * part;
+            let answer = session.call_law(&call);
+            if answer.refused() {
+                if attempts == ATTEMPTS {
+                    return Err(Failure::Refused);
+                }
+                attempts += 1;
+                part *= answer.next_step.clamp(SMALLEST_PART, 1.0);
+                continue;
+            }
+            if !answer.finite() {
+                return Err(Failure::NotFinite(Box::new(call)));
+            }
+            *self = self.after(&f, &call, &answer);
+            if last {
+                return Ok(answer);
+            }
+            done += part;
+            part = (GROWTH * part).min(1.0 - done);
+            attempts = 1;
+        }
+        Err(Failure::Refused)
     }
 
-    fn advance_within(
-        &mut self,
-        session: &mut Session,
-        f1: &Matrix3<f64>,
-        time_step: f64,
-        halvings: u32,
-    ) -> Result<Answer, Failure> {
-        let mut call = self.call(f1, session.material);
-        call.time_step = time_step;
-        let answer = session.call_law(&call);
-        if answer.refused() {
-            let Some(halvings) = halvings.checked_sub(1) else { return Err(Failure::Refused) };
-            let middle = Increment::between(&self.f, f1).at(0.5, &self.f);
-            self.advance_within(session, &middle, 0.5 * time_step, halvings)?;
-            return self.advance_within(session, f1, 0.5 * time_step, halvings);
+    /// The point at the beginning of a further step.
+    pub fn next_step(&self, begun: Begun) -> Point {
+        Point {
+            step: self.step + i32::from(begun.step),
+            begun: begun.time.map_or(self.begun, |time| self.time - time),
+            increment: if begun.increment { 0 } else { self.increment },
+            ..self.clone()
         }
-        if !answer.finite() {
-            return Err(Failure::NotFinite(Box::new(call)));
-        }
-        *self = self.after(f1, &call, &answer);
-        Ok(answer)
     }
 
     /// Cauchy stress on global axes.

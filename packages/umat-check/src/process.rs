@@ -14,10 +14,11 @@ use super::kinematics::{Increment, name};
 use super::material::{Material, Reads};
 use super::point::{Failure, Point};
 
-/// What the law reads: which argument changes the stress.
-pub fn reads(session: &mut Session) -> Reads {
+/// What the law reads: which argument changes the stress; and whether a strain 33 does.
+pub fn reads(session: &mut Session) -> (Reads, bool) {
     let mut rng = Rng::with_seed(session.material.seed ^ 0x4e);
-    let (mut by_deformation, mut by_strain) = (false, false);
+    let components = session.material.components;
+    let (mut by_deformation, mut by_strain, mut by_third) = (false, false, false);
     for _ in 0..6 {
         let mut point = Point::virgin(session, [1, 1]);
         let mut path = history(&mut rng, session.material, 2);
@@ -49,14 +50,22 @@ pub fn reads(session: &mut Session) -> Reads {
             other.f0 = Matrix3::new(1.01, 0.004, 0.0, 0.0, 0.995, 0.0, 0.0, 0.0, 1.003) * call.f0;
             // A law of increments of F is one of rates too.
             by_strain |= changed(&other);
+            if components == 4 {
+                let mut other = call.clone();
+                other.f1[(2, 2)] *= 1.01;
+                other.strain[2] += 1e-3;
+                other.strain_increment[2] += 1e-3;
+                by_third |= changed(&other);
+            }
             point = point.after(f1, &call, &answer);
         }
     }
-    match (by_deformation, by_strain) {
+    let reads = match (by_deformation, by_strain) {
         (true, true) => Reads::Mixed,
         (false, true) => Reads::Rate,
         _ => Reads::Total,
-    }
+    };
+    (reads, by_third)
 }
 
 /// A few histories: with a page at either end of the arrays, what is touched beyond ends the process.
@@ -159,6 +168,13 @@ pub fn repeat(session: &mut Session) -> Finding {
     Finding::new(Question::Repeat, Verdict::Right, None, text)
 }
 
+/// The bits of the stresses of a few histories.
+pub fn stresses(session: &mut Session) -> Vec<u64> {
+    let paths = paths(session.material, 0x2e, 3, 12);
+    let all: Vec<Answer> = paths.iter().flat_map(|path| answers(session, path, [1, 1])).collect();
+    all.iter().flat_map(|answer| answer.stress).map(f64::to_bits).collect()
+}
+
 fn what_differs(a: &Answer, b: &Answer) -> String {
     let bits = |values: &[f64]| values.iter().map(|value| value.to_bits()).collect::<Vec<_>>();
     if bits(&a.stress) != bits(&b.stress) {
@@ -232,6 +248,7 @@ pub fn outputs(session: &mut Session) -> Finding {
     let mut unset = [[false; 6]; 6];
     let mut used = [[false; 6]; 6];
     let mut asked = 0;
+    session.watched = Some(Vec::new());
     for (k, path) in paths(session.material, 0x0f, 8, 30).into_iter().enumerate() {
         let mut point = Point::virgin(session, [1, k as i32 + 1]);
         for f1 in &path {
@@ -253,6 +270,7 @@ pub fn outputs(session: &mut Session) -> Finding {
             point = point.after(f1, &call, &zero);
         }
     }
+    let written = session.watched.take().unwrap_or_default();
     let named = |entries: &[[bool; 6]; 6]| {
         let places = (0..components).flat_map(|i| (0..components).map(move |j| (i, j)));
         let places: Vec<String> =
@@ -266,6 +284,9 @@ pub fn outputs(session: &mut Session) -> Finding {
     if asked == 0 {
         return Finding::new(Question::Outputs, Verdict::NotSure, None, "there was no answer");
     }
+    if !written.is_empty() {
+        return inputs_written(&written);
+    }
     if used.iter().flatten().any(|used| *used) {
         let text = if unset == used {
             format!("DDSDDE{} not set: it keeps what was there before", named(&unset))
@@ -274,7 +295,17 @@ pub fn outputs(session: &mut Session) -> Finding {
         };
         return Finding::new(Question::Outputs, Verdict::Warning, None, text).with("unset");
     }
-    Finding::new(Question::Outputs, Verdict::Right, None, "every entry of DDSDDE is set")
+    Finding::new(Question::Outputs, Verdict::Right, None, "every entry of DDSDDE is set, inputs are left alone")
+}
+
+/// PROPS are those of all points; of others Abaqus hands over a copy.
+fn inputs_written(written: &[&str]) -> Finding {
+    let text = format!("{} are inputs, and are written to", written.join(", "));
+    let line = |verdict, text: String| Finding::new(Question::Outputs, verdict, None, text).with("input overwritten");
+    match written.contains(&"PROPS") {
+        true => line(Verdict::Wrong, format!("{text}: the next call of any point gets other PROPS")),
+        false => line(Verdict::Warning, text),
+    }
 }
 
 /// Exceptions, in C's names of this processor.
@@ -373,13 +404,13 @@ pub fn invalid(session: &mut Session, reads: Reads) -> Finding {
 }
 
 const HISTORIES: usize = 100_000;
-const TIME: Duration = Duration::from_secs(12);
+const TIME: Duration = Duration::from_secs(6);
 
 /// Very many short random histories from the initial call.
 pub fn histories(session: &mut Session, reads: Reads) -> Finding {
     let started = Instant::now();
     let mut rng = Rng::with_seed(session.material.seed ^ 0x10);
-    let (mut done, mut refused) = (0, 0);
+    let (mut done, mut refused, mut long, mut long_refused) = (0, 0, 0, 0);
     for number in 0..HISTORIES {
         if number % 64 == 0 && started.elapsed() > TIME {
             break;
@@ -389,7 +420,9 @@ pub fn histories(session: &mut Session, reads: Reads) -> Finding {
         let count = rng.usize(1..5);
         let whole = Increment::between(&point.f, &target).turning_at_most(LARGEST_TURN * count as f64);
         // Small ones too: from a millionth of the way to all of it.
-        let part = if rng.bool() { 1.0 } else { 10f64.powf(-6.0 * rng.f64()) };
+        let is_long = rng.bool();
+        let part = if is_long { 1.0 } else { 10f64.powf(-6.0 * rng.f64()) };
+        long += usize::from(is_long);
         // A law of increments is for increments like those of the file.
         let most = 2.0 * session.material.increment * count as f64 / whole.strain.norm();
         let part = if reads == Reads::Total { part } else { part.min(most) };
@@ -399,6 +432,7 @@ pub fn histories(session: &mut Session, reads: Reads) -> Finding {
                 Ok(_) => {}
                 Err(Failure::Refused) => {
                     refused += 1;
+                    long_refused += usize::from(is_long);
                     break;
                 }
                 Err(Failure::NotFinite(call)) => {
@@ -414,7 +448,8 @@ pub fn histories(session: &mut Session, reads: Reads) -> Finding {
     let refusals = if refused > 0 { format!(", {refused} of which end with PNEWDT") } else { String::new() };
     let time = if done < HISTORIES { format!(" in {} s", TIME.as_secs()) } else { String::new() };
     let text = format!("{done} random histories from the initial call{time}{refusals}");
-    if refused == done {
+    if refused == done || (long >= MANY && long_refused as f64 > NEARLY_ALL * long as f64) {
+        let text = format!("{text}: next to no path into the range can be finished, in five attempts at an increment");
         return Finding::new(Question::Histories, Verdict::Wrong, None, text).with("refused");
     }
     if 2 * refused > done {
@@ -422,6 +457,10 @@ pub fn histories(session: &mut Session, reads: Reads) -> Finding {
     }
     Finding::new(Question::Histories, Verdict::Right, None, text)
 }
+
+/// So many histories into the range tell that none can be finished, and this part of them is all.
+const MANY: usize = 20;
+const NEARLY_ALL: f64 = 0.9;
 
 fn not_finite(answer: &Answer, session: &Session) -> String {
     let components = session.material.components;

@@ -6,7 +6,8 @@ use serde::{Deserialize, Serialize};
 
 use super::call::Call;
 use super::child::{self, ChildReply, Task};
-use super::compile;
+use super::compile::{self, Options};
+use super::driver;
 use super::finding::Question;
 use super::guarded::Guard;
 use super::material::Material;
@@ -18,6 +19,7 @@ use toron_shared::toml_file;
 /// What is needed to repeat a call.
 pub struct Repeated {
     pub file: PathBuf,
+    pub options: Options,
     pub material: Material,
     pub guard: Guard,
     pub call: Call,
@@ -39,6 +41,8 @@ pub fn writes(file: &Path) -> Writes<'_> {
 #[derive(Serialize, Deserialize)]
 struct Written {
     file: PathBuf,
+    #[serde(default)]
+    options: Options,
     material: Material,
     #[serde(alias = "fence")]
     guard: Guard,
@@ -46,11 +50,11 @@ struct Written {
 }
 
 impl Repeated {
-    /// Writes `NAME-LINE.json` into the folder, under its lock.
+    /// Writes `NAME-LINE.json` into the folder, under its lock, and if asked `NAME-LINE.f90`, the call as a program.
     ///
     /// # Errors
     /// It cannot be written, or the files there are another law's.
-    pub fn write(&self, output: &Path, question: Question) -> Result<PathBuf, Error> {
+    pub fn write(&self, output: &Path, question: Question, as_program: bool) -> Result<PathBuf, Error> {
         let _directory = RunDirectory::lock(output, writes(&self.file))?.claim()?;
         let path = output.join(format!("{}.json", name(&self.file, question)));
         let error = |reason: String| Error::Input(format!("{}: {reason}", path.display()));
@@ -59,12 +63,17 @@ impl Repeated {
         });
         let written = Written {
             file: self.file.canonicalize().map_err(|reason| error(reason.to_string()))?,
+            options: self.options.clone(),
             material: self.material.clone(),
             guard: self.guard,
             arguments: arguments.to_vec(),
         };
         let text = serde_json::to_string_pretty(&written).map_err(|reason| error(reason.to_string()))?;
         std::fs::write(&path, text).map_err(|reason| error(reason.to_string()))?;
+        let law = self.file.display().to_string();
+        if let Some(program) = driver::driver(&self.call, &self.material, &law).filter(|_| as_program) {
+            std::fs::write(path.with_extension("f90"), program).map_err(|reason| error(reason.to_string()))?;
+        }
         Ok(path)
     }
 
@@ -78,7 +87,8 @@ impl Repeated {
         let numbers = texts.map(|text| text.parse().map_err(|_| error(format!("\"{text}\"; allowed: a number"))));
         let numbers: Vec<f64> = numbers.collect::<Result<_, _>>()?;
         let call = Call::from_numbers(&numbers).ok_or_else(|| error("arguments are missing".to_string()))?;
-        Ok(Repeated { file: written.file, material: written.material, guard: written.guard, call })
+        let Written { file, options, material, guard, .. } = written;
+        Ok(Repeated { file, options, material, guard, call })
     }
 
     /// Compiles the law again and repeats the call.
@@ -86,7 +96,7 @@ impl Repeated {
     /// # Errors
     /// The law does not compile, or the call ends the process again.
     pub fn run(&self, work_dir: &Path) -> Result<(), Error> {
-        let built = compile::compile(&self.file, work_dir)?;
+        let built = compile::compile(&self.file, work_dir, &self.options)?;
         let numbers = self.call.numbers().into_iter().map(f64::to_bits).collect();
         match child::run_task(
             work_dir,

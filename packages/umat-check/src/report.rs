@@ -1,19 +1,23 @@
 //! The report: a line a question, aligned, in colours on a terminal; or as JSON.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::finding::{Finding, Verdict};
 use toron_shared::text_table::folded;
 
+/// The version of the JSON, which `report.schema.json` describes: it grows where a key goes or changes.
+const VERSION: u32 = 2;
+
 /// All that was found of a file.
-#[derive(Serialize)]
+#[derive(Serialize, Deserialize)]
 pub struct Report {
+    pub version: u32,
     pub file: String,
     pub verdict: Verdict,
     pub materials: Vec<MaterialReport>,
 }
 
-#[derive(Serialize)]
+#[derive(Serialize, Deserialize)]
 pub struct MaterialReport {
     pub name: String,
     /// What it reads: total, rate, mixed; none where it ended the process before that was known.
@@ -22,16 +26,35 @@ pub struct MaterialReport {
 }
 
 impl Report {
-    /// The names of the lines that are wrong.
-    pub fn wrong(&self) -> Vec<&str> {
+    pub fn new(file: &str, materials: Vec<MaterialReport>) -> Report {
+        Report { version: VERSION, file: file.to_string(), verdict: Verdict::Right, materials }
+    }
+
+    /// The names of the lines that fail, which make the verdict.
+    pub fn judge(&mut self, strict: bool) -> Vec<String> {
         let lines = self.materials.iter().flat_map(|material| &material.lines);
-        let mut names: Vec<&str> = Vec::new();
-        for line in lines.filter(|line| line.verdict.fails()) {
-            if !names.contains(&line.check.as_str()) {
-                names.push(&line.check);
+        let mut names: Vec<String> = Vec::new();
+        for line in lines.filter(|line| line.fails(strict)) {
+            if !names.contains(&line.check) {
+                names.push(line.check.clone());
             }
         }
+        self.verdict = if names.is_empty() { Verdict::Right } else { Verdict::Wrong };
         names
+    }
+
+    /// Marks what an earlier report has too: the same line of the same material, verdict and kinds.
+    pub fn mark_known(&mut self, earlier: &Report) {
+        for material in &mut self.materials {
+            let same = earlier.materials.iter().filter(|other| other.name == material.name);
+            let known: Vec<&Finding> = same.flat_map(|other| &other.lines).collect();
+            for line in &mut material.lines {
+                let is_it = |other: &&&Finding| {
+                    other.check == line.check && other.verdict == line.verdict && other.kinds == line.kinds
+                };
+                line.known = line.fails(true) && known.iter().any(|other| is_it(&other));
+            }
+        }
     }
 
     /// For the terminal; `program` is the command that repeats a call.
@@ -105,13 +128,14 @@ fn as_text(line: &Finding, program: &str, colours: bool) -> String {
         (true, Verdict::Warning) => format!("\x1b[33m{verdict}\x1b[0m"),
         (true, _) => format!("\x1b[2m{verdict}\x1b[0m"),
     };
-    let mut words = line.text.clone();
+    let mut words = if line.known { format!("(known) {}", line.text) } else { line.text.clone() };
     if let Some(call) = &line.call {
         words.push_str(&format!("; {program} --again {call}"));
     }
     let indent = " ".repeat(NAME + FIGURE + 2 + VERDICT);
     let words = folded(&words, WORDS).replace("\n  ", &format!("\n{indent}"));
-    format!("{:<NAME$}{figure:>FIGURE$}  {verdict}{words}\n", line.check)
+    let map: String = line.map.iter().map(|row| format!("{indent}{row}\n")).collect();
+    format!("{:<NAME$}{figure:>FIGURE$}  {verdict}{words}\n{map}", line.check)
 }
 
 /// Three digits.
@@ -129,6 +153,23 @@ fn short(figure: f64) -> String {
 mod tests {
     use super::super::finding::Question;
     use super::*;
+
+    #[test]
+    fn what_a_baseline_has_does_not_fail() {
+        let warned = |text: &str| {
+            let line = Finding::new(Question::Outputs, Verdict::Warning, None, text).with("unset");
+            Report::new("umat.f", vec![MaterialReport { name: "A".to_string(), law: None, lines: vec![line] }])
+        };
+        let (mut report, earlier) = (warned("one"), warned("another text"));
+        assert!(report.judge(false).is_empty());
+        assert_eq!((report.judge(true), report.verdict), (vec!["outputs".to_string()], Verdict::Wrong));
+        report.mark_known(&earlier);
+        assert!(report.judge(true).is_empty());
+        // A further kind is news.
+        report.materials[0].lines[0].kinds.push("input overwritten".to_string());
+        report.mark_known(&earlier);
+        assert_eq!(report.judge(true), ["outputs"]);
+    }
 
     #[test]
     fn what_is_not_sure_for_one_reason_is_said_once() {

@@ -30,7 +30,9 @@ pub fn rest(session: &mut Session) -> Finding {
     let largest =
         |values: &mut dyn Iterator<Item = &f64>| values.fold(0.0_f64, |largest, value| largest.max(value.abs()));
     let stiffness = largest(&mut answer.modulus.iter().flatten());
-    let stress = largest(&mut answer.stress.iter());
+    // A stress that is there from the beginning stays.
+    let left: Vec<f64> = answer.stress.iter().zip(&point.stress).map(|(a, b)| a - b).collect();
+    let stress = largest(&mut left.iter());
     if stress == 0.0 {
         return Finding::new(Question::Rest, Verdict::Right, Some(0.0), "no stress at rest");
     }

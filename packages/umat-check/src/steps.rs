@@ -17,7 +17,7 @@ const PARTS: [usize; 5] = [1, 2, 4, 8, 16];
 /// Where these tell no order: a threshold that is crossed within an increment makes differences uneven, and a law that
 /// relaxes faster than the time passes shows none before parts are shorter than its relaxation.
 const MOST_PARTS: usize = 4096;
-const LONGEST: Duration = Duration::from_secs(10);
+const LONGEST: Duration = Duration::from_secs(6);
 /// Increments of a history.
 const INCREMENTS: usize = 12;
 /// Of the stress.
@@ -44,19 +44,10 @@ pub fn steps(session: &mut Session) -> Finding {
     for _ in 0..HISTORIES {
         let mut path = history(&mut rng, session.material, 2);
         path.truncate(INCREMENTS);
-        let mut ends = Vec::new();
-        // Of all that is on the way: a path may end where there is next to no stress.
-        let mut size = 0.0_f64;
-        for parts in PARTS {
-            match end(session, &path, parts) {
-                Ok(Some((stress, largest))) => {
-                    ends.push(stress);
-                    size = size.max(largest);
-                }
-                Ok(None) => {}
-                Err(text) => return Finding::new(Question::Steps, Verdict::Wrong, None, text).with(NOT_FINITE),
-            }
-        }
+        let (ends, size) = match ends(session, &path) {
+            Ok(found) => found,
+            Err(text) => return Finding::new(Question::Steps, Verdict::Wrong, None, text).with(NOT_FINITE),
+        };
         let [one, two, four, eight, sixteen] = ends[..] else { continue };
         if size == 0.0 {
             continue;
@@ -99,6 +90,19 @@ pub fn steps(session: &mut Session) -> Finding {
     let text =
         format!("finer increments change the stress by {largest_change:.1e}, and order {order:.1} is no convergence");
     Finding::new(Question::Steps, Verdict::Warning, Some(order), text).with("no convergence")
+}
+
+/// The stress at the end of a path in ever more parts, as far as the law does not refuse, and the largest of all on the
+/// way: a path may end where there is next to no stress.
+fn ends(session: &mut Session, path: &[Matrix3<f64>]) -> Result<(Vec<Matrix3<f64>>, f64), String> {
+    let (mut ends, mut size) = (Vec::new(), 0.0_f64);
+    for parts in PARTS {
+        if let Some((stress, largest)) = end(session, path, parts)? {
+            ends.push(stress);
+            size = size.max(largest);
+        }
+    }
+    Ok((ends, size))
 }
 
 /// The order of the last two changes of the stress when the parts of a path are halved again and again, and the last

@@ -6,22 +6,29 @@ use fastrand::Rng;
 use nalgebra::Matrix3;
 
 use super::call::{Call, Session};
-use super::differences::{Derivative, TOLERANCE, of_deformation, of_strain_increment};
+use super::differences::{Derivative, TOLERANCE, of_deformation, of_strain_increment, scale};
 use super::finding::{Finding, NOT_FINITE, Question, Verdict};
 use super::histories::history;
 use super::hypotheses::stress_by_volume;
-use super::judgement::{Difference, compare, contraction};
+use super::judgement::{Difference, compare, contraction, wrong_entries};
 use super::kinematics::{Components, Increment, Modulus, name};
+use super::map::{self, Branch};
 use super::material::Reads;
 use super::mistakes::{self, Sample};
+use super::noise;
 use super::point::{Failure, Point};
 
 /// States that are asked at, if the time suffices.
 const STATES: usize = 200;
-const TIME: Duration = Duration::from_secs(14);
+const TIME: Duration = Duration::from_secs(10);
 /// Histories, at most; each gives some states.
 const HISTORIES: usize = 60;
 
+/// Of DTIME, in turn: what is divided by it is wrong for 1 alone, or right.
+const TIME_STEPS: [f64; 3] = [1.0, 0.4, 1.7];
+
+/// The kind of a tangent that is wrong at some.
+pub const FEW_STATES: &str = "few states";
 /// So many wrong states of at least [`MANY`] times as many are a warning.
 const FEW: usize = 2;
 const MANY: usize = 25;
@@ -102,16 +109,20 @@ pub fn add_volume_term(modulus: &mut Modulus, stress: &Components, components: u
 pub fn tangent(session: &mut Session, reads: Reads, allowed: Option<f64>) -> Finding {
     let started = Instant::now();
     let mut line = tangent_in_order(session, reads, allowed);
+    let unknown = line.kinds.first().is_some_and(|kind| kind == "unknown");
     // As long again must not be too long.
-    if session.material.components == 6 && line.kinds == ["unknown"] && started.elapsed() < TIME {
+    if session.material.components == 6 && unknown && started.elapsed() < TIME {
         session.exchange(true);
         let exchanged = tangent_in_order(session, reads, allowed);
         session.exchange(false);
-        let named = exchanged.verdict == Verdict::Wrong && exchanged.kinds != line.kinds;
-        if exchanged.verdict == Verdict::Right || named {
+        // Of an isotropic law both readings are alike: one that explains no more is none, and one that undoes itself.
+        let undone = exchanged.kinds.iter().any(|kind| kind == EXCHANGED || kind == "unknown");
+        let better = exchanged.figure.unwrap_or(f64::INFINITY) < 0.5 * line.figure.unwrap_or(0.0);
+        let right = exchanged.verdict == Verdict::Right;
+        if right || (exchanged.verdict == Verdict::Wrong && !undone && better) {
             line.kinds = vec![EXCHANGED.to_string()];
             line.kinds.extend(exchanged.kinds);
-            let text = if exchanged.verdict == Verdict::Right { line.text } else { exchanged.text };
+            let text = if right { line.text } else { exchanged.text };
             line.text = format!("{EXCHANGED} in STRESS and DDSDDE (the order is 11 22 33 12 13 23): {text}");
         }
     }
@@ -121,7 +132,8 @@ pub fn tangent(session: &mut Session, reads: Reads, allowed: Option<f64>) -> Fin
 fn tangent_in_order(session: &mut Session, reads: Reads, allowed: Option<f64>) -> Finding {
     let not_sure = |text: &str| Finding::new(Question::Tangent, Verdict::NotSure, None, text);
     let components = session.material.components;
-    let (states, broken) = match gather(session, reads) {
+    session.coarse = false;
+    let (mut states, broken) = match gather(session, reads) {
         Ok(gathered) => gathered,
         Err(line) => return *line,
     };
@@ -129,21 +141,70 @@ fn tangent_in_order(session: &mut Session, reads: Reads, allowed: Option<f64>) -
         return not_sure("the law asks for smaller increments at every state");
     }
     let conventions = Convention::of(reads, components);
-    let Some((convention, found)) = best_convention(&states, conventions, components) else {
+    let Some((mut convention, mut found)) = best_convention(&states, conventions, components) else {
         return Finding::new(Question::Tangent, Verdict::NotAsked, None, "");
     };
+    if without_stress(&states, convention, components) {
+        return not_sure("there was no stress");
+    }
+    let steps = noise::steps(session, &states, |state| Some(state.truth(convention, components)?.1));
+    if steps.is_some() {
+        // Differences of small steps would be those of the noise.
+        session.coarse = true;
+        for state in &mut states {
+            let (jaumann, plain) = derivatives(session, &state.before, &state.call, &state.f1, reads);
+            state.jaumann = without_column_33(session, jaumann, &state.modulus);
+            state.plain = without_column_33(session, plain, &state.modulus);
+        }
+        if let Some(again) = best_convention(&states, conventions, components) {
+            (convention, found) = again;
+        }
+    }
     let Some((_, difference)) = worst(&found) else {
         return not_sure("no state has sure differences");
     };
     let (unsure, aside) = without_sure_differences(&states, &found);
-    if difference.worst <= TOLERANCE {
+    let judged = Judged { states: &states, found: &found, convention, components };
+    let within = steps.is_some_and(|steps| judged.largest_error() < OF_STEPS * steps);
+    if difference.worst <= TOLERANCE || within {
         let text = format!("{} at {} states{aside}", convention.name(), states.len());
         // Sure of nothing is not right.
         let verdict = if unsure * 2 > states.len() { Verdict::NotSure } else { Verdict::Right };
-        return Finding::new(Question::Tangent, verdict, Some(difference.worst), text);
+        let line = Finding::new(Question::Tangent, verdict, Some(difference.worst), text);
+        let line = without_unsymm(session, &states, line);
+        return steps.map_or(line.clone(), |steps| in_steps(line, steps));
     }
-    let judged = Judged { states: &states, found: &found, convention, components };
     wrong_tangent(session, &judged, conventions, allowed.unwrap_or(TOLERANCE), &aside)
+}
+
+/// A warning where DDSDDE is not symmetric and the input of Abaqus has no UNSYMM, without which half of it is lost.
+fn without_unsymm(session: &Session, states: &[State], line: Finding) -> Finding {
+    if session.material.unsymmetric != Some(false) {
+        return line;
+    }
+    let skew = |state: &State| {
+        let largest = state.modulus.iter().flatten().fold(f64::MIN_POSITIVE, |largest, entry| largest.max(entry.abs()));
+        let pairs = (0..6).flat_map(|i| (0..i).map(move |j| (i, j)));
+        pairs.map(|(i, j)| (state.modulus[i][j] - state.modulus[j][i]).abs()).fold(0.0, f64::max) / largest
+    };
+    let skew = states.iter().map(skew).fold(0.0, f64::max);
+    if skew <= SYMMETRIC {
+        return line;
+    }
+    let text =
+        format!("{}; it is unsymmetric by {}, and *USER MATERIAL has no UNSYMM", line.text, mistakes::percent(skew));
+    Finding { verdict: Verdict::Warning, text, ..line }.with("without UNSYMM")
+}
+
+/// Of the largest entry: what is symmetric.
+const SYMMETRIC: f64 = 1e-3;
+
+/// Whether neither stress nor its derivatives are anything but 0.
+fn without_stress(states: &[State], convention: Convention, components: usize) -> bool {
+    states.iter().all(|state| {
+        let truth = state.truth(convention, components).map_or([[0.0; 6]; 6], |(_, truth)| truth);
+        state.stress.iter().chain(truth.iter().flatten()).all(|number| *number == 0.0)
+    })
 }
 
 /// The states, how wrong each is by the convention that suits best, and that convention.
@@ -152,6 +213,80 @@ struct Judged<'a> {
     found: &'a [Option<Difference>],
     convention: Convention,
     components: usize,
+}
+
+/// Of the stiffness, what differences err by at most for steps of the stress of one part of it.
+const OF_STEPS: f64 = 1e4;
+
+/// The line where the stress moves in steps of this part of the stiffness.
+fn in_steps(line: Finding, steps: f64) -> Finding {
+    let text = format!(
+        "the stress moves in steps of {steps:.1e} of the stiffness, by which differences cannot be sharper: {}",
+        line.text
+    );
+    Finding { text, ..line }.with(noise::NOISE)
+}
+
+impl Judged<'_> {
+    /// The largest error of an entry over the largest entry.
+    fn largest_error(&self) -> f64 {
+        let errors = self.states.iter().zip(self.found).filter_map(|(state, found)| {
+            let (i, j) = (*found)?.place;
+            let (_, truth) = state.truth(self.convention, self.components)?;
+            let stiffness = truth.iter().flatten().fold(f64::MIN_POSITIVE, |largest, entry| largest.max(entry.abs()));
+            Some((state.modulus[i][j] - truth[i][j]).abs() / stiffness)
+        });
+        errors.fold(0.0, f64::max)
+    }
+
+    /// The largest errors of the entries, drawn by branch.
+    fn map(&self) -> Vec<String> {
+        let mut branches: Vec<Branch> = Vec::new();
+        for state in self.states {
+            let Some((differences, truth)) = state.truth(self.convention, self.components) else { continue };
+            let at = branches.iter().position(|branch| branch.name == state.name).unwrap_or_else(|| {
+                branches.push(Branch { name: &state.name, errors: [[0.0; 6]; 6] });
+                branches.len() - 1
+            });
+            let scale = scale(&differences.value, self.components);
+            for (i, j) in wrong_entries(&state.modulus, &truth, differences, self.components) {
+                let error = (state.modulus[i][j] - truth[i][j]).abs() / scale[i][j];
+                branches[at].errors[i][j] = branches[at].errors[i][j].max(error);
+            }
+        }
+        map::drawn(&branches, self.components)
+    }
+
+    /// The entries that are wrong at some state.
+    fn entries(&self) -> Vec<(usize, usize)> {
+        let mut all: Vec<(usize, usize)> = Vec::new();
+        for state in self.states {
+            let Some((differences, truth)) = state.truth(self.convention, self.components) else { continue };
+            for place in wrong_entries(&state.modulus, &truth, differences, self.components) {
+                if !all.contains(&place) {
+                    all.push(place);
+                }
+            }
+        }
+        all.sort_unstable();
+        all
+    }
+
+    /// These entries in words.
+    fn named(&self, all: &[(usize, usize)]) -> String {
+        let direct = if self.components == 3 { 2 } else { 3 };
+        let named = |(i, j): &(usize, usize)| format!("({}, {})", name(self.components, *i), name(self.components, *j));
+        match all {
+            [] => String::new(),
+            few if few.len() <= 4 => format!("in {} alone", few.iter().map(named).collect::<Vec<_>>().join(", ")),
+            _ if all.iter().all(|&(i, j)| i < direct && j < direct) => {
+                let names = (0..direct).map(|i| name(self.components, i)).collect::<Vec<_>>();
+                format!("in {} alone", names.join(", "))
+            }
+            _ if all.iter().all(|&(i, j)| i >= direct && j >= direct) => "in shears by shears alone".to_string(),
+            _ => format!("in {} of {} entries", all.len(), self.components.pow(2)),
+        }
+    }
 }
 
 /// The convention by which the fewest states are wrong, and how wrong each is by it.
@@ -216,24 +351,50 @@ fn wrong_tangent(
     let slows = convergence(factor.fold(0.0, f64::max));
     let few = wrong.len() <= FEW && states.len() >= MANY * FEW;
     let (kinds, way) = if few {
-        (vec!["few states".to_string()], "in few states alone, perhaps at kinks that are not seen".to_string())
+        (vec![FEW_STATES.to_string()], "in few states alone, perhaps at kinks that are not seen".to_string())
     } else {
         mistakes::name(session, &Sample::new(components, states, found, &wrong, &right), conventions)
     };
     let where_ = states_named(states, &wrong);
+    let all = judged.entries();
+    let (entries, size) = (judged.named(&all), mistakes::percent(difference.worst));
+    let growth = growth(states, found);
     let text = format!(
-        "{way}; wrong at {} of {} states ({where_}), worst at {place} {}, {is:.5e} instead of {instead:.5e}; {slows}{aside}",
+        "{way}; wrong by up to {size} {entries}{growth} at {} of {} states ({where_}), worst at {place} {}, {is:.5e} instead of {instead:.5e}; {slows}{aside}",
         wrong.len(),
         states.len(),
         states[at].name,
     );
-    let verdict = if few || difference.worst <= tolerance { Verdict::Warning } else { Verdict::Wrong };
+    // Whether elements have a strain 33 is not known.
+    let across = components == 4 && session.material.plane.is_none() && all.iter().all(|&(_, j)| j == 2);
+    let text = if across {
+        format!("right in plane strain; of axisymmetric elements (plane = \"axisymmetric\") it would be wrong: {text}")
+    } else {
+        text
+    };
+    let verdict = if few || across || difference.worst <= tolerance { Verdict::Warning } else { Verdict::Wrong };
     let mut finding = Finding::new(Question::Tangent, verdict, Some(difference.worst), text);
     finding.kinds = kinds;
-    if few {
-        finding.call_bits = Some(states[at].call.numbers().into_iter().map(f64::to_bits).collect());
-    }
+    finding.map = judged.map();
+    finding.call_bits = Some(states[at].call.numbers().into_iter().map(f64::to_bits).collect());
     finding
+}
+
+/// How the error goes with the strain, where that can be said: at rest, and at the smaller and the larger strains.
+fn growth(states: &[State], found: &[Option<Difference>]) -> &'static str {
+    let strain = |state: &State| Increment::between(&Matrix3::identity(), &state.f1).strain.norm();
+    let mut all: Vec<(f64, f64)> =
+        states.iter().zip(found).filter_map(|(state, found)| Some((strain(state), (*found)?.worst))).collect();
+    all.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let third = all.len() / 3;
+    let largest = |part: &[(f64, f64)]| part.iter().map(|(_, error)| *error).fold(0.0, f64::max);
+    let Some((_, at_rest)) = all.first().filter(|(strain, _)| *strain < 1e-12 && third > 3) else { return "" };
+    let (small, large) = (largest(&all[..third]), largest(&all[all.len() - third..]));
+    match (*at_rest <= TOLERANCE, small < 0.4 * large) {
+        (true, true) => ", right at rest, growing with the strain,",
+        (true, false) => ", right at rest,",
+        (false, _) => ", at rest too,",
+    }
 }
 
 fn convergence(factor: f64) -> String {
@@ -277,12 +438,14 @@ fn gather(session: &mut Session, reads: Reads) -> Result<(Vec<State>, bool), Box
     let mut broken = false;
     let rest = Point::virgin(session, [1, 1]);
     let identity = Matrix3::identity();
-    match state(session, &rest, &identity, reads, "at rest") {
+    let time_step = session.material.time_step;
+    match state(session, &rest, &identity, time_step, (reads, "at rest")) {
         Ok(state) => states.push(state),
         Err(failure) => broken |= refused(failure)?,
     }
     'histories: for number in 0..HISTORIES {
         let mut point = Point::virgin(session, [1, 1]);
+        let time_step = session.material.time_step * TIME_STEPS[number % TIME_STEPS.len()];
         let path = history(&mut rng, session.material, 3);
         let asked = [rng.usize(0..path.len()), rng.usize(0..path.len()), path.len() - 1, 0];
         for (k, f1) in path.iter().enumerate() {
@@ -291,7 +454,7 @@ fn gather(session: &mut Session, reads: Reads) -> Result<(Vec<State>, bool), Box
             }
             if asked.contains(&k) && !(k == 0 && number % 4 > 0) {
                 let name = kind_of(&point, f1);
-                match state(session, &point, f1, reads, name) {
+                match state(session, &point, f1, time_step, (reads, name)) {
                     Ok(state) => states.push(state),
                     Err(failure) => broken |= refused(failure)?,
                 }
@@ -299,7 +462,7 @@ fn gather(session: &mut Session, reads: Reads) -> Result<(Vec<State>, bool), Box
                     break 'histories;
                 }
             }
-            if let Err(failure) = point.advance(session, f1) {
+            if let Err(failure) = point.advance_in(session, f1, time_step) {
                 broken |= refused(failure)?;
                 break;
             }
@@ -330,8 +493,15 @@ fn refused(failure: Failure) -> Result<bool, Box<Finding>> {
     }
 }
 
-fn state(session: &mut Session, before: &Point, f1: &Matrix3<f64>, reads: Reads, name: &str) -> Result<State, Failure> {
-    let call = before.call(f1, session.material);
+fn state(
+    session: &mut Session,
+    before: &Point,
+    f1: &Matrix3<f64>,
+    time_step: f64,
+    (reads, name): (Reads, &str),
+) -> Result<State, Failure> {
+    let mut call = before.call(f1, session.material);
+    call.time_step = time_step;
     let answer = session.call_law(&call);
     if answer.refused() {
         return Err(Failure::Refused);
@@ -340,6 +510,7 @@ fn state(session: &mut Session, before: &Point, f1: &Matrix3<f64>, reads: Reads,
         return Err(Failure::NotFinite(Box::new(call)));
     }
     let (jaumann, plain) = derivatives(session, before, &call, f1, reads);
+    let [jaumann, plain] = [jaumann, plain].map(|known| without_column_33(session, known, &answer.modulus));
     Ok(State {
         name: name.to_string(),
         before: before.clone(),
@@ -350,6 +521,17 @@ fn state(session: &mut Session, before: &Point, f1: &Matrix3<f64>, reads: Reads,
         jaumann,
         plain,
     })
+}
+
+/// In plane strain nothing is known of the column 33, nor asked: it is what DDSDDE has.
+fn without_column_33(session: &Session, known: Option<Derivative>, modulus: &Modulus) -> Option<Derivative> {
+    let mut known = known?;
+    if session.material.is_plane_strain() {
+        for (i, row) in modulus.iter().enumerate() {
+            (known.value[i][2], known.error[i][2], known.kinks[i][2]) = (row[2], 0.0, false);
+        }
+    }
+    Some(known)
 }
 
 fn derivatives(

@@ -1,49 +1,24 @@
 //! `umat-check` on the laws of `ffi-tests/check`: those that are right are called right with any properties, and each
 //! fault is found and called by its name.
 
+mod support;
+
 use std::path::{Path, PathBuf};
-use std::process::Command;
 
 use fastrand::Rng;
 use serde::Deserialize;
 use serde_json::Value;
+use support::{ROOT, check, corpus, parse};
 use toron_test_support::update::is_asked;
 
 /// The lines that depend on the properties, and take little time.
 const OF_PROPERTIES: &str = "--only=rest,tangent,objectivity,isotropy,steps,energy,cycles,dissipation";
 const DOCUMENT: &str = "docs/results/check.md";
-/// The repository.
-const ROOT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
-
 /// A new folder, named after what is in it.
 fn folder(name: &str) -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
     std::fs::create_dir_all(&folder).expect("a folder");
     folder
-}
-
-fn corpus(path: &str) -> PathBuf {
-    Path::new(ROOT).join("ffi-tests/check").join(path)
-}
-
-fn parse<T: for<'a> Deserialize<'a>>(path: &str) -> T {
-    let text = std::fs::read_to_string(corpus(path)).expect("a file of the corpus");
-    toml::from_str(&text).unwrap_or_else(|error| panic!("{path}: {error}"))
-}
-
-/// Runs the program on a law; its exit code and report.
-fn check(law: &Path, arguments: &[String]) -> (i32, Value) {
-    let output = Command::new(env!("CARGO_BIN_EXE_umat-check"))
-        .current_dir(law.parent().expect("a folder"))
-        .arg("--json")
-        .arg(law)
-        .args(arguments)
-        .output()
-        .expect("the program starts");
-    let [stdout, stderr] = [&output.stdout, &output.stderr].map(|text| String::from_utf8_lossy(text));
-    let report = serde_json::from_str(&stdout)
-        .unwrap_or_else(|error| panic!("{} {arguments:?}: {error}\n{stdout}\n{stderr}", law.display()));
-    (output.status.code().expect("the program survives"), report)
 }
 
 /// The lines of the report that are not right: name, verdict, kinds, text.

@@ -38,6 +38,30 @@ fn differ(a: &[Found], b: &[Found]) -> Option<(usize, String)> {
     Some((place + 1, a[place].difference(&b[place])))
 }
 
+/// One history at elements of other numbers.
+///
+/// # Errors
+/// The system has no memory.
+pub fn place(session: &mut Session) -> io::Result<Finding> {
+    let path = paths(session.material, 0x91, 1, INCREMENTS).pop().unwrap_or_default();
+    session.numbered = true;
+    let found = point::block(session, &vec![path; SIZES[1]])?;
+    session.numbered = false;
+    let size = found[0].iter().flat_map(|found| found.stress).fold(f64::MIN_POSITIVE, |size, of| size.max(of.abs()));
+    let mut change = 0.0_f64;
+    for (other, first) in found[1..].iter().flat_map(|other| other.iter().zip(&found[0])) {
+        let differences = other.stress.iter().zip(&first.stress).map(|(a, b)| (a - b).abs() / size);
+        change = differences.fold(change, f64::max);
+    }
+    Ok(super::super::place::judged(change, found[0].len(), [change > 0.0, false]))
+}
+
+/// The temperature of a point among others.
+fn temperature(material: &Material, i: usize) -> f64 {
+    let part = (i % 5) as f64;
+    material.temperature + if material.temperature == 0.0 { part } else { 2e-3 * part * material.temperature }
+}
+
 /// The same points in blocks of 1, 17 and 128, and in the reverse order.
 ///
 /// # Errors
@@ -49,13 +73,18 @@ pub fn blocks(session: &mut Session) -> io::Result<Finding> {
         let line = Finding::new(Question::Blocks, Verdict::Wrong, None, text);
         Ok(line.with("answers depend on the block"))
     };
+    // Each point has a temperature of its own.
+    let temperatures: Vec<f64> = (0..most).map(|i| temperature(session.material, i)).collect();
     let alone: Vec<Vec<Found>> = paths
         .iter()
-        .map(|path| Ok(point::block(session, std::slice::from_ref(path))?.pop().unwrap_or_default()))
+        .zip(&temperatures)
+        .map(|(path, one)| Ok(point::block_at(session, std::slice::from_ref(path), &[*one])?.pop().unwrap_or_default()))
         .collect::<io::Result<_>>()?;
     for size in [some, most] {
-        for (chunk, expected) in paths.chunks(size).zip(alone.chunks(size)) {
-            let found = point::block(session, chunk)?;
+        for ((chunk, temperatures), expected) in
+            paths.chunks(size).zip(temperatures.chunks(size)).zip(alone.chunks(size))
+        {
+            let found = point::block_at(session, chunk, temperatures)?;
             for (i, (found, expected)) in found.iter().zip(expected).enumerate() {
                 if let Some((increment, what)) = differ(found, expected) {
                     return wrong(format!(
@@ -68,7 +97,8 @@ pub fn blocks(session: &mut Session) -> io::Result<Finding> {
         }
     }
     let reversed: Vec<Vec<Matrix3<f64>>> = paths.iter().rev().cloned().collect();
-    for (found, expected) in point::block(session, &reversed)?.iter().zip(alone.iter().rev()) {
+    let turned: Vec<f64> = temperatures.iter().rev().copied().collect();
+    for (found, expected) in point::block_at(session, &reversed, &turned)?.iter().zip(alone.iter().rev()) {
         if let Some((increment, what)) = differ(found, expected) {
             return wrong(format!("another order of points changes {what}, at increment {increment}"));
         }
@@ -107,6 +137,15 @@ pub fn repeat(session: &mut Session) -> io::Result<Finding> {
     }
     let text = format!("a second call: the same bits, {INCREMENTS} increments of {} points", paths.len());
     Ok(Finding::new(Question::Repeat, Verdict::Right, None, text))
+}
+
+/// The bits of the stresses of a block.
+///
+/// # Errors
+/// The system has no memory.
+pub fn stresses(session: &mut Session) -> io::Result<Vec<u64>> {
+    let found = point::block(session, &paths(session.material, 0x2e, SIZES[1], INCREMENTS))?;
+    Ok(found.iter().flatten().flat_map(|found| found.stress).map(f64::to_bits).collect())
 }
 
 const THREADS: usize = 8;

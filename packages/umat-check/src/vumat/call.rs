@@ -4,6 +4,7 @@ use std::ffi::{c_char, c_void};
 use std::io;
 use std::path::Path;
 
+use super::super::call::{why, write_counts};
 use super::super::guarded::{Guard, Guarded};
 use super::super::material::Material;
 use super::super::shared::{OF_UMAT, OF_VUMAT, Shared};
@@ -21,10 +22,10 @@ type Vumat = unsafe extern "C" fn(
     Whole,         // nstatev
     Whole,         // nfieldv
     Whole,         // nprops
-    Whole,         // lanneal
+    Whole,         // lanneal, or jInfoArray
     Reals,         // stepTime
     Reals,         // totalTime
-    Reals,         // dt
+    Reals,         // dt, or dtArray
     *const c_char, // cmname
     Reals,         // coordMp
     Reals,         // charLength
@@ -54,7 +55,7 @@ type Vumat = unsafe extern "C" fn(
 /// A loaded library's subroutine.
 pub struct Law {
     vumat: Vumat,
-    _library: libloading::Library,
+    library: libloading::Library,
 }
 
 /// The names that compilers give a subroutine.
@@ -66,7 +67,7 @@ fn open(path: &Path) -> Result<libloading::Library, String> {
     use libloading::os::unix::{Library, RTLD_LAZY, RTLD_LOCAL};
     // SAFETY: what a library does as it is loaded is its author's affair; this process is there to bear it.
     let library = unsafe { Library::open(Some(path), RTLD_LAZY | RTLD_LOCAL) };
-    library.map(libloading::Library::from).map_err(|error| error.to_string())
+    library.map(libloading::Library::from).map_err(|error| why(&error))
 }
 
 /// Whether a library has a VUMAT and no UMAT.
@@ -93,7 +94,14 @@ impl Law {
             // SAFETY: the type is that of the subroutine of this name.
             unsafe { library.get::<Vumat>(symbol.as_bytes()) }.ok().map(|symbol| *symbol)
         });
-        Ok(Law { vumat: vumat.ok_or("there is no subroutine VUMAT")?, _library: library })
+        Ok(Law { vumat: vumat.ok_or("there is no subroutine VUMAT")?, library })
+    }
+}
+
+impl Law {
+    /// Has a build that counts its lines write the counts; whether it is one.
+    pub fn write_counts(&self) -> bool {
+        write_counts(&self.library)
     }
 }
 
@@ -136,6 +144,7 @@ pub struct Given {
     pub state: Vec<f64>,
     /// enerInternOld, enerInelasOld.
     pub energies: [f64; 2],
+    pub temperature: f64,
 }
 
 /// What a call gives of a point.
@@ -313,6 +322,8 @@ pub struct Session<'a> {
     pub virgin: Option<Vec<f64>>,
     /// What arguments are altered by.
     pub misread: Option<Misread>,
+    /// Elements have the numbers of their points in the block, and not all 1.
+    pub numbered: bool,
 }
 
 impl<'a> Session<'a> {
@@ -327,7 +338,19 @@ impl<'a> Session<'a> {
         for (place, letter) in name.iter_mut().zip(material.name.to_uppercase().bytes()) {
             *place = letter as c_char;
         }
-        Session { law, material, name, precision, guard, arrays: None, shared, unset: 0.0, virgin: None, misread: None }
+        Session {
+            law,
+            material,
+            name,
+            precision,
+            guard,
+            arrays: None,
+            shared,
+            unset: 0.0,
+            virgin: None,
+            misread: None,
+            numbered: false,
+        }
     }
 
     /// Another one for a thread, with room at both ends of its arrays.
@@ -403,7 +426,7 @@ impl<'a> Session<'a> {
             arrays.put(Array::Length, 0, i, 1.0);
             arrays.put(Array::Density, 0, i, point.density);
             for array in [Array::TemperatureOld, Array::TemperatureNew] {
-                arrays.put(array, 0, i, self.material.temperature);
+                arrays.put(array, 0, i, point.temperature);
             }
             for c in 0..tensor {
                 arrays.put(Array::StrainIncrement, c, i, point.strain_increment[c]);
@@ -432,20 +455,33 @@ impl<'a> Session<'a> {
         }
     }
 
+    /// nblock and lanneal, each with what stands behind it.
+    fn whole_numbers(&self, points: usize) -> [Vec<i32>; 2] {
+        let elements = |k: usize| if self.numbered { k as i32 } else { 1 };
+        let elements: Vec<i32> = (1..=points).map(elements).collect();
+        // The first argument of laws that declare it as JBLOCK(*) has the elements' numbers behind.
+        let block = [points as i32, 1, 1, 1].into_iter().chain(elements.clone()).collect();
+        // lanneal, or in newer versions jInfoArray, whose first entry it is: integration point, layer, section point,
+        // whether moduli are asked for, and where the elements' numbers begin.
+        let information = [0, 1, 1, 1, 0, 7].into_iter().chain(elements).collect();
+        [block, information]
+    }
+
     fn call(&self, arrays: &mut Arrays, time: Time) {
-        // The first argument of laws that declare it as JBLOCK(*) has the points' numbers behind.
-        let mut block: Vec<i32> = [arrays.points as i32, 1, 1, 1].into_iter().chain(1..=arrays.points as i32).collect();
+        let [mut block, mut information] = self.whole_numbers(arrays.points);
         let [mut direct, mut shear] = [3, self.material.components as i32 - 3];
         let mut states = self.material.initial.len() as i32;
-        let [mut fields, mut anneal] = [0, 0];
+        let mut fields = 0;
         let mut constants = self.material.properties.len() as i32;
-        let mut times = [time.end, time.end, time.step];
-        let mut single = times.map(|time| time as f32);
+        // dt, or in newer versions dtArray, whose first entry it is, with two more for each point.
+        let mut times = vec![0.0; 3 + 2 * arrays.points];
+        times[..3].copy_from_slice(&[time.end, time.end, time.step]);
+        let mut single: Vec<f32> = times.iter().map(|&time| time as f32).collect();
         let precision = self.precision;
         let mut scalar = |index: usize| -> Reals {
             match precision {
-                Precision::Double => (&raw mut times[index]).cast(),
-                Precision::Single => (&raw mut single[index]).cast(),
+                Precision::Double => times[index..].as_mut_ptr().cast(),
+                Precision::Single => single[index..].as_mut_ptr().cast(),
             }
         };
         let [step_time, total_time, increment] = [scalar(0), scalar(1), scalar(2)];
@@ -460,7 +496,7 @@ impl<'a> Session<'a> {
                 &mut states,
                 &mut fields,
                 &mut constants,
-                &mut anneal,
+                information.as_mut_ptr(),
                 step_time,
                 total_time,
                 increment,

@@ -24,9 +24,16 @@ pub fn reply_to(
 ) -> io::Result<Option<ChildReply>> {
     let mut session = Session::new(law, material, Precision::Double, guard, Some(shared));
     Ok(match task {
-        Task::Reads => Some(ChildReply::Reads(frame::reads(&mut session)?)),
+        Task::Reads => Some(ChildReply::Reads(frame::reads(&mut session)?, true)),
         Task::Question { question, reads, .. } => {
             Some(ChildReply::Finding(answer_question(*question, law, &mut session, *reads)?))
+        }
+        Task::Other { material: other, after } => {
+            if *after {
+                blocks::stresses(&mut session)?;
+            }
+            let mut session = Session::new(law, other, Precision::Double, guard, Some(shared));
+            Some(ChildReply::Bits(blocks::stresses(&mut session)?))
         }
         Task::OnlyVumat | Task::LargeTurns | Task::Call(_) => None,
     })
@@ -35,8 +42,10 @@ pub fn reply_to(
 /// A question to a VUMAT.
 fn answer_question(question: Question, law: &Law, session: &mut Session, reads: Reads) -> io::Result<Finding> {
     match question {
-        Question::Build | Question::Memory => process::touch(session),
+        Question::Build | Question::Deck | Question::Memory => process::touch(session),
         Question::Rest => process::rest(session),
+        Question::Stress => process::stress(session),
+        Question::Place => blocks::place(session),
         Question::DataCheck => process::data_check(session),
         Question::Objectivity => frame::objectivity(session),
         Question::Isotropy => frame::isotropy(session),
@@ -53,8 +62,13 @@ fn answer_question(question: Question, law: &Law, session: &mut Session, reads: 
         Question::Invalid => process::invalid(session),
         Question::Histories => process::histories(session, reads),
         Question::Runtime => process::runtime(session),
-        Question::Tangent | Question::Cycles => {
-            Ok(Finding::new(question, Verdict::NotAsked, None, "not asked of a VUMAT"))
-        }
+        Question::Coverage => process::coverage(law, session),
+        Question::Tangent
+        | Question::Cycles
+        | Question::Properties
+        | Question::Jumps
+        | Question::Job
+        | Question::Expect
+        | Question::Thermal => Ok(Finding::new(question, Verdict::NotAsked, None, "not asked of a VUMAT")),
     }
 }

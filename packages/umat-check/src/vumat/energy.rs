@@ -23,8 +23,9 @@ const ROUNDING: f64 = 1e-9;
 const KINDS: [&str; 3] = ["per mass", "per volume of the undeformed material", "per volume of the deformed material"];
 
 struct Reported {
-    /// The largest difference of enerInternNew from each of [`KINDS`], of the largest.
-    differences: [f64; 3],
+    /// The largest difference of enerInternNew from each of [`KINDS`], of the largest, and from the work over each
+    /// property, that of the undeformed and of the deformed volume.
+    differences: Vec<f64>,
     untouched: bool,
     inelastic_untouched: bool,
     /// The largest decrease of enerInelasNew, of the largest work.
@@ -35,13 +36,20 @@ fn reported(session: &mut Session) -> io::Result<Option<Reported>> {
     let mut rng = Rng::with_seed(session.material.seed ^ 0xe1);
     let density = session.material.explicit.density;
     let size = session.material.stretch.iter().map(|stretch| stretch.ln().abs()).fold(0.0, f64::max).clamp(1e-3, 0.3);
-    let mut all = Reported { differences: [0.0; 3], untouched: true, inelastic_untouched: true, regained: 0.0 };
+    let properties = &session.material.properties.clone();
+    let mut all = Reported {
+        differences: vec![0.0; 3 + 2 * properties.len()],
+        untouched: true,
+        inelastic_untouched: true,
+        regained: 0.0,
+    };
     let mut asked = 0;
     for _ in 0..PATHS {
         let strain = direction(&mut rng, session.material) * size;
         let path: Vec<_> = (1..=STRAIGHT).map(|k| exp(&(strain * (k as f64 / STRAIGHT as f64)))).collect();
         let found = point::history(session, &path)?;
         let (mut work, mut power_before, mut inelastic_before) = (0.0, 0.0, 0.0);
+        let (mut of_deformed, mut deformed_before) = (0.0, 0.0);
         let mut rows = Vec::new();
         let mut largest = 0.0_f64;
         for (found, f) in found.iter().zip(&path) {
@@ -50,20 +58,26 @@ fn reported(session: &mut Session) -> io::Result<Option<Reported>> {
             let power = tensor(&found.stress).dot(&strain) * volume / STRAIGHT as f64;
             work += 0.5 * (power + power_before);
             power_before = power;
+            of_deformed += 0.5 * (power / volume + deformed_before);
+            deformed_before = power / volume;
             let [internal, inelastic] = found.energies;
             all.untouched &= internal == 0.0;
             all.inelastic_untouched &= inelastic == 0.0;
             let regained: f64 = inelastic_before - inelastic;
             inelastic_before = inelastic;
-            rows.push(([work / density, work, work / volume].map(|wanted| (internal - wanted).abs()), regained));
+            let wanted = [density, 1.0, volume].into_iter().map(|by| work / by);
+            let wanted = wanted.chain(properties.iter().flat_map(|by| [work / by, of_deformed / by]));
+            let differences: Vec<f64> = wanted.map(|wanted| (internal - wanted).abs()).collect();
+            rows.push((differences, regained));
             largest = largest.max(work.abs());
         }
         if largest > 0.0 {
             asked += 1;
             for (differences, regained) in rows {
-                let scales = [largest / density, largest, largest];
-                for (i, (difference, scale)) in differences.into_iter().zip(scales).enumerate() {
-                    all.differences[i] = all.differences[i].max(difference / scale);
+                let scales = [density, 1.0, 1.0].into_iter().chain(properties.iter().flat_map(|by| [*by; 2]));
+                for (i, (difference, by)) in differences.into_iter().zip(scales).enumerate() {
+                    let part = difference * by.abs() / largest;
+                    all.differences[i] = all.differences[i].max(if part.is_nan() { f64::INFINITY } else { part });
                 }
                 all.regained = all.regained.max(regained * density / largest);
             }
@@ -87,6 +101,13 @@ pub fn energy(session: &mut Session) -> io::Result<Finding> {
     if figure <= near {
         let text = "enerInternNew is the work done per mass";
         return Ok(Finding::new(Question::Energy, Verdict::Right, Some(figure), text));
+    }
+    let by_property = |n: usize| found.differences[KINDS.len() + 2 * n].min(found.differences[KINDS.len() + 2 * n + 1]);
+    let of_property = |&n: &usize| by_property(n) <= near;
+    if let Some(n) = (0..session.material.properties.len()).find(of_property).filter(|_| found.differences[1] > near) {
+        let text =
+            format!("enerInternNew is the work done per mass, by the density PROPS({}) and not that passed in", n + 1);
+        return Ok(Finding::new(Question::Energy, Verdict::Right, Some(by_property(n)), text));
     }
     let text = format!("enerInternNew differs from the work done per mass by {figure:.1e} of it");
     let verdict = if hyperelastic { Verdict::Wrong } else { Verdict::Warning };

@@ -83,6 +83,7 @@ impl Point {
             stress: self.stress,
             state: self.state.clone(),
             energies: self.energies,
+            temperature: material.temperature,
         }
     }
 
@@ -114,14 +115,30 @@ pub fn history(session: &mut Session, path: &[Matrix3<f64>]) -> io::Result<Vec<F
 /// # Errors
 /// The system has no memory.
 pub fn block(session: &mut Session, paths: &[Vec<Matrix3<f64>>]) -> io::Result<Vec<Vec<Found>>> {
+    block_at(session, paths, &vec![session.material.temperature; paths.len()])
+}
+
+/// The same, each at a temperature of its own.
+///
+/// # Errors
+/// The system has no memory.
+pub fn block_at(
+    session: &mut Session,
+    paths: &[Vec<Matrix3<f64>>],
+    temperatures: &[f64],
+) -> io::Result<Vec<Vec<Found>>> {
     let virgin = Point::virgin(session)?;
     let mut points = vec![virgin; paths.len()];
     let mut answers = vec![Vec::new(); paths.len()];
     let unturned = Matrix3::<f64>::identity();
     let material = session.material;
     for k in 0..paths.iter().map(Vec::len).min().unwrap_or(0) {
-        let given: Vec<Given> =
-            points.iter().zip(paths).map(|(point, path)| point.given(&path[k], &unturned, material)).collect();
+        let all = points.iter().zip(paths).zip(temperatures);
+        let given = all.map(|((point, path), &temperature)| {
+            let given = point.given(&path[k], &unturned, material);
+            Given { temperature, ..given }
+        });
+        let given: Vec<Given> = given.collect();
         for (i, found) in session.call_law(time(k, material), &given)?.into_iter().enumerate() {
             points[i] = points[i].after(&paths[i][k], &unturned, &found);
             answers[i].push(found);

@@ -13,7 +13,7 @@ use super::super::kinematics::{Increment, exp};
 use super::super::material::Reads;
 use super::super::process::{EXCEPTIONS, UNSET, feclearexcept, fetestexcept};
 use super::blocks::{SIZES, paths};
-use super::call::{Found, Given, Session, Time};
+use super::call::{Found, Given, Law, Session, Time};
 use super::point::{self, Point, components, tensor, time};
 
 const INCREMENTS: usize = 20;
@@ -53,6 +53,31 @@ pub fn rest(session: &mut Session) -> io::Result<Finding> {
     }
     let text = format!("stress of {stress:.3e} at rest, over a stiffness of {stiffness:.3e}");
     Ok(Finding::new(Question::Rest, Verdict::Wrong, Some(figure), text).with("stress at rest"))
+}
+
+/// Whether there is stress in any state.
+///
+/// # Errors
+/// The system has no memory.
+pub fn stress(session: &mut Session) -> io::Result<Finding> {
+    let found = point::block(session, &paths(session.material, 0x57e, SIZES[1], INCREMENTS))?;
+    let all = found.iter().flatten();
+    let largest = all.clone().flat_map(|found| found.stress).fold(0.0_f64, |largest, stress| largest.max(stress.abs()));
+    Ok(super::super::stress::judged(largest, all.count()))
+}
+
+/// Blocks of several histories, and paths out to the ends of the range, with the build that counts its lines.
+///
+/// # Errors
+/// The system has no memory.
+pub fn coverage(law: &Law, session: &mut Session) -> io::Result<Finding> {
+    data_check(session)?;
+    for size in SIZES {
+        point::block(session, &paths(session.material, 0xc0, size, INCREMENTS))?;
+    }
+    super::deletion::deletion(session)?;
+    super::energy::dissipation(session)?;
+    Ok(super::super::coverage::written(law.write_counts()))
 }
 
 /// The strains of a data check.
@@ -238,7 +263,7 @@ pub fn invalid(session: &mut Session) -> io::Result<Finding> {
 }
 
 const HISTORIES: usize = 100_000;
-const TIME: Duration = Duration::from_secs(12);
+const TIME: Duration = Duration::from_secs(6);
 /// Increments of a random history.
 const OF_HISTORY: usize = 4;
 

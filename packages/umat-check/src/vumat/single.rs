@@ -43,7 +43,6 @@ pub fn single(session: &mut Session, reads: Reads) -> io::Result<Finding> {
     let unturned = Matrix3::<f64>::identity();
     // The largest of stress over strain: a stiffness.
     let mut stiffness = 0.0_f64;
-    let mut worst = (0.0_f64, String::new());
     let mut differences = Vec::new();
     for k in 0..INCREMENTS {
         let given: Vec<Given> = points
@@ -72,10 +71,16 @@ pub fn single(session: &mut Session, reads: Reads) -> io::Result<Finding> {
             points[i] = points[i].after(&paths[i][k], &unturned, double);
         }
     }
+    Ok(judged(&differences, stiffness, reads))
+}
+
+/// The line, of differences of the stress with the stress, the strain that they are measured by, and the increment.
+fn judged(differences: &[(f64, f64, f64, usize)], stiffness: f64, reads: Reads) -> Finding {
     if stiffness == 0.0 {
-        return Ok(Finding::new(Question::Single, Verdict::NotSure, None, "there was no stress"));
+        return Finding::new(Question::Single, Verdict::NotSure, None, "there was no stress");
     }
-    for (difference, stress, strain, increment) in differences {
+    let mut worst = (0.0_f64, String::new());
+    for &(difference, stress, strain, increment) in differences {
         let figure = difference / (stiffness * strain + stress);
         if figure > worst.0 {
             worst = (figure, format!("at increment {increment}"));
@@ -86,12 +91,12 @@ pub fn single(session: &mut Session, reads: Reads) -> io::Result<Finding> {
     let of = if reads == Reads::Rate { "stress" } else { "stiffness" };
     if roundings <= ROUNDINGS {
         let text = format!("with real*4 the stress differs by {roundings:.1} roundings of the {of} at most");
-        return Ok(Finding::new(Question::Single, Verdict::Right, Some(figure), text));
+        return Finding::new(Question::Single, Verdict::Right, Some(figure), text);
     }
     let text = format!(
         "with real*4 the stress differs by {roundings:.0} roundings of the {of}, {place}; up to {ROUNDINGS:.0} are right"
     );
-    Ok(Finding::new(Question::Single, Verdict::Wrong, Some(figure), text).with("single precision"))
+    Finding::new(Question::Single, Verdict::Wrong, Some(figure), text).with("single precision")
 }
 
 /// All numbers as single precision has them, so that both builds get the same ones.
@@ -106,5 +111,6 @@ fn rounded(given: Given) -> Given {
         stress: given.stress.map(single),
         state: given.state.into_iter().map(single).collect(),
         energies: given.energies.map(single),
+        temperature: single(given.temperature),
     }
 }

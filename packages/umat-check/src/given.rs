@@ -1,0 +1,95 @@
+//! The known answers of an input file, `[[expect]]`.
+
+use serde::Deserialize;
+use toml::Spanned;
+
+use super::expect::Expected;
+use toron_shared::checked::{Positive, value};
+use toron_shared::error::Error;
+use toron_shared::toml_file::Source;
+
+/// The keys of a known answer.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Expect {
+    /// The material that it is of, by name; all where there is none.
+    pub material: Option<String>,
+    source: Option<Spanned<String>>,
+    strain: Spanned<Vec<Entry>>,
+    stress: Spanned<Vec<Entry>>,
+    tolerance: Option<Positive>,
+    increments: Option<Spanned<usize>>,
+    time: Option<Positive>,
+}
+
+/// A number, "free" (a strain whose stress is zero) or "any" (a stress that is not known), or the entries of a corner.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(untagged)]
+enum Entry {
+    Number(f64),
+    Word(String),
+    Corner(Vec<Entry>),
+}
+
+const MOST_INCREMENTS: usize = 100_000;
+
+/// # Errors
+/// A key says what is not allowed.
+pub fn expected(source: &Source, given: &Expect, components: usize) -> Result<Expected, Error> {
+    let strains = given.strain.get_ref();
+    let corners: Vec<&[Entry]> = match strains.iter().all(|entry| matches!(entry, Entry::Corner(_))) {
+        true => strains
+            .iter()
+            .filter_map(|entry| if let Entry::Corner(corner) = entry { Some(&corner[..]) } else { None })
+            .collect(),
+        false => vec![&strains[..]],
+    };
+    let wrong_strain = || {
+        let allowed = format!("{components} numbers, or \"free\" where there is no stress, or a list of such corners");
+        source.error(given.strain.span(), &format!("strain is no path; allowed: {allowed}"))
+    };
+    let path = corners.into_iter().map(|corner| numbers(corner, "free", components));
+    let path: Vec<[Option<f64>; 6]> =
+        path.collect::<Option<Vec<_>>>().filter(|path| !path.is_empty()).ok_or_else(wrong_strain)?;
+    let stress = numbers(given.stress.get_ref(), "any", components).filter(|stress| stress.iter().any(Option::is_some));
+    let stress = stress.ok_or_else(|| {
+        let allowed = format!("{components} numbers, or \"any\" where it is not known, at least one of them a number");
+        source.error(given.stress.span(), &format!("stress is no answer; allowed: {allowed}"))
+    })?;
+    let Some(of) = &given.source else {
+        let message = "a known answer without source; allowed: source = \"where the numbers are from\"";
+        return Err(source.error(given.stress.span(), message));
+    };
+    let increments = match &given.increments {
+        None => 20,
+        Some(count) if (1..=MOST_INCREMENTS).contains(count.get_ref()) => *count.get_ref(),
+        Some(count) => {
+            let message = format!("increments is {}; allowed: 1 to {MOST_INCREMENTS}", count.get_ref());
+            return Err(source.error(count.span(), &message));
+        }
+    };
+    Ok(Expected {
+        source: of.get_ref().clone(),
+        path,
+        stress,
+        tolerance: value(&given.tolerance).unwrap_or(1e-3),
+        increments,
+        time: value(&given.time).unwrap_or(1.0),
+    })
+}
+
+/// Of so many entries the numbers, where the word does not stand; none where there is anything else.
+fn numbers(entries: &[Entry], word: &str, components: usize) -> Option<[Option<f64>; 6]> {
+    let mut numbers = [Some(0.0); 6];
+    for (number, entry) in numbers.iter_mut().zip(entries) {
+        *number = match entry {
+            Entry::Number(value) if value.is_finite() => Some(*value),
+            Entry::Word(known) if known == word => None,
+            _ => return None,
+        };
+    }
+    for number in &mut numbers[components..] {
+        *number = if word == "any" { None } else { Some(0.0) };
+    }
+    (entries.len() == components).then_some(numbers)
+}

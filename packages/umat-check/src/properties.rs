@@ -1,0 +1,81 @@
+//! Which properties change the answer: one that changes nothing is not read, or is shortened to a whole number.
+
+use std::time::{Duration, Instant};
+
+use fastrand::Rng;
+use nalgebra::Matrix3;
+
+use super::call::{Answer, Session};
+use super::finding::{Finding, Question, Verdict};
+use super::histories::history;
+use super::point::Point;
+
+const HISTORIES: usize = 6;
+/// Increments of a history, at most.
+const INCREMENTS: usize = 40;
+const TIME: Duration = Duration::from_secs(6);
+/// By what a property is changed, of itself.
+const CHANGES: [f64; 2] = [1e-3, 0.1];
+
+pub fn properties(session: &mut Session) -> Finding {
+    let count = session.properties.len();
+    let line = |verdict, text: String| Finding::new(Question::Properties, verdict, None, text);
+    if count == 0 {
+        return line(Verdict::NotAsked, "there are no properties".to_string());
+    }
+    let mut rng = Rng::with_seed(session.material.seed ^ 0x9a);
+    let paths: Vec<Vec<Matrix3<f64>>> = (0..HISTORIES).map(|_| history(&mut rng, session.material, 2)).collect();
+    let given = session.properties.clone();
+    let alone = answers(session, &paths);
+    if alone.iter().all(Vec::is_empty) {
+        return line(Verdict::NotSure, "there was no answer".to_string());
+    }
+    let mut idle = Vec::new();
+    let started = Instant::now();
+    for (index, &value) in given.iter().enumerate() {
+        if started.elapsed() > TIME {
+            return line(Verdict::NotSure, format!("too slow a law: {index} of {count} asked"));
+        }
+        let changed = CHANGES.iter().any(|change| {
+            session.properties[index] = if value == 0.0 { *change } else { value * (1.0 + change) };
+            let differs = differs(session, &paths, &alone);
+            session.properties[index] = value;
+            differs
+        });
+        if !changed {
+            idle.push(index + 1);
+        }
+    }
+    if idle.is_empty() {
+        return line(Verdict::Right, format!("each of {count} changes the answer"));
+    }
+    let named: Vec<String> = idle.iter().take(SHOWN).map(|number| format!("PROPS({number})")).collect();
+    let more = if idle.len() > SHOWN { format!(" and {} others", idle.len() - SHOWN) } else { String::new() };
+    let text = format!(
+        "{}{more} changes nothing, by a thousandth or a tenth of it: not read, or a part of the law that was not reached",
+        named.join(", ")
+    );
+    // Flags, thresholds that are not reached and directions of any length are right.
+    line(Verdict::Right, text).with("changes nothing")
+}
+
+/// So many properties are named.
+const SHOWN: usize = 6;
+
+fn answers(session: &mut Session, paths: &[Vec<Matrix3<f64>>]) -> Vec<Vec<Answer>> {
+    let mut all = Vec::new();
+    for path in paths {
+        let mut point = Point::virgin(session, [1, 1]);
+        all.push(path.iter().take(INCREMENTS).map_while(|f1| point.advance(session, f1).ok()).collect());
+    }
+    all
+}
+
+/// Whether any answer is another one.
+fn differs(session: &mut Session, paths: &[Vec<Matrix3<f64>>], alone: &[Vec<Answer>]) -> bool {
+    paths.iter().zip(alone).any(|(path, alone)| {
+        let mut point = Point::virgin(session, [1, 1]);
+        let mut answers = path.iter().take(INCREMENTS).map_while(|f1| point.advance(session, f1).ok());
+        alone.iter().any(|alone| answers.next().is_none_or(|found| !found.same(alone))) || answers.next().is_some()
+    })
+}
