@@ -103,7 +103,7 @@ enum Command {
     Params(params::Arguments),
     /// Check a UMAT or VUMAT of Abaqus, yours or anybody's: tangent, objectivity, energy, memory, threads.
     #[cfg(target_os = "linux")]
-    Check(umat_check::command::Arguments),
+    Check(Box<umat_check::command::Arguments>),
     /// The process in which a law is asked.
     #[cfg(target_os = "linux")]
     #[command(hide = true)]
