@@ -7,6 +7,7 @@ use std::time::Duration;
 use serde::Serialize;
 
 use super::command::properties;
+use super::friction::{Fibres, of_friction};
 use super::hosts::{Host, HostArrays, call, whole};
 use super::scene::{Scene, impacts};
 use super::timing::{calls_that_last, in_turn};
@@ -46,7 +47,7 @@ pub struct Choice {
 }
 
 /// What is timed, with arrays of its own.
-type Run = Box<dyn FnMut() -> Result<(), Infallible>>;
+pub type Run = Box<dyn FnMut() -> Result<(), Infallible>>;
 
 /// All properties of the law that is measured.
 ///
@@ -99,8 +100,19 @@ pub fn measured() -> Result<Vec<Choice>, Error> {
         let limited = Calls { limits: true, ..calls };
         add(&name, [BLOCK; 2], [limited, calls].map(|calls| of_block(calls, BLOCK)))?;
     }
+    let apart = Calls { old_state_apart: true, ..plain };
+    for (name, fibres) in [
+        ("held, never slid", Fibres { have_slid: false, slide: false }),
+        ("held, have slid", Fibres { have_slid: true, slide: false }),
+        ("sliding, never slid", Fibres { have_slid: false, slide: true }),
+        ("sliding, have slid", Fibres { have_slid: true, slide: true }),
+    ] {
+        let name = format!("block, fibres {name} / no friction");
+        for n in [1, 64, BLOCK] {
+            add(&name, [n; 2], [of_friction(fibres, n), of_block(apart, n)])?;
+        }
+    }
     for n in [4096, 100_000] {
-        let apart = Calls { old_state_apart: true, ..plain };
         add("block, old state apart / in place", [n; 2], [apart, plain].map(|calls| of_block(calls, n)))?;
     }
     // A multiple of a page: all columns fall into the same set of the cache.
@@ -255,7 +267,7 @@ pub fn table(choices: &[Choice]) -> String {
     let rows: Vec<Vec<String>> = choices.iter().map(cells).collect();
     let head = ["", "points", "ratio", "ns above", "ns below"];
     let line =
-        |cells: &[&str]| format!("{:<44}{:>10}{:>8}{:>12}{:>12}\n", cells[0], cells[1], cells[2], cells[3], cells[4]);
+        |cells: &[&str]| format!("{:<52}{:>10}{:>8}{:>12}{:>12}\n", cells[0], cells[1], cells[2], cells[3], cells[4]);
     let of_row = |row: &Vec<String>| line(&row.iter().map(String::as_str).collect::<Vec<_>>());
     let table = plain_table(&head, &rows, || line(&head) + &rows.iter().map(of_row).collect::<String>());
     format!(

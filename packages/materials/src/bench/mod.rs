@@ -3,6 +3,7 @@
 pub mod choices;
 pub mod command;
 pub mod entries;
+pub mod friction;
 pub mod hosts;
 pub mod own_law;
 pub mod parallel;
