@@ -22,10 +22,10 @@ use toron_shared::toml_error::shortened;
 /// The law of the lines.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Law {
-    /// {"F": rows, "m": [3], "params": {kel, ktc, p, ktd, kld, eps_lim, alpha, beta}}: the answer is that of one step from rest.
+    /// One step from rest: F, m and params with kel, ktc, p, ktd, kld, eps_lim, alpha, beta.
     Hyperelastic,
-    /// {"path": several F, or "F": one, "m": [3], "params": {k_el, ..., mu, cohesion}, "before": [slip_1, slip_2, i_te, w_fr]}: the
-    /// answer has "after", what each step leaves.
+    /// Steps one after the other: "path", several F, or F, one; m; params by the names of the law's table; "before", slip_1, slip_2,
+    /// i_te and w_fr at the start, 0 if left out. The answer has "after", what each step leaves.
     Frictional,
 }
 
