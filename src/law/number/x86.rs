@@ -1,9 +1,7 @@
 //! The lanes of x86-64: SSE2, which every such processor has, AVX2 with FMA, and AVX-512.
 //!
-//! Each type is a register of numbers and every operation one or a few instructions; what they compute is documented in
-//! [`Real`]. The operations may only run if the processor has the instructions: whatever makes these types (the block's
-//! dispatch, the dispatch of a single call, the tests) has checked that.
-
+//! Each type is a register of numbers and every operation one or a few instructions, as [`Real`] documents. They may only
+//! run after the dispatch of a block or a call, or a test, has checked that the processor has the instructions.
 // The intrinsics of SSE2 are safe functions on x86-64, so that the `unsafe` of the macros is unused for them.
 #![allow(unused_unsafe)]
 
