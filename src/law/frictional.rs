@@ -125,6 +125,8 @@ pub(crate) struct Hold<R: Real> {
     pub i_te: R,
     /// The factor of D̂ in the Kirchhoff stress.
     pub distortion: R,
+    /// 1/ŝ where the fibres slide.
+    over_distorted: R,
 }
 
 impl<R: Real> Slip<R> {
@@ -212,12 +214,14 @@ impl<R: Real> Friction<R> {
         let limit = self.mu.mul_add(k.pressure, self.cohesion);
         let slides = limit.lt(R::splat(0.5) * law.k_td * trial.i_td);
         let most = (limit * self.per_stiffness).min(trial.i_td);
-        let distorted = R::select(slides, elastic.distortion, R::splat(1.0));
+        let one = R::splat(1.0);
+        let over_distorted = one / R::select(slides, elastic.distortion, one);
         Hold {
             slides,
             trial: trial.i_td,
             i_te: R::select(slides, most, trial.i_td),
-            distortion: R::select(slides, limit / distorted, k.distortion),
+            distortion: R::select(slides, limit * over_distorted, k.distortion),
+            over_distorted,
         }
     }
 
@@ -240,15 +244,15 @@ impl<R: Real> Friction<R> {
         hold: &Hold<R>,
     ) -> Slip<R> {
         let (one, two, half) = (R::splat(1.0), R::splat(2.0), R::splat(0.5));
-        let &Hold { slides, trial, i_te, .. } = hold;
+        let &Hold { slides, trial, i_te, over_distorted, .. } = hold;
         let [area, over_area] = section.area_ratio();
         // The smaller of the two parts of 2 I_te, u, and the shares of both ends of the geodesic: sinh u/s, and
         // sinh(2 I_te − u)/s = e^−u − e^(−2 I_te) sinh u/s, a difference of which at least half is left.
         let (held, lost) = (two * i_te, two * (trial - i_te));
         let (sinh, decay) = sinh_and_exp_of_minus(held.min(lost));
-        let distorted = R::select(slides, elastic.distortion, one);
-        let smaller = sinh * area / distorted;
-        let larger = decay - smaller * (area / (distorted + elastic.half_trace));
+        let smaller = sinh * area * over_distorted;
+        let shape = R::select(slides, elastic.distortion + elastic.half_trace, one);
+        let larger = decay - smaller * (area / shape);
         let less_is_held = held.lt(lost);
         let of_old = R::select(less_is_held, smaller, larger);
         let of_shape = R::select(less_is_held, larger, smaller) * over_area;
