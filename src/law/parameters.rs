@@ -136,7 +136,7 @@ pub static FRICTIONAL: [Property; FRICTIONAL_PROPERTIES] = {
         minimum_excluded: false,
         maximum: MOST_FRICTION,
         allowed: "a number from 0 to below 1",
-        meaning: "friction of the section: the sine of the bundle's angle of friction",
+        meaning: "friction of the section: sine of its angle of friction",
     };
     let cohesion =
         positive_or_zero("cohesion", "c", STRESS, Some(0.0), "distortion stress that fibres hold without pressure");
