@@ -141,7 +141,7 @@ pub static FRICTIONAL: [Property; FRICTIONAL_PROPERTIES] = {
         minimum_excluded: false,
         maximum: MOST_FRICTION,
         allowed: "a number from 0 to below 1",
-        meaning: "friction of the section: the sine of the bundle's angle of friction",
+        meaning: "friction of the section: sine of its angle of friction",
     };
     let cohesion =
         positive_or_zero("cohesion", "c", STRESS, Some(0.0), "distortion stress that fibres hold without pressure");
@@ -245,7 +245,7 @@ pub static PRESETS: [Preset; 3] = [
         properties: &FRICTIONAL,
         values: &[82.341e9, 1.055e9, 2.2, 0.64974e9, 0.0, 0.0458, 1.8, 0.0, 1.0, 0.0, 0.0, 0.25, 0.0],
         density: 1351.4,
-        source: "Kevlar KM2 600 denier: del Sorbo 2019, Tab. 4.3, 4.5 (multiaxial failure); friction: a guess, mu 0.25 without cohesion",
+        source: "Kevlar KM2 600 denier: del Sorbo 2019, Tab. 4.3, 4.5 (multiaxial failure); friction: a guess",
     },
 ];
 

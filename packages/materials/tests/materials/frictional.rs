@@ -202,7 +202,7 @@ fn lines_that_cannot_be_read_say_what_is_allowed() {
         ),
         (
             "{\"F\": [[1,0,0],[0,1,0],[0,0,1]], \"params\": {\"k_el\": 1, \"k_tc\": 1, \"p\": 2.2, \"k_td\": 1, \"mu\": 1}}",
-            "(mu, friction of the section: the sine of the bundle's angle of friction) is 1.0; allowed: a number from 0 to below 1",
+            "(mu, friction of the section: sine of its angle of friction) is 1.0; allowed: a number from 0 to below 1",
         ),
     ] {
         let mut output = Vec::new();
