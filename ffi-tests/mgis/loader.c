@@ -1,4 +1,4 @@
-/* Loads both behaviours in all hypotheses as MGIS or MTest does.
+/* Loads all behaviours in all hypotheses as MGIS or MTest does.
  *
  *     loader LIBRARY mgis|mtest [SYMBOL]
  *
@@ -20,7 +20,7 @@ static void check_names(const behaviour *b, int32_t law)
         CHECK(strcmp(b->state.names[i], row.name) == 0, "%s: variable %d is %s", b->name, i, b->state.names[i]);
     }
     CHECK(b->external.count == 0 && b->parameters.count == 0, "%s", b->name);
-    CHECK(b->stores_energy == 1 && b->dissipates_energy == 0, "%s", b->name);
+    CHECK(b->stores_energy == 1 && b->dissipates_energy == (law == TORON_FRICTIONAL), "%s", b->name);
 }
 
 /* One bound, under one of its names: C's own long double of the table's value, or no symbol where that is infinite. */

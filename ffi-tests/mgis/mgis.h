@@ -26,9 +26,9 @@ _Static_assert(sizeof(data_view) == 168, "the size of MGIS's BehaviourDataView")
 
 typedef int (*integrate_function)(data_view *);
 
-enum { MOST_NAMES = 16, HYPOTHESES = 3, BEHAVIOURS = 2 };
+enum { MOST_NAMES = 16, HYPOTHESES = 3, BEHAVIOURS = 3 };
 static const char *const hypotheses[HYPOTHESES] = {"Tridimensional", "PlaneStrain", "Axisymmetrical"};
-static const char *const behaviours[BEHAVIOURS] = {"ToronHyperelastic", "ToronLinearElastic"};
+static const char *const behaviours[BEHAVIOURS] = {"ToronHyperelastic", "ToronLinearElastic", "ToronFrictional"};
 
 /* A list of variables, and their types where they have some. */
 typedef struct {

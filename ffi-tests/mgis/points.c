@@ -116,7 +116,7 @@ static int called(const behaviour *b, data_view *v)
     feenableexcept(FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW);
     int result = b->integrate(v);
     fedisableexcept(FE_ALL_EXCEPT);
-    CHECK(unwritten(v->s1.dissipated_energy, 1), "%s: a dissipated energy", b->name);
+    CHECK(b->dissipates_energy || unwritten(v->s1.dissipated_energy, 1), "%s: a dissipated energy", b->name);
     return result;
 }
 
@@ -361,8 +361,9 @@ int main(int argc, char **argv)
     open_library(argv[1]);
     read_cases(argc - 1, argv + 1);
     double yarn[PROPERTIES] = {82.341, 1.055, 2.2, 0.64974, 0.1, 0.0458, 1.8}, linear[MOST_NAMES] = {79.414, 0.794, 0.126, 3.637};
-    double *const properties[BEHAVIOURS] = {yarn, linear};
-    const int first_of_fibre[BEHAVIOURS] = {8, 4};
+    double sliding[MOST_NAMES] = {82.341, 1.055, 2.2, 0.64974, 0.1, 0.0458, 1.8, [11] = 0.25, 1e-3};
+    double *const properties[BEHAVIOURS] = {yarn, linear, sliding};
+    const int first_of_fibre[BEHAVIOURS] = {8, 4, 8};
     for (behind = 0; behind <= 1; behind++)
         for (int law = 0; law < BEHAVIOURS; law++) {
             behaviour space = load(behaviours[law], hypotheses[0]);
