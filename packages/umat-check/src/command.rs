@@ -11,6 +11,7 @@ use super::call::Call;
 use super::child::{self, ChildReply, Ending, Task};
 use super::ci;
 use super::compile::{self, Built, Options};
+use super::compiler::language;
 use super::coverage;
 use super::finding::{Finding, NOT_FINITE, Question, Verdict};
 use super::guarded::Guard;
@@ -24,7 +25,8 @@ use super::report::{MaterialReport, Report};
 use super::shared;
 use super::tangent;
 use super::work_dir::WorkDir;
-use toron_shared::console::print;
+use super::wrapper;
+use toron_shared::console::{print, print_note};
 use toron_shared::error::Error;
 use toron_shared::run_directory::RunDirectory;
 use toron_shared::toml_file;
@@ -107,6 +109,9 @@ pub struct Arguments {
     /// Keep the worst call of a wrong tangent too, and each call as a program in Fortran.
     #[arg(long)]
     reproduce: bool,
+    /// Write a UMAT that calls this one and returns DDSDDE by differences: NAME-wrapper, beside the calls.
+    #[arg(long, conflicts_with_all = ["vumat", "symbol"])]
+    wrapper: bool,
     /// Print the report as JSON.
     #[arg(long)]
     json: bool,
@@ -174,12 +179,25 @@ pub fn run(program: &str, arguments: &Arguments) -> Result<(), Error> {
     } else if arguments.single.is_some() {
         return Err(Error::Input("single is for a VUMAT; allowed: with one, or with --vumat".to_string()));
     }
+    if arguments.wrapper {
+        write_wrapper(file, &built, &arguments.output)?;
+    }
     let check =
         Check { file, built: &built, options: &options, work_dir: &work_dir.path, allowed: &allowed, arguments };
     let materials: Result<Vec<MaterialReport>, Error> =
         materials.iter().map(|material| check.check_material(material)).collect();
     let mut report = Report::new(&file.display().to_string(), materials?);
     report_to(program, arguments, &mut report)
+}
+
+/// Writes the law with DDSDDE by differences, and says where.
+fn write_wrapper(file: &Path, built: &Built, output: &Path) -> Result<(), Error> {
+    if !language(file)?.is_fortran() {
+        return Err(Error::Input(format!("{}: allowed with --wrapper: Fortran", file.display())));
+    }
+    let path = repeated::write_wrapper(output, file, &wrapper::wrapper(file, built.is_free())?)?;
+    print_note(&format!("{}: the law with DDSDDE by differences\n", path.display()));
+    Ok(())
 }
 
 /// Writes and prints the report.

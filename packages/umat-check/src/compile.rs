@@ -206,6 +206,11 @@ fn including(command: &mut Command, file: &Path, folder: &Path, options: &Option
 }
 
 impl Built {
+    /// Whether the source is read in free form.
+    pub fn is_free(&self) -> bool {
+        self.form.flags.contains(&"-ffree-form")
+    }
+
     /// The variables that gfortran sees used before they are set, with their lines.
     pub fn used_unset(&self, file: &Path, folder: &Path) -> Vec<String> {
         let Ok(file) = file.canonicalize() else { return Vec::new() };

@@ -53,3 +53,4 @@ pub mod tangent;
 pub mod thermal;
 pub mod vumat;
 pub mod work_dir;
+pub mod wrapper;

@@ -52,8 +52,9 @@ pub fn properties(session: &mut Session) -> Finding {
     let named: Vec<String> = idle.iter().take(SHOWN).map(|number| format!("PROPS({number})")).collect();
     let more = if idle.len() > SHOWN { format!(" and {} others", idle.len() - SHOWN) } else { String::new() };
     let text = format!(
-        "{}{more} changes nothing, by a thousandth or a tenth of it: not read, or a part of the law that was not reached",
-        named.join(", ")
+        "{}{more} {} nothing, by a thousandth or a tenth of it: not read, or a part of the law that was not reached",
+        named.join(", "),
+        if idle.len() > 1 { "change" } else { "changes" }
     );
     // Flags, thresholds that are not reached and directions of any length are right.
     line(Verdict::Right, text).with("changes nothing")

@@ -31,9 +31,27 @@ fn name(file: &Path, question: Question) -> String {
     format!("{stem}-{}", question.name())
 }
 
+/// What the wrapper is called, without its ending.
+fn name_of_wrapper(file: &Path) -> String {
+    let stem = file.file_stem().map_or("law".into(), |stem| stem.to_string_lossy());
+    format!("{stem}-wrapper")
+}
+
+/// Writes `NAME-wrapper` with the law's own ending into the folder, under its lock.
+///
+/// # Errors
+/// It cannot be written, or the files there are another law's.
+pub fn write_wrapper(output: &Path, file: &Path, text: &str) -> Result<PathBuf, Error> {
+    let _directory = RunDirectory::lock(output, writes(file))?.claim()?;
+    let ending = file.extension().unwrap_or_default();
+    let path = output.join(format!("{}.{}", name_of_wrapper(file), ending.display()));
+    std::fs::write(&path, text).map_err(|error| Error::Input(format!("{}: {error}", path.display())))?;
+    Ok(path)
+}
+
 /// What a check of this law may write.
 pub fn writes(file: &Path) -> Writes<'_> {
-    let names = Question::all().map(|question| name(file, question)).collect();
+    let names = Question::all().map(|question| name(file, question)).chain([name_of_wrapper(file)]).collect();
     Writes { command: "check", files: vec![file], names, ..Writes::default() }
 }
 

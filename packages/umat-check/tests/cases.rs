@@ -226,3 +226,32 @@ fn a_wrong_tangent_is_reproduced_by_a_program() {
     let (given, kirchhoff) = (entry("DDSDDE"), entry("Kirchhoff"));
     assert!((given - kirchhoff).abs() > 1e-3 * given, "{text}");
 }
+
+/// Laws of both forms, of the deformation and of strain increments, with tangents of their own that are wrong: the
+/// wrapper's is right.
+#[test]
+fn a_wrapper_has_a_right_tangent() {
+    let properties = "--props=200000,0.3,300,1000,1";
+    let scene = format!("--scene={}", corpus("cases/j2_modes.toml").display());
+    for (law, arguments) in [
+        ("volume.f", vec!["--props=1,10,.5,.5,0".to_string()]),
+        ("j2_modes.f", vec![scene, properties.to_string()]),
+        ("plane_stress_wrong.f90", vec!["--props=1000,.3".to_string(), "--ntens=3".to_string()]),
+    ] {
+        let folder = written(&format!("wrapper-{law}"));
+        let only = "--only=tangent,outputs,repeat".to_string();
+        let output = std::process::Command::new(env!("CARGO_BIN_EXE_umat-check"))
+            .arg(corpus("cases").join(law))
+            .args(["--wrapper", "--output", &folder, "--json"])
+            .args(arguments.iter().chain([&only]))
+            .output()
+            .expect("runs");
+        let report: Value = serde_json::from_slice(&output.stdout).expect("a report");
+        assert_eq!(report["materials"][0]["lines"][1]["verdict"], "wrong", "{report:#}");
+        let (stem, ending) = law.split_once('.').expect("an ending");
+        let wrapper = Path::new(&folder).join(format!("{stem}-wrapper.{ending}"));
+        let (code, report) = check(&wrapper, &arguments.iter().chain([&only]).cloned().collect::<Vec<_>>());
+        assert_eq!((code, &report["verdict"]), (0, &"right".into()), "{report:#}");
+        assert_eq!(report["materials"][0]["lines"][1]["verdict"], "right", "{report:#}");
+    }
+}
