@@ -69,7 +69,7 @@ pub struct Arguments {
     /// NSTATV.
     #[arg(long)]
     statev: Option<usize>,
-    /// NTENS: 6, 4 (plane strain, axisymmetric) or 3 (plane stress).
+    /// NTENS: 6, 4 (plane strain, axisymmetric), 3 (plane stress), 2 (shells of revolution) or 1 (trusses).
     #[arg(long)]
     ntens: Option<usize>,
     /// What the law is: hyperelastic, dissipative, isotropic.
@@ -248,10 +248,11 @@ fn canonical(path: &Path) -> Result<PathBuf, Error> {
 /// Declares that a VUMAT is called, and where its build for single precision is.
 fn declare_vumat(single: Option<&Result<PathBuf, String>>, materials: &mut [Material]) -> Result<(), Error> {
     for material in materials {
-        if material.components == 3 {
-            return Err(Error::Input(
-                "ntens is 3; allowed with a VUMAT: 6 (solids), 4 (plane strain, axisymmetric)".into(),
-            ));
+        if material.components < 4 {
+            return Err(Error::Input(format!(
+                "ntens is {}; allowed with a VUMAT: 6 (solids), 4 (plane strain, axisymmetric)",
+                material.components
+            )));
         }
         material.explicit.called = true;
         material.explicit.single = single.cloned();

@@ -82,12 +82,12 @@ fn power(point: &Point, rate: &Matrix3<f64>, material: &Material) -> f64 {
 pub fn cycles(session: &mut Session, reads: Reads) -> Finding {
     let material = session.material;
     let declared = material.traits;
-    if material.components == 3 {
+    if material.components <= 3 {
         return Finding::new(
             Question::Cycles,
             Verdict::NotAsked,
             None,
-            "plane stress: the work across it is not known",
+            "without a strain across the work there is not known",
         );
     }
     if !declared.hyperelastic && !declared.dissipative {
@@ -234,12 +234,12 @@ const NO_ENERGY: f64 = 1e8;
 
 /// What SSE is.
 pub fn energy(session: &mut Session) -> Finding {
-    if session.material.components == 3 {
+    if session.material.components <= 3 {
         return Finding::new(
             Question::Energy,
             Verdict::NotAsked,
             None,
-            "plane stress: the work across it is not known",
+            "without a strain across the work there is not known",
         );
     }
     let found = match reported(session, STRAIGHT) {
@@ -295,12 +295,12 @@ pub fn energy(session: &mut Session) -> Finding {
 
 /// Whether SPD + SCD ever decrease.
 pub fn dissipation(session: &mut Session) -> Finding {
-    if session.material.components == 3 {
+    if session.material.components <= 3 {
         return Finding::new(
             Question::Dissipation,
             Verdict::NotAsked,
             None,
-            "plane stress: the work across it is not known",
+            "without a strain across the work there is not known",
         );
     }
     if !session.material.traits.dissipative {

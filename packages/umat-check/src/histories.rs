@@ -69,6 +69,10 @@ fn planar(matrix: &Matrix3<f64>, material: &Material, across: f64) -> Matrix3<f6
     if material.components == 6 {
         return *matrix;
     }
+    if material.components < 3 {
+        let is_kept = |i: usize, j: usize| i == j && i < material.components;
+        return Matrix3::from_fn(|i, j| if is_kept(i, j) { matrix[(i, j)] } else { 0.0 });
+    }
     let mut planar = *matrix;
     for (i, j) in [(0, 2), (1, 2), (2, 0), (2, 1)] {
         planar[(i, j)] = 0.0;
@@ -78,8 +82,13 @@ fn planar(matrix: &Matrix3<f64>, material: &Material, across: f64) -> Matrix3<f6
     planar
 }
 
-/// A random rotation, about the third axis where the material is planar.
+/// A random rotation, about the third axis where the material is planar; none of a bar or of a shell of
+/// revolution.
 pub fn rotation(rng: &mut Rng, material: &Material) -> Matrix3<f64> {
+    // Between two turns of it a bar would be sheared.
+    if material.components < 3 {
+        return Matrix3::identity();
+    }
     if material.components < 6 {
         return turn(Vector3::z() * (std::f64::consts::TAU * rng.f64()));
     }

@@ -3,6 +3,7 @@
 use nalgebra::Matrix3;
 
 use super::kinematics::{Components, Modulus, places, tensor, unit_strain};
+use super::material::direct;
 
 /// The right tangent at one state, and what the usual mistakes are made of.
 pub struct ExactTangent {
@@ -132,7 +133,7 @@ fn other_rates(exact: &ExactTangent, components: usize) -> Vec<(&'static str, Mo
 fn shears_of_tensors(truth: &Modulus, components: usize) -> Vec<(String, Modulus)> {
     let mut found = Vec::new();
     let mut add = |text: String, modulus: Modulus| found.push((text, modulus));
-    let direct = if components == 3 { 2 } else { 3 };
+    let direct = direct(components);
     let shear = |i: usize| i >= direct;
     for (text, factor) in [("twice", 2.0), ("half", 0.5), ("four times", 4.0), ("a quarter of", 0.25)] {
         let of =

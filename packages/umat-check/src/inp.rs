@@ -306,7 +306,7 @@ impl Deck {
         }
         if let Some(element) = user.element.as_deref().filter(|_| !given.components) {
             (material.components, material.plane) = of_element(element).ok_or_else(|| {
-                let allowed = "solids, plane, axisymmetric, shell and membrane elements, or --ntens";
+                let allowed = "solids, plane, axisymmetric, shell and membrane elements, trusses, or --ntens";
                 Error::Input(format!("{file}: {} is of {element}; allowed: {allowed}", user.name))
             })?;
         }
@@ -334,8 +334,12 @@ fn of_element(name: &str) -> Option<(usize, Option<Plane>)> {
         Some((4, Some(Plane::Axisymmetric)))
     } else if begins(&["CPS", "S3", "S4", "S8", "SC", "STRI", "M3D"]) {
         Some((3, None))
-    } else if begins(&["COH", "T2", "T3", "B2", "B3", "SAX", "MAX"]) {
+    } else if begins(&["COH", "B3", "PIPE", "SAXA", "MGAX"]) {
         None
+    } else if begins(&["SAX", "MAX"]) {
+        Some((2, None))
+    } else if begins(&["T2", "T3", "B2"]) {
+        Some((1, None))
     } else {
         // Solids, and what a user element may be.
         Some((6, None))
@@ -357,7 +361,7 @@ mod tests {
             (material.as_str(), *oriented, element.as_deref().and_then(of_element)),
             ("UD", true, Some((3, None)))
         );
-        assert_eq!(of_element("COH3D8"), None);
+        assert_eq!(["COH3D8", "T3D2", "SAX1"].map(of_element), [None, Some((1, None)), Some((2, None))]);
     }
 
     #[test]

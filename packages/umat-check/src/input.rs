@@ -115,6 +115,10 @@ pub fn input(law: &Path, file: Option<&Path>, overrides: &Overrides) -> Result<I
             }
         }
     }
+    for material in &mut input.materials {
+        // The axes of a truss or of a shell of revolution are its own.
+        material.orientation |= material.components < 3;
+    }
     Ok(input)
 }
 
@@ -273,10 +277,11 @@ fn explicit(source: &Source, file: &File, states: usize) -> Result<Explicit, Err
 
 fn allowed_components(components: usize) -> Result<usize, String> {
     match components {
-        6 | 4 | 3 => Ok(components),
+        6 | 4 | 3 | 2 | 1 => Ok(components),
         _ => Err(format!(
-            "ntens is {components}; allowed: 6 (solids), 4 (plane strain, axisymmetric), 3 (plane stress); the extra \
-             equation of hybrid elements and UVARM are not checked"
+            "ntens is {components}; allowed: 6 (solids), 4 (plane strain, axisymmetric), 3 (plane stress), 2 \
+             (shells of revolution: 11 and 22), 1 (trusses); the extra equation of \
+             hybrid elements and UVARM are not checked"
         )),
     }
 }

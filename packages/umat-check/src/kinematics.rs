@@ -82,9 +82,11 @@ pub type Components = [f64; 6];
 /// NTENS by NTENS components or fewer.
 pub type Modulus = [[f64; 6]; 6];
 
-/// Row and column of each component: 11 22 33 12 13 23, without 33 in plane stress.
+/// Row and column of each component: 11 22 33 12 13 23, without 33 in plane stress; 11 22 of a shell of revolution.
 pub fn places(components: usize) -> &'static [(usize, usize)] {
     match components {
+        1 => &[(0, 0)],
+        2 => &[(0, 0), (1, 1)],
         3 => &[(0, 0), (1, 1), (0, 1)],
         4 => &[(0, 0), (1, 1), (2, 2), (0, 1)],
         _ => &[(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)],
@@ -159,7 +161,7 @@ mod tests {
 
     #[test]
     fn components_come_back() {
-        for components in [3, 4, 6] {
+        for components in [1, 2, 3, 4, 6] {
             let mut values = [0.0; 6];
             for (i, value) in values.iter_mut().take(components).enumerate() {
                 *value = i as f64 + 1.0;

@@ -103,10 +103,19 @@ impl Traits {
     }
 }
 
+/// NDI of so many components.
+pub fn direct(components: usize) -> usize {
+    match components {
+        1 => 1,
+        2 | 3 => 2,
+        _ => 3,
+    }
+}
+
 impl Material {
     /// NDI.
     pub fn direct(&self) -> usize {
-        if self.components == 3 { 2 } else { 3 }
+        direct(self.components)
     }
 
     /// Whether no strain 33 ever is.

@@ -13,7 +13,7 @@ use super::hypotheses::stress_by_volume;
 use super::judgement::{Difference, compare, contraction, wrong_entries};
 use super::kinematics::{Components, Increment, Modulus, name};
 use super::map::{self, Branch};
-use super::material::Reads;
+use super::material::{Reads, direct};
 use super::mistakes::{self, Sample};
 use super::noise;
 use super::point::{Failure, Point};
@@ -51,8 +51,8 @@ impl Convention {
     fn of(reads: Reads, components: usize) -> &'static [Convention] {
         use Convention::{Jaumann, Plain, PlainWithVolume};
         match reads {
-            // In plane stress the law alone knows the thickness, and so J.
-            _ if components == 3 => &[Plain, PlainWithVolume],
+            // Where there is no strain across the law alone knows the thickness, and so J.
+            _ if components <= 3 => &[Plain, PlainWithVolume],
             Reads::Total => &[Jaumann],
             Reads::Rate => &[Plain, PlainWithVolume],
             Reads::Mixed => &[Jaumann, Plain, PlainWithVolume],
@@ -274,7 +274,7 @@ impl Judged<'_> {
 
     /// These entries in words.
     fn named(&self, all: &[(usize, usize)]) -> String {
-        let direct = if self.components == 3 { 2 } else { 3 };
+        let direct = direct(self.components);
         let named = |(i, j): &(usize, usize)| format!("({}, {})", name(self.components, *i), name(self.components, *j));
         match all {
             [] => String::new(),
