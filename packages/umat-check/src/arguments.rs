@@ -6,7 +6,7 @@ use nalgebra::Matrix3;
 
 use super::call::{Call, NO_WISH};
 use super::kinematics::Components;
-use super::material::Material;
+use super::material::{MOST_FIELDS, Material};
 
 pub type Reals = *mut f64;
 /// A law may write to what is its caller's own.
@@ -68,8 +68,8 @@ pub struct Arguments {
     time_step: f64,
     /// TEMP, DTEMP.
     temperature: [f64; 2],
-    /// PREDEF, DPRED, of which there are none.
-    fields: [[f64; 8]; 2],
+    /// PREDEF, DPRED.
+    fields: [[f64; MOST_FIELDS]; 2],
     coordinates: [f64; 3],
     rotation: Matrix3<f64>,
     pub next_step: f64,
@@ -82,7 +82,7 @@ pub struct Arguments {
 }
 
 impl Arguments {
-    pub fn new(call: &Call, material: &Material, properties: usize) -> Arguments {
+    pub fn new(call: &Call, material: &Material, properties: usize, fields: [[f64; MOST_FIELDS]; 2]) -> Arguments {
         let (all, direct) = (material.components as i32, material.direct() as i32);
         let [element, point] = call.place;
         Arguments {
@@ -95,7 +95,7 @@ impl Arguments {
             time: call.time,
             time_step: call.time_step,
             temperature: [call.temperature, call.temperature_step],
-            fields: [[0.0; 8]; 2],
+            fields,
             coordinates: [0.0; 3],
             rotation: call.rotation,
             next_step: NO_WISH,
@@ -173,7 +173,14 @@ impl Arguments {
     }
 
     /// Adds the inputs that the call has written to.
-    pub fn note_written(&self, call: &Call, given: &[f64], constants: &[f64], written: &mut Vec<&'static str>) {
+    pub fn note_written(
+        &self,
+        call: &Call,
+        fields: &[[f64; MOST_FIELDS]; 2],
+        given: &[f64],
+        constants: &[f64],
+        written: &mut Vec<&'static str>,
+    ) {
         let changed = |before: &[f64], after: &[f64]| {
             !before.iter().map(|value| value.to_bits()).eq(after.iter().map(|value| value.to_bits()))
         };
@@ -191,6 +198,7 @@ impl Arguments {
             ("TIME", changed(&call.time, &self.time)),
             ("DTIME", changed(&[call.time_step], &[self.time_step])),
             ("TEMP, DTEMP", changed(&[call.temperature, call.temperature_step], &self.temperature)),
+            ("PREDEF, DPRED", changed(fields.as_flattened(), self.fields.as_flattened())),
             ("a count or number", numbers != before),
         ];
         for (name, changed) in inputs {

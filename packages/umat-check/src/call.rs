@@ -9,7 +9,7 @@ use nalgebra::Matrix3;
 use super::arguments::{Arguments, Reals, Umat, Whole};
 use super::guarded::{Guard, Guarded};
 use super::kinematics::{Components, Modulus};
-use super::material::Material;
+use super::material::{MOST_FIELDS, Material};
 use super::shared::Shared;
 
 /// `SUBROUTINE SDVINI(STATEV, COORDS, NSTATV, NCRDS, NOEL, NPT, LAYER, KSPT)`.
@@ -249,6 +249,8 @@ pub struct Session<'a> {
     name: [c_char; 80],
     /// PROPS, at first those of the material.
     pub properties: Vec<f64>,
+    /// PREDEF and DPRED.
+    pub fields: [[f64; MOST_FIELDS]; 2],
     /// Whether inputs that a call writes to are noted, and which these are.
     pub watched: Option<Vec<&'static str>>,
     /// The stress moves in steps: differences are to be taken of large ones.
@@ -278,6 +280,7 @@ impl<'a> Session<'a> {
             state: Guarded::new(material.initial.len(), guard)?,
             modulus: Guarded::new(components * components, guard)?,
             properties: material.properties.clone(),
+            fields: material.passed_fields(),
             watched: None,
             coarse: false,
             constants: Guarded::new(material.properties.len(), guard)?,
@@ -406,11 +409,11 @@ impl<'a> Session<'a> {
         self.state.numbers_mut().copy_from_slice(&call.state);
         self.modulus.numbers_mut().fill(call.unset);
         self.constants.numbers_mut().copy_from_slice(&self.properties);
-        let mut arguments = Arguments::new(call, self.material, self.properties.len());
+        let mut arguments = Arguments::new(call, self.material, self.properties.len(), self.fields);
         let arrays = [&mut self.stress, &mut self.state, &mut self.modulus, &mut self.constants];
         arguments.pass(self.law.umat, arrays.map(Guarded::as_mut_ptr), self.name);
         if let Some(watched) = &mut self.watched {
-            arguments.note_written(call, &self.properties, self.constants.numbers(), watched);
+            arguments.note_written(call, &self.fields, &self.properties, self.constants.numbers(), watched);
         }
         let mut answer = Answer {
             stress: [0.0; 6],

@@ -17,6 +17,7 @@ pub fn driver(call: &Call, material: &Material, law: &str) -> Option<String> {
         call.state.len(),
         material.properties.len()
     );
+    let [fields, _] = material.passed_fields();
     let arrays = [
         ("stress0", "ntens", &call.stress[..components]),
         ("statev0", "nstatv", &call.state),
@@ -27,6 +28,7 @@ pub fn driver(call: &Call, material: &Material, law: &str) -> Option<String> {
         ("drot", "9", call.rotation.as_slice()),
         ("dfgrd0", "9", call.f0.as_slice()),
         ("dfgrd10", "9", call.f1.as_slice()),
+        ("fields", "8", &fields),
     ];
     let declared: String = arrays.iter().map(|(name, length, values)| array(name, length, values)).collect();
     let [element, point] = call.place;
@@ -90,7 +92,7 @@ contains
     integer :: noel, npt, layer, kspt, kinc, jstep(4), place
     character(80) :: cmname
 @scalars
-    sse = 0; spd = 0; scd = 0; rpl = 0; ddsddt = 0; drplde = 0; drpldt = 0; predef = 0; dpred = 0; coords = 0
+    sse = 0; spd = 0; scd = 0; rpl = 0; ddsddt = 0; drplde = 0; drpldt = 0; predef = fields; dpred = 0; coords = 0
     pnewdt = 1; celent = 1; layer = 1; kspt = 1; cmname = '@name'
     stress = stress0; statev = statev0; dstran = dstran0; ddsdde = 0
     f = reshape(dfgrd10, [3, 3]); e = 0

@@ -4,7 +4,7 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use super::material::{Material, Plane};
+use super::material::{MOST_FIELDS, Material, Plane};
 use toron_shared::error::Error;
 use toron_shared::keyword_file::abaqus::{self, Keyword, fields, label};
 use toron_shared::keyword_file::files::text;
@@ -41,6 +41,8 @@ enum Data {
     Set(bool),
     Stress,
     Solution,
+    /// Of nodes: a field by its number, the temperature as 0.
+    Field(usize),
     /// Of a composite section, whose layers name their materials.
     Layers,
 }
@@ -61,6 +63,8 @@ struct Deck {
     also: Option<String>,
     stresses: Vec<(String, Vec<f64>)>,
     solutions: Vec<(String, Vec<f64>)>,
+    /// The values of fields at the beginning, of all sets of nodes.
+    fields: Vec<(usize, f64)>,
     /// Whether a step has NLGEOM; none where there is no step.
     nonlinear: Option<bool>,
 }
@@ -102,6 +106,11 @@ impl abaqus::Reader for Deck {
             "INITIALCONDITIONS" => match (keyword.label("TYPE").as_deref(), keyword.value("USER")) {
                 (Some("STRESS"), None) => Data::Stress,
                 (Some("SOLUTION"), None) => Data::Solution,
+                (Some("TEMPERATURE"), None) => Data::Field(0),
+                (Some("FIELD"), None) => Data::Field(match keyword.value("VARIABLE") {
+                    Some(value) => keyword.line.number("VARIABLE", value)?,
+                    None => 1,
+                }),
                 _ => Data::None,
             },
             name if name.ends_with("SECTION") && keyword.value("COMPOSITE").is_some() => {
@@ -152,6 +161,10 @@ impl abaqus::Reader for Deck {
             Data::Elements => self.element(line),
             Data::Set(generated) => self.set(line, generated),
             Data::Stress | Data::Solution => self.initial(line)?,
+            Data::Field(number) => {
+                let value = self.numbers(line, 1)?.first().copied();
+                self.fields.extend(value.map(|value| (number, value)));
+            }
             // Thickness, points, material, angle.
             Data::Layers => {
                 if let Some(material) = fields(line.text).nth(2).filter(|name| !name.is_empty()) {
@@ -304,6 +317,18 @@ impl Deck {
                 *state = value;
             }
         }
+        for number in 0..=MOST_FIELDS {
+            let mut values = self.fields.iter().filter(|(of, _)| *of == number).map(|(_, value)| *value);
+            // Nodes are not followed to materials: where they differ nothing is known.
+            let Some(value) = values.next().filter(|first| values.all(|other| other == *first)) else { continue };
+            match number {
+                0 => material.temperature = value,
+                _ => {
+                    material.fields.resize(material.fields.len().max(number), 0.0);
+                    material.fields[number - 1] = value;
+                }
+            }
+        }
         if let Some(element) = user.element.as_deref().filter(|_| !given.components) {
             (material.components, material.plane) = of_element(element).ok_or_else(|| {
                 let allowed = "solids, plane, axisymmetric, shell and membrane elements, trusses, or --ntens";
@@ -369,6 +394,8 @@ mod tests {
         let deck = "*Parameter\nBULK = 20.\n*Part, name=P\n*Element, type=CPE4R\n7, 1, 2, 3, 4\n*Elset, elset=ALL, generate\n\
                     7, 7, 1\n*Solid Section, elset=ALL, material=Soft, orientation=O\n,\n*End Part\n*Material, name=SOFT\n\
                     *Density\n7.8e-9,\n*Depvar, delete=2\n3,\n1, A, \"first\"\n*User Material, constants=2, unsymm\n0.8, <BULK>\n\
+                    *Initial Conditions, type=FIELD, variable=2\nI.LEFT, 5.\nI.RIGHT, 5.\n\
+                    *Initial Conditions, type=TEMPERATURE\nI.LEFT, 5.\nI.RIGHT, 6.\n\
                     *Initial Conditions, type=STRESS\nI.ALL, -1., -2., -3.\n*Initial Conditions, type=SOLUTION\nI.ALL, 4., 5.\n\
                     *Step, nlgeom=YES\n*Static\n*End Step\n";
         let file = std::env::temp_dir().join(format!("umat-check-{}.inp", std::process::id()));
@@ -380,6 +407,7 @@ mod tests {
         assert_eq!((material.initial.clone(), material.explicit.deletion), (vec![4.0, 5.0, 0.0], Some(2)));
         assert_eq!((material.components, material.plane), (4, Some(Plane::Strain)));
         assert_eq!((material.stress[2], material.explicit.density), (-3.0, 7.8e-9));
+        assert_eq!((&material.fields[..], material.temperature), (&[0.0, 5.0][..], 0.0));
         assert!(material.orientation && material.unsymmetric == Some(true));
     }
 }

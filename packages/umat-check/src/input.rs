@@ -10,7 +10,7 @@ use super::expect::Expected;
 use super::finding::Question;
 use super::given::{self, Expect};
 use super::inp::{self, Given};
-use super::material::{DEFAULT_NAME, Explicit, Material, Plane, Traits};
+use super::material::{DEFAULT_NAME, Explicit, MOST_FIELDS, Material, Plane, Traits};
 use toron_shared::checked::{Checked, Positive, value};
 use toron_shared::error::Error;
 use toron_shared::toml_file::{Source, read};
@@ -29,6 +29,7 @@ struct File {
     stretch: Option<Spanned<Vec<f64>>>,
     increment: Option<Positive>,
     temperature: Option<Spanned<f64>>,
+    fields: Option<Spanned<Vec<f64>>>,
     dtime: Option<Positive>,
     traits: Option<Spanned<Vec<String>>>,
     orientation: Option<bool>,
@@ -185,6 +186,7 @@ fn material(source: &Source, file: &File, own: &Own, overrides: &Overrides) -> R
             Some(value) => source.finite("temperature", *value.get_ref(), value.span())?,
             None => 0.0,
         },
+        fields: fields(source, file.fields.as_ref())?,
         time_step: value(&file.dtime).unwrap_or(1.0),
         traits: traits(source, own.traits.as_ref().or(file.traits.as_ref()), overrides)?,
         plane: overrides.plane.or(file.plane),
@@ -236,6 +238,16 @@ fn initial_stress(source: &Source, given: Option<&Spanned<Vec<f64>>>, components
         stress[..components].copy_from_slice(given.get_ref());
     }
     Ok(stress)
+}
+
+fn fields(source: &Source, given: Option<&Spanned<Vec<f64>>>) -> Result<Vec<f64>, Error> {
+    let Some(given) = given else { return Ok(Vec::new()) };
+    let fields = given.get_ref();
+    if fields.len() > MOST_FIELDS || fields.iter().any(|field| !field.is_finite()) {
+        let message = format!("fields has {} numbers; allowed: up to {MOST_FIELDS} finite ones", fields.len());
+        return Err(source.error(given.span(), &message));
+    }
+    Ok(fields.clone())
 }
 
 fn all_finite(key: &str, numbers: &[f64]) -> Result<(), Error> {
@@ -352,6 +364,7 @@ mod tests {
                 "[[expect]]\nstrain = [0, 0, 0, 0, 0, 0]\nstress = [1.0, 0, 0, 0, 0, 0]",
                 "law.toml:3: a known answer without source",
             ),
+            ("fields = [1, 2, 3, 4, 5, 6, 7, 8, 9]", "law.toml:1: fields has 9 numbers; allowed: up to 8"),
             ("dtime = 0.0", "law.toml:1: dtime is 0.0; allowed: a finite number > 0"),
         ] {
             let error = of(text).expect_err(text);

@@ -27,6 +27,9 @@ pub struct Material {
     /// The norm of the logarithmic strain of one increment.
     pub increment: f64,
     pub temperature: f64,
+    /// PREDEF, of the fields that are known.
+    #[serde(default)]
+    pub fields: Vec<f64>,
     /// DTIME.
     pub time_step: f64,
     pub traits: Traits,
@@ -112,7 +115,19 @@ pub fn direct(components: usize) -> usize {
     }
 }
 
+/// So many fields a call passes; those that are not known are 0.
+pub const MOST_FIELDS: usize = 8;
+
 impl Material {
+    /// PREDEF and DPRED: fields stay as they are.
+    pub fn passed_fields(&self) -> [[f64; MOST_FIELDS]; 2] {
+        let mut fields = [[0.0; MOST_FIELDS]; 2];
+        for (passed, field) in fields[0].iter_mut().zip(&self.fields) {
+            *passed = *field;
+        }
+        fields
+    }
+
     /// NDI.
     pub fn direct(&self) -> usize {
         direct(self.components)

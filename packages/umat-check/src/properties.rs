@@ -20,7 +20,7 @@ const CHANGES: [f64; 2] = [1e-3, 0.1];
 pub fn properties(session: &mut Session) -> Finding {
     let count = session.properties.len();
     let line = |verdict, text: String| Finding::new(Question::Properties, verdict, None, text);
-    if count == 0 {
+    if count == 0 && session.material.fields.is_empty() {
         return line(Verdict::NotAsked, "there are no properties".to_string());
     }
     let mut rng = Rng::with_seed(session.material.seed ^ 0x9a);
@@ -46,18 +46,46 @@ pub fn properties(session: &mut Session) -> Finding {
             idle.push(index + 1);
         }
     }
+    let of_fields = fields(session, &paths, &alone);
     if idle.is_empty() {
-        return line(Verdict::Right, format!("each of {count} changes the answer"));
+        return line(Verdict::Right, format!("each of {count} changes the answer{of_fields}"));
     }
     let named: Vec<String> = idle.iter().take(SHOWN).map(|number| format!("PROPS({number})")).collect();
     let more = if idle.len() > SHOWN { format!(" and {} others", idle.len() - SHOWN) } else { String::new() };
     let text = format!(
-        "{}{more} {} nothing, by a thousandth or a tenth of it: not read, or a part of the law that was not reached",
+        "{}{more} {} nothing, by a thousandth or a tenth of it: not read, or a part of the law that was not reached{of_fields}",
         named.join(", "),
         if idle.len() > 1 { "change" } else { "changes" }
     );
     // Flags, thresholds that are not reached and directions of any length are right.
     line(Verdict::Right, text).with("changes nothing")
+}
+
+/// Which fields change the answer, by PREDEF and by DPRED.
+fn fields(session: &mut Session, paths: &[Vec<Matrix3<f64>>], alone: &[Vec<Answer>]) -> String {
+    let given = session.fields;
+    let mut text = String::new();
+    for index in 0..session.material.fields.len() {
+        let [value, increment] = [0, 1].map(|of| {
+            CHANGES.iter().any(|change| {
+                let [fields, _] = given;
+                session.fields[of][index] += change * if fields[index] == 0.0 { 1.0 } else { fields[index] };
+                let differs = differs(session, paths, alone);
+                session.fields = given;
+                differs
+            })
+        });
+        let number = index + 1;
+        text += &match (value, increment) {
+            (true, true) => format!("; PREDEF({number}) and DPRED({number}) change it"),
+            (true, false) => {
+                format!("; PREDEF({number}) changes it, DPRED({number}) does not: the field before the increment")
+            }
+            (false, true) => format!("; DPRED({number}) changes it, PREDEF({number}) does not"),
+            (false, false) => format!("; PREDEF({number}) changes nothing"),
+        };
+    }
+    text
 }
 
 /// So many properties are named.
