@@ -389,6 +389,13 @@ mod tests {
         assert_eq!(["COH3D8", "T3D2", "SAX1"].map(of_element), [None, Some((1, None)), Some((2, None))]);
     }
 
+    /// Some public inputs have FILE=.
+    #[test]
+    fn an_include_is_named_by_input() {
+        let error = abaqus::read("deck.inp", "*Include, file=sec.inp\n", &mut Deck::default()).expect_err("refused");
+        assert!(error.to_string().contains("allowed: INPUT=, as Abaqus's manual has it"), "{error}");
+    }
+
     #[test]
     fn a_deck_says_what_its_materials_are() {
         let deck = "*Parameter\nBULK = 20.\n*Part, name=P\n*Element, type=CPE4R\n7, 1, 2, 3, 4\n*Elset, elset=ALL, generate\n\

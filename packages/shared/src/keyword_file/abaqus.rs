@@ -163,6 +163,10 @@ impl<R: Reader> Deck<'_, R> {
     /// Lines that a file begins with belong to the last keyword before it, as if they stood in its place.
     fn keyword(&mut self, keyword: &Keyword<'_>) -> Result<(), Error> {
         let included = if keyword.name == "INCLUDE" {
+            if keyword.value("FILE").is_some() {
+                let message = "*INCLUDE has FILE=; allowed: INPUT=, as Abaqus's manual has it";
+                return Err(keyword.line.error(message));
+            }
             keyword.allow(&["INPUT"])?;
             Some(keyword.value("INPUT").unwrap_or_default())
         } else {
