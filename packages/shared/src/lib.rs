@@ -6,8 +6,8 @@
 //! - files in TOML, with the places of what stands in them: [`toml_file`], [`toml_error`], tables over others in
 //!   [`layers`], a struct's [`field_names`], [`checked`] values; keyword files of solvers: [`keyword_file`];
 //! - where a program writes: [`run_directory`], [`kept_file`], [`file_names`], [`folder`];
-//! - which program it is: the [`mod@build`]; how long it has computed: [`processor_time`]; what runs beside it: [`interrupt`], [`bound_child`], the [`shell`]'s
-//!   words.
+//! - which program it is: the [`mod@build`]; how long it has computed: [`processor_time`]; what runs beside it:
+//!   [`interrupt`], [`bound_child`], the [`shell`]'s words.
 
 pub mod bound_child;
 pub mod build;

@@ -72,16 +72,17 @@ fn panels(path: &LoadPath, history: &History) -> [Panel; 4] {
         series: tidy(series),
         limit,
     };
-    let (title, deformation, energies) = match material.law {
-        Law::Hyperelastic { .. } => {
-            ("Deformation by mode: invariants", modes(history, INVARIANTS), modes(history, ENERGIES))
-        }
-        Law::LinearElastic { .. } | Law::Own(_) => {
-            let name = if let Law::Own(_) = material.law { "energy" } else { "work" };
-            let work = line(history, name, COLOURS[0], |i| material.energy(&i.answer.memory));
-            ("Deformation gradient", gradient(history), vec![work])
-        }
+    let (title, deformation, mut energies) = if material.law.yarn().is_some() {
+        ("Deformation by mode: invariants", modes(history, INVARIANTS), modes(history, ENERGIES))
+    } else {
+        let name = if let Law::Own(_) = material.law { "energy" } else { "work" };
+        let work = line(history, name, COLOURS[0], |i| material.energy(&i.answer.memory));
+        ("Deformation gradient", gradient(history), vec![work])
     };
+    let lost = |i: &Increment| material.lost_energy(&i.answer.memory);
+    if history.increments.last().is_some_and(|last| lost(last).is_some()) {
+        energies.push(line(history, "lost", GREY, |i| lost(i).unwrap_or(0.0)));
+    }
     let stress = |k: usize| line(history, &format!("σ{}", SYMMETRIC_NAMES[k]), COLOURS[k], |i| i.answer.cauchy[k]);
     let last = if material.can_fail() {
         panel("Failure index", NUMBER, index(history), Some(1.0))
