@@ -125,7 +125,7 @@ pub(crate) struct Hold<R: Real> {
     pub i_te: R,
     /// The factor of D̂ in the Kirchhoff stress.
     pub distortion: R,
-    /// 1/ŝ where the fibres slide.
+    /// 1/ŝ, of a section that is distorted.
     over_distorted: R,
 }
 
@@ -215,7 +215,9 @@ impl<R: Real> Friction<R> {
         let slides = limit.lt(R::splat(0.5) * law.k_td * trial.i_td);
         let most = (limit * self.per_stiffness).min(trial.i_td);
         let one = R::splat(1.0);
-        let over_distorted = one / R::select(slides, elastic.distortion, one);
+        // The division does not wait for the limit, which takes long to compute.
+        let distorted = R::splat(R::MIN_POSITIVE).le(elastic.distortion);
+        let over_distorted = one / R::select(distorted, elastic.distortion, one);
         Hold {
             slides,
             trial: trial.i_td,

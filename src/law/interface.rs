@@ -56,7 +56,8 @@ pub unsafe trait Law<T: Precision>: Copy {
     /// The same for a state to be written.
     #[inline(always)]
     fn parts_mut(state: *mut T, leading_dimension: usize) -> [*mut T; PARTS] {
-        Self::parts(state, leading_dimension).map(<*const T>::cast_mut)
+        let [a, b, c] = Self::parts(state, leading_dimension);
+        [a.cast_mut(), b.cast_mut(), c.cast_mut()]
     }
 
     /// Evaluates a step at every point. Returns the worst (most negative) of the status codes.

@@ -4,7 +4,7 @@ use core::ops::Range;
 
 use super::copies::padded;
 use super::dispatch::Precision;
-use super::instructions::Instructions;
+use super::instructions::{BlockInstructions, Instructions};
 use super::kernel::sweep;
 use super::linear::sweep_linear;
 use super::points::{Needs, Points};
@@ -28,7 +28,9 @@ impl Instructions for Avx2 {
         // SAFETY: `run` requires of its caller what `sweep` requires.
         unsafe { sweep::<T, T::Avx2, WANT>(law, friction, block) }
     }
+}
 
+impl BlockInstructions for Avx2 {
     #[target_feature(enable = "avx2,fma")]
     unsafe fn run_padded<T: Precision, L: Law<T>, const ROWS: usize>(
         points: &Points<T>,

@@ -4,7 +4,7 @@ use core::ops::Range;
 
 use super::copies::padded;
 use super::dispatch::Precision;
-use super::instructions::Instructions;
+use super::instructions::{BlockInstructions, Instructions};
 use super::kernel::sweep;
 use super::linear::sweep_linear;
 use super::points::{Needs, Points};
@@ -27,7 +27,9 @@ impl Instructions for Baseline {
         // SAFETY: `run` requires of its caller what `sweep` requires.
         unsafe { sweep::<T, T::Baseline, WANT>(law, friction, block) }
     }
+}
 
+impl BlockInstructions for Baseline {
     unsafe fn run_padded<T: Precision, L: Law<T>, const ROWS: usize>(
         points: &Points<T>,
         run: impl FnOnce(&Points<T>) -> i32,

@@ -7,7 +7,9 @@ use super::avx2::Avx2;
 #[cfg(target_arch = "x86_64")]
 use super::avx512::Avx512;
 use super::baseline::Baseline;
-use super::instructions::Instructions;
+use super::instructions::{BlockInstructions, Instructions};
+#[cfg(target_arch = "x86_64")]
+use super::one::One;
 use super::points::Points;
 use super::request::{ALIGNED, ANY, FRICTION};
 #[cfg(target_arch = "x86_64")]
@@ -206,6 +208,8 @@ unsafe fn dispatch_frictional<T: Precision>(level: Level, law: &Frictional<T>, b
             #[cfg(target_arch = "x86_64")]
             Level::Avx512 | Level::Avx2 if block.n >= lanes::<T, Avx2>() => run_frictional::<T, Avx2>(law, block),
             #[cfg(target_arch = "x86_64")]
+            Level::Avx512 | Level::Avx2 if block.n == 1 => run_frictional::<T, One>(law, block),
+            #[cfg(target_arch = "x86_64")]
             Level::Avx512 | Level::Avx2 => Avx2::run_padded::<T, Frictional<T>, FRICTIONAL_ROWS>(block, |points| {
                 run_frictional::<T, Avx2>(law, points)
             }),
@@ -306,7 +310,7 @@ unsafe fn dispatch_linear<T: Precision>(level: Level, law: &LinearElastic<T>, bl
 ///
 /// # Safety
 /// As for [`Precision::dispatch_linear`], for points of the block that fill whole registers.
-unsafe fn run_linear<T: Registers, I: Instructions>(
+unsafe fn run_linear<T: Registers, I: BlockInstructions>(
     law: &LinearElastic<T>,
     block: &Points<T>,
     points: Range<usize>,

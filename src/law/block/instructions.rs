@@ -26,7 +26,10 @@ pub(super) trait Instructions {
         friction: &Friction<T>,
         block: &Points<T>,
     ) -> i32;
+}
 
+/// Instructions for blocks of any number of points and for every law.
+pub(super) trait BlockInstructions: Instructions {
     /// Runs a kernel of a law on copies of points that do not fill a register.
     ///
     /// # Safety

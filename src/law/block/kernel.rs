@@ -11,7 +11,7 @@ use super::request::{ALIGNED, ANY, FIBRES, FRICTION, STATE, wants_tangent};
 use crate::law::axes::{Axes, FibreFrame, FirstAxis};
 use crate::law::frictional::{Friction, Hold, Slip};
 use crate::law::hyperelastic::{Hyperelastic, Kirchhoff};
-use crate::law::kinematics::{Kinematics, Logarithms, Section, Slid, Strain, Stretch};
+use crate::law::kinematics::{Kinematics, Logarithms, Section, Slid, Strain, Stretch, Unimodular};
 use crate::law::number::elementary::{Asinh, Power, Reduced};
 use crate::law::number::real::{Lanes, Real, Scalar, WIDEST};
 use crate::law::state::part::{ENERGIES, FAILURE, INVARIANTS};
@@ -44,6 +44,7 @@ pub(super) unsafe fn sweep<T: Scalar, R: Lanes<T>, const WANT: u8>(
     loop {
         let left = registers - first;
         let count = match left {
+            _ if R::ALONE => 1, // known to the compiler, which then needs no arrays
             0..=STAGED => left,
             // Two groups of the same size take less time than a large and a small one.
             _ if left <= 2 * STAGED => left.div_ceil(2),
@@ -241,7 +242,9 @@ impl<R: Real, K> Stages<'_, R, K> {
 
 /// What a law with friction keeps besides.
 struct Slides<R: Real> {
-    /// Where any of the fibres have slid before: the section as the deformation makes it, its a and b, and its distortion.
+    /// Where any of the fibres have slid before: the axes that the distortion is referred to, the section as the
+    /// deformation makes it, its a and b, and its distortion.
+    axes: Stage<Unimodular<R>>,
     sections: Stage<Section<R>>,
     images: Stage<[[R; 3]; 2]>,
     distortions: Stage<Asinh<R>>,
@@ -266,6 +269,7 @@ unsafe fn staged<T: Scalar, R: Lanes<T>, A: GroupAxes<R>, const WANT: u8>(group:
         distortions: Stage::new(),
         holds: Stage::new(),
         slips: Stage::new(),
+        axes: Stage::new(),
         any: false,
         any_before: false,
     };
@@ -289,6 +293,9 @@ unsafe fn staged<T: Scalar, R: Lanes<T>, A: GroupAxes<R>, const WANT: u8>(group:
     let active = if block.active.is_null() { no_active.as_mut_ptr().cast::<T>().wrapping_sub(i) } else { block.active };
     // SAFETY: as the caller promises; each function reads what the ones before have put.
     unsafe {
+        if const { WANT & FRICTION != 0 } {
+            group.recall_slip(&mut stages);
+        }
         let slipped = group.kinematics(&mut stages);
         if const { WANT & FRICTION != 0 } {
             group.refer_to_slip(&mut stages, slipped);
@@ -368,9 +375,9 @@ impl<T: Scalar, R: Lanes<T>, A: GroupAxes<R>> Group<'_, T, R, A> {
         }
     }
 
-    /// The section that is left of the whole one where the fibres have slid.
+    /// Whether any of the fibres have slid before, and their axes, whose roots then come beside those of the kinematics.
     #[inline(always)]
-    unsafe fn refer_to_slip(&self, stages: &mut Stages<'_, R, Kept<R, A>>, any_slipped: bool) {
+    unsafe fn recall_slip(&self, stages: &mut Stages<'_, R, Kept<R, A>>) {
         let mut slid = R::never();
         // SAFETY: see above.
         unsafe {
@@ -378,9 +385,22 @@ impl<T: Scalar, R: Lanes<T>, A: GroupAxes<R>> Group<'_, T, R, A> {
                 slid = slid | remembered::<T, R>(self.block, self.at(k)).is_any();
             }
             stages.slides.any_before = R::any(slid);
-            if !stages.slides.any_before {
-                return;
+            if stages.slides.any_before {
+                for k in 0..self.count {
+                    stages.slides.axes.put(k, remembered::<T, R>(self.block, self.at(k)).axes());
+                }
             }
+        }
+    }
+
+    /// The section that is left of the whole one where the fibres have slid.
+    #[inline(always)]
+    unsafe fn refer_to_slip(&self, stages: &mut Stages<'_, R, Kept<R, A>>, any_slipped: bool) {
+        if !stages.slides.any_before {
+            return;
+        }
+        // SAFETY: see above.
+        unsafe {
             for k in 0..self.count {
                 let (n, d, &whole) = (self.axes.get(k).0, stages.stretches.get(k), stages.sections.get(k));
                 let vectors = self.images(stages, k);
@@ -388,8 +408,7 @@ impl<T: Scalar, R: Lanes<T>, A: GroupAxes<R>> Group<'_, T, R, A> {
                     true => Section::orthogonal_rests(d, vectors, &n, whole.slipped_far(d)),
                     false => Section::rests(d, vectors),
                 };
-                let v = remembered::<T, R>(self.block, self.at(k)).axes();
-                let (section, vectors) = whole.referred_to(&v, d, rests, &n);
+                let (section, vectors) = whole.referred_to(stages.slides.axes.get(k), d, rests, &n);
                 stages.slides.sections.put(k, whole);
                 stages.slides.images.put(k, *stages.images.get(k));
                 stages.sections.put(k, section);
@@ -416,8 +435,10 @@ impl<T: Scalar, R: Lanes<T>, A: GroupAxes<R>> Group<'_, T, R, A> {
             for k in 0..self.count {
                 let logarithms = &stages.steps.get(k).logarithms;
                 stages.strains.put(k, Strain::new(stages.stretches.get(k), stages.sections.get(k), logarithms));
-                for column in block.stress {
-                    R::prefetch(column.wrapping_add(self.at(k)));
+                if !R::ALONE {
+                    for column in block.stress {
+                        R::prefetch(column.wrapping_add(self.at(k)));
+                    }
                 }
             }
             for k in 0..self.count {

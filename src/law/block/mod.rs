@@ -32,6 +32,8 @@ mod dispatch;
 mod instructions;
 mod kernel;
 mod linear;
+#[cfg(target_arch = "x86_64")]
+mod one;
 mod outputs;
 mod points;
 mod request;

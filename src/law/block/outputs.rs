@@ -318,7 +318,7 @@ pub(super) struct Remembered<'a, R> {
     pub slip: Option<&'a Slip<R>>,
 }
 
-/// Prefetches the components that [`store_state`] will store to.
+/// Prefetches the components that [`store_state`] will store to; of one point they are few, and near.
 #[inline(always)]
 pub(super) fn prefetch<T, R: Lanes<T>, const COMPONENTS: usize>(
     wanted: bool,
@@ -326,7 +326,7 @@ pub(super) fn prefetch<T, R: Lanes<T>, const COMPONENTS: usize>(
     leading_dimension: usize,
     i: usize,
 ) {
-    if wanted {
+    if wanted && !R::ALONE {
         for c in 0..COMPONENTS {
             R::prefetch(array.wrapping_add(c * leading_dimension + i));
         }

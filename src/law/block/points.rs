@@ -428,6 +428,36 @@ impl<T: Scalar> Points<T> {
         in_place
     }
 
+    /// Whether there is an old state wherever a new one is requested.
+    #[inline(always)]
+    pub(super) fn has_old_state(&self) -> bool {
+        let (mut has, mut part) = (true, 0);
+        while part < PARTS {
+            has &= self.state_new[part].is_null() || !self.state_old[part].is_null();
+            part += 1;
+        }
+        has
+    }
+
+    /// Copies the old state of one point to the arrays of the new one. The old one stays where it is: kernels that work
+    /// in place may read it from either.
+    ///
+    /// # Safety
+    /// The points are valid, there is one, and it has an old state, see [`has_old_state`](Self::has_old_state).
+    #[inline(always)]
+    pub(super) unsafe fn keep_old_state_of_one(&self, parts: &[usize; PARTS]) {
+        let mut part = 0;
+        while part < PARTS {
+            let (old, new, mut c) = (self.state_old[part], self.state_new[part], 0);
+            while c < parts[part] && !new.is_null() {
+                // SAFETY: of a valid point both arrays have the component c.
+                unsafe { *new.add(c * self.leading_dimension) = *old.add(c * self.leading_dimension) };
+                c += 1;
+            }
+            part += 1;
+        }
+    }
+
     /// Copies the old state, or zeros where there is none, to the arrays of the new one: for kernels that work in
     /// place.
     ///

@@ -109,6 +109,10 @@ pub(crate) unsafe fn evaluate<T: Precision, L: Kernels<T>>(law: &L, points: &Poi
         if !L::IN_PLACE || points.in_place() {
             return Ok(law.run(points));
         }
+        if points.n == 1 && points.has_old_state() {
+            points.keep_old_state_of_one(&needs.parts);
+            return Ok(law.run(points));
+        }
         // An old state in other arrays is copied part by part, so that the copy is still in the first-level cache when it is read.
         let mut worst = status::OK;
         for first in (0..points.n).step_by(COPIED) {

@@ -211,6 +211,8 @@ pub(crate) const WIDEST: usize = 16;
 pub trait Lanes<T>: Real {
     /// The number of lanes.
     const COUNT: usize;
+    /// Whether it holds a single point that is evaluated alone, as a type with room for a second number does.
+    const ALONE: bool = Self::PAIRS;
     /// Loads the lanes from consecutive values.
     ///
     /// # Safety

@@ -606,6 +606,8 @@ register! {
     reciprocal (x) Self::splat(1.0) / x;
     quotient (x, divisor, r) corrected_quotient(x, divisor, r);
     series HALF_ARTANH_F64 LN_F64 EXP_F64;
+    // One decision for all numbers of a point, which hardly ever is the other.
+    store_where (mask, x, to) if Self::any(mask) { _mm_store_sd(to, x) };
     pair (a, b) _mm_unpacklo_pd(a, b), apart (x) [_mm_unpacklo_pd(x, x), _mm_unpackhi_pd(x, x)]
 }
 
@@ -627,6 +629,7 @@ register! {
     reciprocal (x) Self::splat(1.0) / x;
     quotient (x, divisor, r) corrected_quotient(x, divisor, r);
     series HALF_ARTANH_F32 LN_F32 EXP_F32;
+    store_where (mask, x, to) if Self::any(mask) { _mm_store_ss(to, x) };
     pair (a, b) _mm_unpacklo_ps(a, b), apart (x) [_mm_shuffle_ps::<0x00>(x, x), _mm_shuffle_ps::<0x55>(x, x)]
 }
 
