@@ -7,7 +7,7 @@ use nalgebra::{Matrix3, Vector3};
 use toron::Frictional;
 use toron::host::abaqus::{self, ExplicitLaw, StandardLaw, Vumat};
 use toron::host::mgis::{BehaviourDataView, INTEGRATED, MESSAGE_CAPACITY, MgisLaw, StateView};
-use toron::law::block::{Points, components, components_mut};
+use toron::law::block::{Circumstances, Points, components, components_mut};
 use toron::law::interface::Law;
 use toron::law::state::{FRICTIONAL_LOST, FRICTIONAL_STATE};
 use toron::law::stress::components as six;
@@ -57,6 +57,7 @@ fn a_umat_says_what_the_law_says() {
             ndi: 3,
             nshr: 3,
             nlgeom: 1,
+            circumstances: Circumstances::UNKNOWN,
         };
         // SAFETY: arrays as long as the call says.
         assert_eq!(unsafe { Frictional::<f64>::umat_with_losses(&call, &mut spd, null_mut(), 0) }, 0);
@@ -194,6 +195,7 @@ fn spd_is_written_by_a_law_that_loses_energy_alone() {
             ndi: 3,
             nshr: 3,
             nlgeom: 1,
+            circumstances: Circumstances::UNKNOWN,
         };
         // SAFETY: arrays as long as the call says.
         unsafe { toron::Hyperelastic::<f64>::umat_with_losses(&call, &mut spd, null_mut(), 0) };

@@ -9,6 +9,7 @@ use nalgebra::Matrix3;
 use toron::host::abaqus::{self, ExplicitLaw, StandardLaw, Vumat};
 use toron::host::calculix::{Behaviour, CalculixLaw};
 use toron::host::openradioss::{Group, MyReal, evaluate, listing, read};
+use toron::law::block::Circumstances;
 use toron::law::interface::Law;
 use toron::law::status;
 use toron::{Hyperelastic, LinearElastic};
@@ -124,6 +125,7 @@ fn umat<L: Limited>(card: &[f64], state: &mut [f64], f: [Matrix3<f64>; 2], tange
         ndi: 3,
         nshr: 3,
         nlgeom: 1,
+        circumstances: Circumstances::UNKNOWN,
     };
     // SAFETY: the arrays have the sizes that the structure tells.
     let code = unsafe { <L as StandardLaw>::umat(&call, message.as_mut_ptr(), ROOM) };
@@ -267,6 +269,7 @@ fn calculix<L: Limited>() {
             pgauss: zeros.as_ptr(),
             orab: zeros.as_ptr(),
             pnewdt: &mut pnewdt,
+            circumstances: Circumstances::UNKNOWN,
         };
         // SAFETY: the arrays have the sizes that CalculiX promises.
         unsafe { L::behaviour(&behaviour) };
@@ -313,6 +316,7 @@ fn group(number: i32, values: &[f64], limits: Option<[f64; 3]>) -> (Result<(), i
             parameters: parameters as i32,
             variables: variables as i32,
             time: step as f64,
+            time_step: 1.0,
             uparam: uparam.as_ptr(),
             numbers: null(),
             density: &density,

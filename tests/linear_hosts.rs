@@ -9,6 +9,7 @@ use nalgebra::{Matrix3, Rotation3, Vector3};
 use toron::host::abaqus::{self, ExplicitLaw, StandardLaw, Vumat};
 use toron::host::calculix::{self, Behaviour};
 use toron::host::lsdyna::{self, UmatVector, UserRoutines, UtanVector};
+use toron::law::block::Circumstances;
 use toron::law::status;
 use toron::law::stress::{components, matrix};
 use toron::state::{LINEAR_ALIVE, LINEAR_ELASTIC_STATE, LINEAR_FAILED, LINEAR_WORK};
@@ -133,6 +134,7 @@ impl Umat {
             ndi,
             nshr,
             nlgeom,
+            circumstances: Circumstances::UNKNOWN,
         };
         // SAFETY: the arrays have the sizes that the structure tells.
         let code = unsafe { <LinearElastic as StandardLaw>::umat(&call, message.as_mut_ptr(), ROOM) };
@@ -651,6 +653,7 @@ impl Ccx {
             pgauss: zeros.as_ptr(),
             orab: orab.as_ptr(),
             pnewdt: &mut self.pnewdt,
+            circumstances: Circumstances::UNKNOWN,
         };
         // SAFETY: the arrays have the sizes that CalculiX promises.
         unsafe { calculix::linear_elastic(&call) }

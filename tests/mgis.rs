@@ -15,7 +15,7 @@ use toron::state::{HYPERELASTIC_STATE, LINEAR_WORK};
 use toron::user::parameters::{Property, STRESS, positive};
 use toron::user::state::{ALIVE, ENERGY_DENSITY, FAILED, StateVariable, variable};
 use toron::user::vector::{dot, transposed};
-use toron::user::{Real, Response, UserMaterial};
+use toron::user::{Reads, Real, Response, UserMaterial};
 use toron::{Criterion, Hyperelastic, LinearElastic, Measure, Request, Rotation};
 
 use reinforced_solid::ReinforcedSolid;
@@ -48,7 +48,7 @@ impl UserMaterial for NeoHooke {
         failed: 1,
         alive: 2,
         energies: 0..1,
-        reads_old_gradient: false,
+        reads: Reads::NOTHING,
         lost: None,
         refusal: None,
     };

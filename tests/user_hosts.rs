@@ -13,13 +13,14 @@ use toron::host::calculix::{Behaviour, CalculixLaw};
 use toron::host::listed::{self, ListedPoints, Named, PreparedOf};
 use toron::host::lsdyna::{self, UmatVector, UserRoutines, UtanVector};
 use toron::host::openradioss::{Group, Laws, Material, evaluate, read};
+use toron::law::block::Circumstances;
 use toron::law::interface::{Law, Points};
 use toron::law::status;
 use toron::law::stress::{components, matrix};
 use toron::user::parameters::{NUMBER, Property, STRESS, component, positive};
 use toron::user::state::{ALIVE, FAILED, StateVariable, variable};
 use toron::user::vector::{dot, image, scale, transposed};
-use toron::user::{Description, Direction, Real, Response, Step, User, UserMaterial};
+use toron::user::{Description, Direction, Reads, Real, Response, Step, User, UserMaterial};
 
 use reinforced_solid::ReinforcedSolid;
 use toron_test_support::block::levels;
@@ -103,7 +104,7 @@ impl UserMaterial for Bare {
         failed: 0,
         alive: 1,
         energies: 0..0,
-        reads_old_gradient: false,
+        reads: Reads::NOTHING,
         lost: None,
         refusal: None,
     };
@@ -131,7 +132,7 @@ impl UserMaterial for Families {
         failed: 0,
         alive: 1,
         energies: 0..0,
-        reads_old_gradient: false,
+        reads: Reads::NOTHING,
         lost: None,
         refusal: None,
     };
@@ -167,7 +168,7 @@ impl UserMaterial for Viscous {
         failed: 1,
         alive: 2,
         energies: 0..0,
-        reads_old_gradient: true,
+        reads: Reads { old_gradient: true, ..Reads::NOTHING },
         lost: None,
         refusal: None,
     };
@@ -338,7 +339,7 @@ fn umat<M: Tried>() {
             ddsdde: ddsdde.as_mut_ptr(),
             sse: &mut sse,
             pnewdt: &mut pnewdt,
-            dfgrd0: if M::DESCRIPTION.reads_old_gradient { pair[0].as_ptr() } else { null() },
+            dfgrd0: if M::DESCRIPTION.reads.old_gradient { pair[0].as_ptr() } else { null() },
             dfgrd1: pair[1].as_ptr(),
             props: M::VALUES.as_ptr(),
             nprops: M::VALUES.len() as i32,
@@ -346,6 +347,7 @@ fn umat<M: Tried>() {
             ndi: 3,
             nshr: 3,
             nlgeom: 1,
+            circumstances: Circumstances::UNKNOWN,
         };
         // SAFETY: the arrays have the sizes that the structure tells.
         assert_eq!(unsafe { <User<M, f64> as StandardLaw>::umat(&call, null_mut(), 0) }, truth.code);
@@ -503,6 +505,7 @@ fn calculix<M: Tried>(oriented: bool) {
             pgauss: zeros.as_ptr(),
             orab: orientation.as_ptr(),
             pnewdt: &mut pnewdt,
+            circumstances: Circumstances::UNKNOWN,
         };
         // SAFETY: the arrays have the sizes that the structure tells.
         unsafe { <User<M, f64> as CalculixLaw>::behaviour(&call) };
@@ -546,6 +549,7 @@ fn openradioss<M: Tried>() {
             parameters: uparam.len() as i32,
             variables: layout.variables() as i32,
             time: step as f64,
+            time_step: 1.0,
             uparam: uparam.as_ptr(),
             numbers: null(),
             density: &DENSITY,
@@ -608,7 +612,7 @@ fn c_block<M: Tried>() {
         points.size = size_of_val(&points);
         points.n = N;
         points.f_new[0] = new.as_ptr();
-        if M::DESCRIPTION.reads_old_gradient {
+        if M::DESCRIPTION.reads.old_gradient {
             points.f_old[0] = old.as_ptr();
         }
         (points.state_old, points.state_new) = (state.as_ptr(), state.as_mut_ptr());
@@ -630,7 +634,7 @@ fn c_block<M: Tried>() {
             let code = unsafe { listed::block::<Listed<M>, f64>(&law, &points, null_mut(), 0) };
             assert_eq!(code, status::BAD_ARGUMENT);
         }
-        if M::DESCRIPTION.reads_old_gradient {
+        if M::DESCRIPTION.reads.old_gradient {
             (points.fibre[0], points.f_old[0]) = (null(), null());
             // SAFETY: as above.
             let code = unsafe { listed::block::<Listed<M>, f64>(&law, &points, null_mut(), 0) };
@@ -714,6 +718,7 @@ fn every_direction_is_checked() {
         ndi: 3,
         nshr: 1,
         nlgeom: 1,
+        circumstances: Circumstances::UNKNOWN,
     };
     // SAFETY: the arrays have the sizes that the structure tells, the message its capacity.
     let code = unsafe { <User<Families, f64> as StandardLaw>::umat(&call, message.as_mut_ptr().cast(), 512) };
@@ -783,6 +788,7 @@ fn messages_of_a_refusal_are_the_law_s() {
         ndi: 3,
         nshr: 3,
         nlgeom: 1,
+        circumstances: Circumstances::UNKNOWN,
     };
     // SAFETY: the arrays have the sizes that the structure tells, the message its capacity.
     let code = unsafe { <User<Stubborn, f64> as StandardLaw>::umat(&call, message.as_mut_ptr().cast(), 512) };

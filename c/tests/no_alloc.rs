@@ -10,6 +10,7 @@ use toron::host::lsdyna::{Umat, UmatVector, UserRoutines, Utan, UtanVector};
 use toron::host::mgis::{BehaviourDataView, MgisLaw, StateView};
 use toron::host::openradioss::{Group, ListingLine, MaterialCard};
 use toron::host::{abaqus, calculix, mgis, openradioss};
+use toron::law::block::Circumstances;
 use toron::{Hyperelastic, LinearElastic};
 use toron_c::*;
 
@@ -383,6 +384,7 @@ fn double_precision_only() {
                 ndi: 3,
                 nshr: 3,
                 nlgeom: 1,
+                circumstances: Circumstances::UNKNOWN,
             };
             let tangent = abaqus::Umat { ddsdde: c.as_mut_ptr(), ..call };
             for call in [call, tangent, abaqus::Umat { nshr: 1, ..tangent }] {
@@ -428,6 +430,7 @@ fn calculix() {
             pgauss: zeros.as_ptr(),
             orab: zeros.as_ptr(),
             pnewdt: &mut step,
+            circumstances: Circumstances::UNKNOWN,
         };
         quiet!(calculix::hyperelastic, &call);
         assert!(stress.iter().chain(&stiff).chain(&state).all(|x| x.is_finite()));
@@ -532,6 +535,7 @@ fn linear_hosts_in_double_precision_only() {
                 ndi: 3,
                 nshr,
                 nlgeom: 1,
+                circumstances: Circumstances::UNKNOWN,
             };
             quiet!(<LinearElastic as StandardLaw>::umat, &call, t, ROOM);
         }
@@ -756,6 +760,7 @@ macro_rules! openradioss {
                         parameters: nuparam,
                         variables: nuvar,
                         time: 0.0,
+                        time_step: 0.0,
                         uparam: u,
                         numbers: &raw const number,
                         density: &raw const density,
@@ -891,6 +896,7 @@ fn a_umat_that_tells_its_losses() {
                 ndi: 3,
                 nshr: 3,
                 nlgeom: 1,
+                circumstances: Circumstances::UNKNOWN,
             };
             for call in [call, abaqus::Umat { nlgeom: 0, ..call }] {
                 quiet!(<toron::Frictional as StandardLaw>::umat_with_losses, &call, spd, t, ROOM);

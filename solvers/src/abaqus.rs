@@ -138,6 +138,7 @@ macro_rules! abaqus {
             ) -> i32 {
                 let call = $crate::toron::host::abaqus::Umat {
                     stress, statev, ddsdde, sse, pnewdt, dfgrd0, dfgrd1, props, nprops, nstatv, ndi, nshr, nlgeom,
+                    circumstances: $crate::toron::law::block::Circumstances::UNKNOWN,
                 };
                 // SAFETY: the arrays are as long as `Umat` says, and the message is the caller's.
                 unsafe {
@@ -201,10 +202,10 @@ macro_rules! abaqus_umat {
             _drpldt: *mut f64,
             _stran: *const f64,
             _dstran: *const f64,
-            _time: *const f64,
-            _dtime: *const f64,
-            _temp: *const f64,
-            _dtemp: *const f64,
+            time: *const f64,
+            dtime: *const f64,
+            temp: *const f64,
+            dtemp: *const f64,
             _predef: *const f64,
             _dpred: *const f64,
             $cmname: *const ::core::ffi::c_char,
@@ -229,7 +230,7 @@ macro_rules! abaqus_umat {
         ) {
             const CAPACITY: usize = $crate::abaqus::CAPACITY;
             let mut message = [0; CAPACITY];
-            let text = message.as_mut_ptr();
+            let (text, mut temperature) = (message.as_mut_ptr(), 0.0);
             // SAFETY: Abaqus's arrays, as long as `Umat` says, its numbers, and JSTEP(4), whose third is 1 with
             // NLGEOM=YES.
             unsafe {
@@ -247,6 +248,7 @@ macro_rules! abaqus_umat {
                     ndi: *ndi,
                     nshr: *nshr,
                     nlgeom: *jstep.add(2),
+                    circumstances: $crate::toron::host::abaqus::circumstances(time, dtime, temp, dtemp, &mut temperature),
                 };
                 let $numbers = [call.nprops, call.nstatv];
                 #[allow(unreachable_patterns)] // where every material has a law
@@ -288,7 +290,7 @@ macro_rules! abaqus_vumat {
             _lanneal: *const i32,
             step_time: *const $t,
             total_time: *const $t,
-            _dt: *const $t,
+            dt: *const $t,
             $cmname: *const ::core::ffi::c_char,
             _coord_mp: *const $t,
             _char_length: *const $t,
@@ -304,7 +306,7 @@ macro_rules! abaqus_vumat {
             state_old: *const $t,
             ener_intern_old: *const $t,
             ener_inelas_old: *const $t,
-            _temp_new: *const $t,
+            temp_new: *const $t,
             stretch_new: *const $t,
             _defgrad_new: *const $t,
             _field_new: *const $t,
@@ -345,12 +347,17 @@ macro_rules! abaqus_vumat {
                     ener_intern_new,
                     ener_inelas_new,
                 };
+                let circumstances = $crate::toron::law::block::Circumstances::<$t> {
+                    time_increment: if dt.is_null() { f64::NAN } else { (*dt).into() },
+                    time: block.total_time,
+                    temperature: temp_new,
+                };
                 let $numbers = [*nprops, *nstatev];
                 #[allow(unreachable_patterns)] // where every material has a law
                 let status = match $choice {
                     $($pattern => {
-                        <<$law as $crate::toron::host::Material<$t>>::Law as $crate::toron::host::abaqus::ExplicitLaw<$t>>::vumat(
-                            &block, text, CAPACITY,
+                        <<$law as $crate::toron::host::Material<$t>>::Law as $crate::toron::host::abaqus::ExplicitLaw<$t>>::vumat_at(
+                            &block, circumstances, text, CAPACITY,
                         )
                     })+
                     _ => return $crate::abaqus::refuse_name($cmname, &$names, c"xplb_exit_"),

@@ -129,7 +129,11 @@ where
         true => "In, 3 components: the fibre direction of each point, of any length; null: that of the properties.",
         false => "Null: this law has no fibre.",
     };
-    let f_old = if law.reads_old_gradient { "Must not be null." } else { "Not read by this law." };
+    let read = |reads: bool, is_read: &'static str| if reads { is_read } else { "Not read by this law." };
+    let f_old = read(law.reads.old_gradient, "Must not be null.");
+    let time_increment = read(law.reads.time_increment, "Finite, not negative.");
+    let time = read(law.reads.time, "Finite.");
+    let temperature = read(law.reads.temperature, "Must not be null.");
     let [n_properties, n_state, capacity] =
         [law.properties.len(), law.state.len(), TORON_MESSAGE_CAPACITY].map(|count| count.to_string());
     let mut header = BEGINNING.replace("{name}", name).replace("{title}", law.title).replace("{capacity}", &capacity);
@@ -143,7 +147,8 @@ where
         let part = PRECISION.replace("{name}", name).replace("{suffix}", suffix).replace("{real}", real);
         let values = (size - 2 * size_of::<u64>()) / width;
         let part = part.replace("{values}", &values.to_string()).replace("{fibre}", fibre).replace("{f_old}", f_old);
-        header += &part.replace("{n_state}", &n_state);
+        let part = part.replace("{time_increment}", time_increment).replace("{time}", time);
+        header += &part.replace("{temperature}", temperature).replace("{n_state}", &n_state);
     }
     header + END
 }
@@ -267,6 +272,10 @@ typedef struct {name}_points_{suffix} {
     {real} *active;
     /* Out: a status code for each point. */
     int32_t *status;
+    /* In: the length of the step, and the time at its end. {time_increment} {time} */
+    double time_increment, time;
+    /* In: the temperature of each point at the end of the step. {temperature} */
+    const {real} *temperature;
 } {name}_points_{suffix};
 
 int32_t {name}_block_{suffix}(const {name}_{suffix} *law, const {name}_points_{suffix} *points, char *message, size_t capacity);

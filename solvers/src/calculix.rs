@@ -27,10 +27,10 @@ macro_rules! calculix {
                     xkl: *const f64,
                     _vj: *const f64,
                     _ithermal: *const i32,
-                    _t1l: *const f64,
-                    _dtime: *const f64,
-                    _time: *const f64,
-                    _ttime: *const f64,
+                    t1l: *const f64,
+                    dtime: *const f64,
+                    time: *const f64,
+                    ttime: *const f64,
                     _icmd: *const i32,
                     _ielas: *const i32,
                     mi: *const i32,
@@ -46,6 +46,13 @@ macro_rules! calculix {
                     _ipkon: *const i32,
                     _amat_length: i32,
                 ) {
+                    let circumstances = $crate::toron::law::block::Circumstances {
+                        // SAFETY: one value each.
+                        time_increment: unsafe { *dtime },
+                        // SAFETY: the same.
+                        time: unsafe { *ttime + *time },
+                        temperature: t1l,
+                    };
                     let call = $crate::toron::host::calculix::Behaviour {
                         amat,
                         iel,
@@ -65,6 +72,7 @@ macro_rules! calculix {
                         pgauss,
                         orab,
                         pnewdt,
+                        circumstances,
                     };
                     // SAFETY: CalculiX's arguments are those that `Behaviour` promises.
                     unsafe {

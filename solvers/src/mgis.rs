@@ -62,11 +62,12 @@ macro_rules! mgis {
                 $crate::mgis! { @ $name, "ComputesInternalEnergy", STORES_ENERGY: u16 = 1 }
                 $crate::mgis! { @ $name, "ComputesDissipatedEnergy", DISSIPATES_ENERGY: u16 = LAW.lost.is_some() as u16 }
 
-                // None of these; the lists must exist all the same. MGIS and MTest themselves add the temperature.
+                // None of these; the lists must exist all the same. MGIS and MTest themselves add the temperature, which comes first
+                // unless it is said to be removed.
                 $crate::mgis! { @ $name, "nExternalStateVariables", EXTERNAL_COUNT: u16 = 0 }
                 $crate::mgis! { @ $name, "ExternalStateVariables", EXTERNAL_LIST: [__toron::Text; 1] = [__toron::Text::NONE] }
                 $crate::mgis! { @ $name, "ExternalStateVariablesTypes", EXTERNAL_TYPES: [i32; 1] = [0] }
-                $crate::mgis! { @ $name, "TemperatureRemovedFromExternalStateVariables", TEMPERATURE_REMOVED: u16 = 1 }
+                $crate::mgis! { @ $name, "TemperatureRemovedFromExternalStateVariables", TEMPERATURE_REMOVED: u16 = !LAW.reads.temperature as u16 }
                 $crate::mgis! { @ $name, "nParameters", PARAMETER_COUNT: u16 = 0 }
                 $crate::mgis! { @ $name, "Parameters", PARAMETER_LIST: [__toron::Text; 1] = [__toron::Text::NONE] }
                 $crate::mgis! { @ $name, "ParametersTypes", PARAMETER_TYPES: [i32; 1] = [0] }

@@ -26,7 +26,7 @@
 use core::cell::Cell;
 use core::ffi::c_char;
 
-use crate::law::block::{components, components_mut};
+use crate::law::block::{Circumstances, components, components_mut};
 use crate::law::derivative::SixBySix;
 use crate::law::description::Direction;
 use crate::law::error::{Error, Value};
@@ -90,6 +90,8 @@ pub struct Behaviour {
     pub orab: *const f64,
     /// In and out, 1.
     pub pnewdt: *mut f64,
+    /// dtime, the time at the end of the increment, ttime + time, and t1l, for a law that reads them.
+    pub circumstances: Circumstances<f64>,
 }
 
 /// The arguments of a call, at its point.
@@ -106,6 +108,7 @@ struct Arguments<'a> {
     state_count: i32,
     old_state: *const f64,
     pnewdt: f64,
+    circumstances: Circumstances<f64>,
 }
 
 /// The results that are returned to CalculiX.
@@ -259,7 +262,7 @@ impl Arguments<'_> {
         let old = unsafe { *self.old_state.cast::<L::State>() };
         let f_new: &[f64; 9] = self.f.as_flattened().first_chunk().unwrap_or(&[0.0; 9]); // there are nine
         let mut f_old = *f_new;
-        if L::DESCRIPTION.reads_old_gradient {
+        if L::DESCRIPTION.reads.old_gradient {
             // SAFETY: as above: state_count includes the nine values of F, of a law that reads them.
             unsafe {
                 f_old = *self.old_state.add(L::DESCRIPTION.state.len()).cast();
@@ -273,6 +276,7 @@ impl Arguments<'_> {
             f_old: components(f_old.as_ptr(), 1),
             f_new: components(f_new.as_ptr(), 1),
             limit: limit_variable::of::<_, L>(&limit),
+            circumstances: self.circumstances,
             state_old: L::parts(old.as_ref().as_ptr(), 1),
             state_new: L::parts_mut(answer.state.as_mut().as_mut_ptr(), 1),
             stress: components_mut(cauchy.as_mut_ptr(), 1),
@@ -296,7 +300,7 @@ impl Arguments<'_> {
             // The state must not advance without its stress.
             answer = Answer { status: status::OVERFLOW, ..Answer::new(old) };
         }
-        if L::DESCRIPTION.reads_old_gradient {
+        if L::DESCRIPTION.reads.old_gradient {
             answer.kept = Some(if answer.status == status::OK { *f_new } else { f_old });
         }
         answer.refusal = L::DESCRIPTION.refusal.filter(|_| answer.status == status::LAW);
@@ -476,6 +480,7 @@ unsafe fn answer<S>(call: &Behaviour, law: impl FnOnce(&Arguments<'_>) -> Result
             state_count: *call.nstate_,
             old_state: call.xstateini.wrapping_add(place),
             pnewdt: *call.pnewdt,
+            circumstances: call.circumstances,
         };
         (arguments, call.xstate.wrapping_add(place))
     };

@@ -11,7 +11,7 @@ use super::entry_points::{Message, entry, look_up, of_points};
 use super::prepared::{AsNumbers, PreparedLaw, numbers};
 use super::structures::{Structure, read};
 use super::tables::{TableRow, write_row};
-use crate::law::block::{Precision, distances};
+use crate::law::block::{Circumstances, Precision, distances};
 use crate::law::description::Description;
 use crate::law::error::Error;
 use crate::law::interface::{Law, Points};
@@ -95,11 +95,14 @@ pub struct ListedPoints<N, T> {
     pub wave_speed: *mut T,
     pub active: *mut T,
     pub status: *mut i32,
+    pub time_increment: f64,
+    pub time: f64,
+    pub temperature: *const T,
     name: PhantomData<N>,
 }
 
 #[cfg(target_pointer_width = "64")]
-const _: () = assert!(size_of::<ListedPoints<(), f64>>() == 5 * 8 + 33 * 8);
+const _: () = assert!(size_of::<ListedPoints<(), f64>>() == 5 * 8 + 36 * 8);
 
 // SAFETY: of the fields one is the size, and the others are pointers and numbers, which may be 0; no padding, as has just been seen.
 unsafe impl<N: Named<T>, T: Precision> Structure for ListedPoints<N, T> {
@@ -132,6 +135,11 @@ impl<N: Named<T>, T: Precision> ListedPoints<N, T> {
             fibre: layout.components(&self.fibre),
             state_old: N::Law::parts(self.state_old, leading_dimension),
             state_new: N::Law::parts_mut(self.state_new, leading_dimension),
+            circumstances: Circumstances {
+                time_increment: self.time_increment,
+                time: self.time,
+                temperature: self.temperature,
+            },
             density: T::splat(self.density),
             stress: layout.components_mut(&self.stress),
             wave_speed: self.wave_speed,

@@ -29,11 +29,30 @@ pub struct Description {
     pub energies: Range<usize>,
     /// Index into the state: the energy lost since the start, per reference volume, of a law that loses any.
     pub lost: Option<usize>,
-    /// Whether a step depends on F at its start.
-    pub reads_old_gradient: bool,
+    /// What a step depends on besides F at its end and the old state.
+    pub reads: Reads,
     /// Of a law that may refuse a point by a status of its own: why, as messages have it where that is
     /// [`status::LAW`](super::status::LAW).
     pub refusal: Option<&'static str>,
+}
+
+/// What a law reads besides F at the end of a step and the old state. A host that has not what its law reads is told so
+/// by an error.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Reads {
+    /// F at the start of the step.
+    pub old_gradient: bool,
+    /// The length of the step.
+    pub time_increment: bool,
+    /// The time at its end.
+    pub time: bool,
+    /// The temperature at its end.
+    pub temperature: bool,
+}
+
+impl Reads {
+    /// None of these.
+    pub const NOTHING: Reads = Reads { old_gradient: false, time_increment: false, time: false, temperature: false };
 }
 
 /// The most directions of a law.
@@ -77,7 +96,7 @@ pub const HYPERELASTIC: Description = Description {
     failed: FAILED,
     alive: ALIVE,
     energies: ENERGIES..INVARIANTS,
-    reads_old_gradient: false,
+    reads: Reads::NOTHING,
     lost: None,
     refusal: None,
 };
@@ -91,7 +110,7 @@ pub const FRICTIONAL: Description = Description {
     failed: FRICTIONAL_FAILED,
     alive: FRICTIONAL_ALIVE,
     energies: ENERGIES..INVARIANTS,
-    reads_old_gradient: false,
+    reads: Reads::NOTHING,
     lost: Some(FRICTIONAL_LOST),
     refusal: None,
 };
@@ -108,7 +127,7 @@ pub const LINEAR_ELASTIC: Description = Description {
     failed: LINEAR_FAILED,
     alive: LINEAR_ALIVE,
     energies: LINEAR_WORK..LINEAR_WORK + 1,
-    reads_old_gradient: true,
+    reads: Reads { old_gradient: true, ..Reads::NOTHING },
     lost: None,
     refusal: None,
 };
@@ -116,7 +135,7 @@ pub const LINEAR_ELASTIC: Description = Description {
 impl Description {
     /// How many entries of F a host keeps behind the state, by columns: those of the start of a step, where it depends on them.
     pub(crate) const fn kept(&self) -> usize {
-        if self.reads_old_gradient { 9 } else { 0 }
+        if self.reads.old_gradient { 9 } else { 0 }
     }
 
     /// Whether the law has a fibre.

@@ -14,7 +14,7 @@ use toron::law::voigt::{PAIRS, VOIGT};
 use toron::user::parameters::{NUMBER, Property, STRESS, positive};
 use toron::user::state::{ALIVE, ENERGY_DENSITY, FAILED, StateVariable, variable};
 use toron::user::vector::{dot, transposed};
-use toron::user::{Description, Dual, Real, Response, Step, UserMaterial};
+use toron::user::{Description, Dual, Reads, Real, Response, Step, UserMaterial};
 use toron::{Error, Level, Measure, Value};
 use toron_test_support::block::levels;
 use toron_test_support::exact::{Exact, exact, rounded};
@@ -49,7 +49,7 @@ impl UserMaterial for Damaged {
         failed: 3,
         alive: 4,
         energies: 0..1,
-        reads_old_gradient: true,
+        reads: Reads { old_gradient: true, ..Reads::NOTHING },
         lost: None,
         refusal: None,
     };

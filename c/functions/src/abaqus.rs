@@ -4,6 +4,7 @@ use core::ptr::{null, null_mut};
 
 use libc::{c_char, size_t};
 use toron::host::abaqus::{ExplicitLaw, StandardLaw, Umat, Vumat};
+use toron::law::block::Circumstances;
 use toron::{Frictional, Hyperelastic, LinearElastic};
 
 /// The hyperelastic law as a UMAT of Abaqus/Standard.
@@ -39,8 +40,22 @@ pub unsafe extern "C" fn toron_abaqus_umat_tangent_f64(
     message: *mut c_char,
     capacity: size_t,
 ) -> i32 {
-    let call =
-        Umat { stress, statev, ddsdde, sse, pnewdt, dfgrd0: null(), dfgrd1, props, nprops, nstatv, ndi, nshr, nlgeom };
+    let call = Umat {
+        stress,
+        statev,
+        ddsdde,
+        sse,
+        pnewdt,
+        dfgrd0: null(),
+        dfgrd1,
+        props,
+        nprops,
+        nstatv,
+        ndi,
+        nshr,
+        nlgeom,
+        circumstances: Circumstances::UNKNOWN,
+    };
     // SAFETY: the caller's arguments, as lib.rs says.
     unsafe { <Hyperelastic>::umat(&call, message, capacity) }
 }
@@ -77,6 +92,7 @@ pub unsafe extern "C" fn toron_abaqus_umat_f64(
         ndi,
         nshr,
         nlgeom,
+        circumstances: Circumstances::UNKNOWN,
     };
     // SAFETY: the caller's arguments, as lib.rs says.
     unsafe { <Hyperelastic>::umat(&call, message, capacity) }
@@ -109,7 +125,22 @@ pub unsafe extern "C" fn toron_abaqus_linear_umat_f64(
     message: *mut c_char,
     capacity: size_t,
 ) -> i32 {
-    let call = Umat { stress, statev, ddsdde, sse, pnewdt, dfgrd0, dfgrd1, props, nprops, nstatv, ndi, nshr, nlgeom };
+    let call = Umat {
+        stress,
+        statev,
+        ddsdde,
+        sse,
+        pnewdt,
+        dfgrd0,
+        dfgrd1,
+        props,
+        nprops,
+        nstatv,
+        ndi,
+        nshr,
+        nlgeom,
+        circumstances: Circumstances::UNKNOWN,
+    };
     // SAFETY: the caller's arguments, as lib.rs says.
     unsafe { <LinearElastic>::umat(&call, message, capacity) }
 }
@@ -140,8 +171,22 @@ pub unsafe extern "C" fn toron_abaqus_frictional_umat_f64(
     message: *mut c_char,
     capacity: size_t,
 ) -> i32 {
-    let call =
-        Umat { stress, statev, ddsdde, sse, pnewdt, dfgrd0: null(), dfgrd1, props, nprops, nstatv, ndi, nshr, nlgeom };
+    let call = Umat {
+        stress,
+        statev,
+        ddsdde,
+        sse,
+        pnewdt,
+        dfgrd0: null(),
+        dfgrd1,
+        props,
+        nprops,
+        nstatv,
+        ndi,
+        nshr,
+        nlgeom,
+        circumstances: Circumstances::UNKNOWN,
+    };
     // SAFETY: the caller's arguments, as lib.rs says.
     unsafe { <Frictional>::umat_with_losses(&call, spd, message, capacity) }
 }

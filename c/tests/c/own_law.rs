@@ -161,7 +161,7 @@ fn a_block_takes_a_third_of_a_plain_loop() {
 mod panicking {
     use toron::user::parameters::{STRESS, positive};
     use toron::user::state::{ALIVE, FAILED};
-    use toron::user::{Description, Real, Response, Step, UserMaterial};
+    use toron::user::{Description, Reads, Real, Response, Step, UserMaterial};
 
     #[derive(Clone, Copy, Debug, Default)]
     pub struct Panicking;
@@ -175,7 +175,7 @@ mod panicking {
             failed: 0,
             alive: 1,
             energies: 0..0,
-            reads_old_gradient: false,
+            reads: Reads::NOTHING,
             lost: None,
             refusal: None,
         };

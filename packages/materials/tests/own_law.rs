@@ -10,7 +10,7 @@ use toron::host::laws::LAWS;
 use toron::host::units::UnitSystem;
 use toron::user::parameters::{Property, STRESS, component, positive};
 use toron::user::state::{ALIVE, FAILED};
-use toron::user::{Description, Direction, Real, Response, Step, UserMaterial};
+use toron::user::{Description, Direction, Reads, Real, Response, Step, UserMaterial};
 use toron::{Criterion, Request, Rotation};
 use toron_materials::deck::interface::Interface;
 use toron_materials::eval::own_law::{Entry, evaluate};
@@ -250,7 +250,7 @@ impl UserMaterial for Crossed {
         failed: 0,
         alive: 1,
         energies: 0..0,
-        reads_old_gradient: false,
+        reads: Reads::NOTHING,
         lost: None,
         refusal: None,
     };

@@ -28,6 +28,7 @@ impl<T: MyReal> Remembered<T> {
             parameters: 0,
             variables: 0,
             time: T::splat(0.0),
+            time_step: T::splat(0.0),
             uparam: null(),
             numbers: null(),
             density: null(),

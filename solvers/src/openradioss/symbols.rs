@@ -147,7 +147,7 @@ macro_rules! openradioss_symbols {
             /// stress come with the fourth call.
             ///
             /// # Safety
-            /// Counts and time are numbers, and the arrays are valid until the fourth call.
+            /// Counts and times are numbers, and the arrays are valid until the fourth call.
             #[unsafe(no_mangle)]
             #[allow(clippy::too_many_arguments)]
             pub unsafe extern "C" fn eng_sigeps99_(
@@ -160,7 +160,7 @@ macro_rules! openradioss_symbols {
                 _npf: *const i32,
                 _tf: *const $t,
                 time: *const $t,
-                _time_step: *const $t,
+                time_step: *const $t,
                 uparam: *const $t,
                 _rho: *const $t,
                 volume: *const $t,
@@ -174,9 +174,10 @@ macro_rules! openradioss_symbols {
                 // SAFETY: as just said.
                 let (nel, nuparam, nuvar, number) = unsafe { (*nel, *nuparam, *nuvar, *number) };
                 // SAFETY: the same.
-                let time = unsafe { *time };
+                let (time, time_step) = unsafe { (*time, *time_step) };
                 $crate::openradioss::engine::group::<$t>(number, |group| {
-                    (group.elements, group.parameters, group.variables, group.time) = (nel, nuparam, nuvar, time);
+                    (group.elements, group.parameters, group.variables) = (nel, nuparam, nuvar);
+                    (group.time, group.time_step) = (time, time_step);
                     (group.uparam, group.numbers, group.sound_speed) = (uparam, ngl, soundsp);
                     (group.uvar, group.off) = (uvar, off);
                     group.volume = volume;

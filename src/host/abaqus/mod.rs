@@ -21,7 +21,7 @@
 mod umat;
 mod vumat;
 
-pub use umat::{StandardLaw, Umat};
+pub use umat::{StandardLaw, Umat, circumstances};
 pub use vumat::{ExplicitLaw, Vumat};
 
 use crate::law::bounds::wrong_number;

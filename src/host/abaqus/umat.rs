@@ -1,6 +1,7 @@
 //! The UMAT of Abaqus/Standard: of any law, and that of the hyperelastic law by its kernels of one point.
 
 use core::cell::Cell;
+use core::ptr::null;
 use core::slice;
 
 use libc::{c_char, size_t};
@@ -9,7 +10,7 @@ use super::{UMAT_COUNTS, check_counts, property_count};
 use crate::host::ByStep;
 use crate::host::entry_points::{Message, check_plane, check_pointers, entry, properties};
 use crate::host::limit_variable;
-use crate::law::block::{components, components_mut};
+use crate::law::block::{Circumstances, components, components_mut};
 use crate::law::derivative::{Derivative, JaumannModulus, Stress};
 use crate::law::error::Error;
 use crate::law::hyperelastic::Hyperelastic;
@@ -54,6 +55,28 @@ pub struct Umat {
     pub nshr: i32,
     /// JSTEP(3), which is not 0 with NLGEOM=YES.
     pub nlgeom: i32,
+    /// When the increment is, and how warm at its end, for a law that reads it; see [`circumstances`].
+    pub circumstances: Circumstances<f64>,
+}
+
+/// When an increment is, from Abaqus's TIME, at its start, and DTIME, and how warm at its end, from TEMP and DTEMP, in `temperature`; what
+/// is null is not known.
+///
+/// # Safety
+/// TIME is null or has 2 values, the others 1.
+pub unsafe fn circumstances(
+    time: *const f64,
+    dtime: *const f64,
+    temp: *const f64,
+    dtemp: *const f64,
+    temperature: &mut f64,
+) -> Circumstances<f64> {
+    // SAFETY: null, or as many values as just said.
+    let known = |array: *const f64, place: usize| if array.is_null() { f64::NAN } else { unsafe { *array.add(place) } };
+    let (time_increment, start) = (known(dtime, 0), known(time, 1));
+    *temperature = known(temp, 0) + known(dtemp, 0);
+    let temperature = if temp.is_null() || dtemp.is_null() { null() } else { core::ptr::from_ref(temperature) };
+    Circumstances { time_increment, time: start + time_increment, temperature }
 }
 
 impl Umat {
@@ -63,13 +86,13 @@ impl Umat {
     /// The first argument that is wrong.
     fn law<L: Law<f64>>(&self) -> Result<L, Error> {
         // A law that does not read DFGRD0 need not be given one.
-        let dfgrd0 = if L::DESCRIPTION.reads_old_gradient { self.dfgrd0 } else { self.dfgrd1 };
+        let dfgrd0 = if L::DESCRIPTION.reads.old_gradient { self.dfgrd0 } else { self.dfgrd1 };
         check_pointers(&[
             (self.stress.cast_const(), "stress"),
             (self.statev, "statev"),
             (self.sse, "sse"),
             (self.pnewdt, "pnewdt"),
-            (dfgrd0, if L::DESCRIPTION.reads_old_gradient { "dfgrd0" } else { "dfgrd1" }),
+            (dfgrd0, if L::DESCRIPTION.reads.old_gradient { "dfgrd0" } else { "dfgrd1" }),
             (self.dfgrd1, "dfgrd1"),
             (self.props, "props"),
         ])?;
@@ -357,9 +380,10 @@ unsafe fn step<L: Law<f64>>(call: &Umat) -> Result<i32, Error> {
     let (mut sigma, mut state, mut tangent) = ([0.0; 6], L::fresh(), [[0.0; 6]; 6]);
     let wanted = !call.ddsdde.is_null();
     let point = Points {
-        f_old: components(if L::DESCRIPTION.reads_old_gradient { call.dfgrd0 } else { call.dfgrd1 }, 1),
+        f_old: components(if L::DESCRIPTION.reads.old_gradient { call.dfgrd0 } else { call.dfgrd1 }, 1),
         f_new: components(call.dfgrd1, 1),
         limit: limit_variable::of::<_, L>(&limit),
+        circumstances: call.circumstances,
         state_old: L::parts(call.statev, 1),
         state_new: L::parts_mut(state.as_mut().as_mut_ptr(), 1),
         stress: components_mut(sigma.as_mut_ptr(), 1),

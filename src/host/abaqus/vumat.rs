@@ -10,7 +10,8 @@ use crate::host::arguments::level;
 use crate::host::entry_points::{Message, check_plane, check_pointers, entry, properties, stiffness_at_rest};
 use crate::host::limit_variable;
 use crate::host::structures::{read, structures};
-use crate::law::block::{Precision, components, components_mut};
+use crate::law::block::{Circumstances, Precision, components, components_mut};
+use crate::law::description::Reads;
 use crate::law::error::Error;
 use crate::law::hyperelastic::Hyperelastic;
 use crate::law::interface::{Law, Points};
@@ -73,7 +74,10 @@ macro_rules! at {
 
 /// # Safety
 /// As for [`ExplicitLaw::vumat`].
-unsafe fn vumat<L: Law<T>, T: Precision>(block: *const Vumat<T>) -> Result<i32, Error> {
+unsafe fn vumat<L: Law<T>, T: Precision>(
+    block: *const Vumat<T>,
+    circumstances: Circumstances<T>,
+) -> Result<i32, Error> {
     let mut buffer = MaybeUninit::uninit();
     // SAFETY: `read` refuses null; the structure has as many bytes as its size says.
     let block = unsafe { read(block, &mut buffer) }?;
@@ -129,7 +133,7 @@ unsafe fn vumat<L: Law<T>, T: Precision>(block: *const Vumat<T>) -> Result<i32, 
         if checks {
             return Ok(elastic_check::<L, T>(moduli, block, n));
         }
-        stretched(&law, block, limit, n, level)
+        stretched(&law, block, circumstances, limit, n, level)
     }
 }
 
@@ -218,6 +222,7 @@ const CHUNK: usize = 64;
 unsafe fn stretched<L: Law<T>, T: Precision>(
     law: &L,
     block: &Vumat<T>,
+    circumstances: Circumstances<T>,
     limit: Option<usize>,
     n: usize,
     level: Option<Level>,
@@ -243,6 +248,7 @@ unsafe fn stretched<L: Law<T>, T: Precision>(
             f_old: columns(block.stretch_old),
             f_new: columns(block.stretch_new),
             limit: limit_variable::at(block.state_old.wrapping_add(start), limit.map(|place| place * n)),
+            circumstances: circumstances.from(start),
             state_old: L::parts(block.state_old.wrapping_add(start), n),
             state_new: L::parts_mut(block.state_new.wrapping_add(start), n),
             stress,
@@ -313,7 +319,26 @@ pub trait ExplicitLaw<T: Precision>: Law<T> {
     #[inline(never)]
     unsafe fn vumat(block: *const Vumat<T>, message: *mut c_char, capacity: size_t) -> i32 {
         // SAFETY: null or a structure of its size, with arrays as long as its fields say; the message is the caller's.
-        unsafe { entry(Message { text: message, capacity }, move || vumat::<Self, T>(block)) }
+        unsafe { entry(Message { text: message, capacity }, move || vumat::<Self, T>(block, Circumstances::UNKNOWN)) }
+    }
+
+    /// The VUMAT of a solver that tells when the increment is, and how warm: dt, totalTime, and `tempNew`, nblock.
+    ///
+    /// # Safety
+    /// As for [`vumat`](Self::vumat).
+    #[inline(never)]
+    unsafe fn vumat_at(
+        block: *const Vumat<T>,
+        circumstances: Circumstances<T>,
+        message: *mut c_char,
+        capacity: size_t,
+    ) -> i32 {
+        if Self::DESCRIPTION.reads == Reads::NOTHING {
+            // SAFETY: as in `vumat`.
+            return unsafe { Self::vumat(block, message, capacity) };
+        }
+        // SAFETY: as in `vumat`.
+        unsafe { entry(Message { text: message, capacity }, move || vumat::<Self, T>(block, circumstances)) }
     }
 }
 
@@ -326,7 +351,9 @@ macro_rules! compiled {
             #[inline(never)]
             unsafe fn vumat(block: *const Vumat<$t>, message: *mut c_char, capacity: size_t) -> i32 {
                 // SAFETY: as in the trait.
-                unsafe { entry(Message { text: message, capacity }, move || vumat::<Self, $t>(block)) }
+                unsafe {
+                    entry(Message { text: message, capacity }, move || vumat::<Self, $t>(block, Circumstances::UNKNOWN))
+                }
             }
         }
     };

@@ -27,7 +27,7 @@ unsafe fn evaluate<T: Precision, L: History<T>>(cm: *const T, nhv: i32, elements
         let (f, mut codes) = (row(L::DESCRIPTION.history()), [status::OK; CHUNK]);
         // Of a law that does not depend on F at the start of a step, this is F at its end, which is not written.
         let f_old = components_mut(row(L::DESCRIPTION.state.len()), stride);
-        if L::DESCRIPTION.reads_old_gradient {
+        if L::DESCRIPTION.reads.old_gradient {
             // SAFETY: rows of the history, which have the n elements from `start` on.
             unsafe { start_at_rest(f_old, n) };
         }
@@ -43,7 +43,7 @@ unsafe fn evaluate<T: Precision, L: History<T>>(cm: *const T, nhv: i32, elements
         // SAFETY: rows with the n elements from `start` on; the new state is in the place of the old one, and `codes` has n ≤ CHUNK.
         worst = worst.min(unsafe { law.step(&points) }?);
         let codes = codes.get(..n).unwrap_or(&codes);
-        if L::DESCRIPTION.reads_old_gradient {
+        if L::DESCRIPTION.reads.old_gradient {
             for (i, _) in codes.iter().enumerate().filter(|(_, code)| **code == status::OK) {
                 for (old, new) in f_old.into_iter().zip(points.f_new) {
                     // SAFETY: as for `step`, and i < n.

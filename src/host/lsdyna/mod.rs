@@ -322,7 +322,7 @@ fn is_plausible<T: Precision, L: Law<T>>(history: impl Fn(usize) -> T) -> bool {
         // a collapsed element has a row or column of zeros as well.
         let zeros = |first: usize, stride: usize| (0..3).all(|i| h(first + i * stride) == 0.0);
         let collapsed = (0..3).any(|k| zeros(f + 3 * k, 1) || zeros(f + k, 3));
-        let keeps_one = L::DESCRIPTION.reads_old_gradient && is_at(L::DESCRIPTION.state.len());
+        let keeps_one = L::DESCRIPTION.reads.old_gradient && is_at(L::DESCRIPTION.state.len());
         return !collapsed || keeps_one || !is_elsewhere();
     }
     !is_elsewhere()

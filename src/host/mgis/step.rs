@@ -4,7 +4,7 @@ use core::slice;
 
 use crate::host::ByStep;
 use crate::host::entry_points::check_plane;
-use crate::law::block::{components, components_mut};
+use crate::law::block::{Circumstances, components, components_mut};
 use crate::law::error::Error;
 use crate::law::failure::Failure;
 use crate::law::interface::{Law, Points};
@@ -111,7 +111,13 @@ unsafe fn evaluate<L: Law<f64>>(view: &BehaviourDataView, options: Options, plan
     if plane {
         check_plane(&law, properties)?;
     }
-    let step = Step { law: &law, f0: &f0, f1: &f1, old: &old, options };
+    // A step that is not integrated takes no time; the temperature is the first of the external state variables.
+    let circumstances = Circumstances {
+        time_increment: if options.integrates { view.dt } else { 0.0 },
+        time: f64::NAN,
+        temperature: if options.integrates { view.s1 } else { view.s0 }.external_state_variables,
+    };
+    let step = Step { law: &law, f0: &f0, f1: &f1, old: &old, options, circumstances };
     let Outcome { stress: cauchy, state, speed, tangent, code } = step.evaluate()?;
     if code != status::OK {
         return Ok(code);
@@ -151,6 +157,7 @@ struct Step<'a, L: Law<f64>> {
     f1: &'a [[f64; 3]; 3],
     old: &'a L::State,
     options: Options,
+    circumstances: Circumstances<f64>,
 }
 
 /// Its results: stress 11 22 33 12 23 31, and a tangent of the measure that [`Step::measure`] says, row by row.
@@ -198,11 +205,12 @@ impl<L: Law<f64>> Step<'_, L> {
     /// # Errors
     /// None: the density has been checked.
     fn evaluate(&self) -> Result<Outcome<L::State>, Error> {
-        let Step { law, f0, f1, old, options } = self;
+        let Step { law, f0, f1, old, options, circumstances } = self;
         let (mut stress, mut state, mut speed, mut tangent) = ([0.0; 6], **old, 0.0, [0.0; 81]);
         let mut point = Points {
             f_old: components(f0.as_flattened().as_ptr(), 1),
             f_new: components(f1.as_flattened().as_ptr(), 1),
+            circumstances: *circumstances,
             state_old: L::parts(old.as_ref().as_ptr(), 1),
             state_new: L::parts_mut(state.as_mut().as_mut_ptr(), 1),
             stress: components_mut(stress.as_mut_ptr(), 1),

@@ -2,7 +2,7 @@
 
 use core::{ptr, slice};
 
-use crate::law::block::{Precision, components, components_mut};
+use crate::law::block::{Circumstances, Precision, components, components_mut};
 use crate::law::error::Error;
 use crate::law::failure::Failure;
 use crate::law::interface::Points;
@@ -28,6 +28,8 @@ pub struct Group<T> {
     pub variables: i32,
     /// TIME; 0 in the first cycle.
     pub time: T,
+    /// TIMESTEP: the length of the step that ends at TIME; NaN where it is not known.
+    pub time_step: T,
     /// NUPARAM values.
     pub uparam: *const T,
     /// NGL: the elements' numbers in the model, for messages; null if they are not known.
@@ -416,7 +418,7 @@ impl<T: Precision> Group<T> {
         let n = self.count();
         // Of a law that does not depend on F at the start of a step, this is not there.
         let f_old = components_mut(self.row(card.layout().f_old()), n);
-        if L::DESCRIPTION.reads_old_gradient {
+        if L::DESCRIPTION.reads.old_gradient {
             // SAFETY: these rows of UVAR have NEL values.
             unsafe { start_at_rest(f_old, n) };
         }
@@ -427,6 +429,11 @@ impl<T: Precision> Group<T> {
                 f_new: self.columns(first),
                 fibre: self.fibre(card, first),
                 limit: if card.has_limits { row(card.layout().limit()) } else { ptr::null_mut() },
+                circumstances: Circumstances {
+                    time_increment: self.time_step.into(),
+                    time: self.time.into(),
+                    temperature: ptr::null(),
+                },
                 state_old: L::parts(row(0), n),
                 state_new: L::parts_mut(row(0), n),
                 // SAFETY: RHO0 has a value.
@@ -445,7 +452,7 @@ impl<T: Precision> Group<T> {
         };
         // SAFETY: the group is the caller's.
         unsafe { self.in_chunks(card.layout(), part)? };
-        if L::DESCRIPTION.reads_old_gradient {
+        if L::DESCRIPTION.reads.old_gradient {
             for (row, f) in f_old.into_iter().zip(self.columns(0)) {
                 // SAFETY: a row of UVAR and a component of F have NEL values each.
                 unsafe { row.copy_from_nonoverlapping(f, n) };

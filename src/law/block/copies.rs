@@ -7,14 +7,14 @@ use core::ops::Range;
 use core::ptr::{null, null_mut};
 
 use super::dispatch::Precision;
-use super::points::{Needs, PARTS, Points, Strides, components, components_mut};
+use super::points::{Circumstances, Needs, PARTS, Points, Strides, components, components_mut};
 use super::run::Kernels;
 use crate::law::number::real::{Lanes, Scalar, WIDEST};
 use crate::law::status;
 
-/// How many numbers a point of every law takes in copies: F, fibre, limit, stress, wave speed and `active`; and with
-/// modes and the largest tangent. A law's state is added to them, and what else its points have, see [`Kernels::Else`].
-const FEW: usize = 9 + 3 + 1 + 6 + 1 + 1;
+/// How many numbers a point of every law takes in copies: F, fibre, limit, temperature, stress, wave speed and `active`;
+/// and with modes and the largest tangent. A law's state is added to them, and what else its points have, see [`Kernels::Else`].
+const FEW: usize = 9 + 3 + 1 + 1 + 6 + 1 + 1;
 const ALL: usize = FEW + 24 + 81;
 
 /// All numbers of a point of a law with so many variables, and so many numbers of [`Kernels::Else`].
@@ -127,7 +127,7 @@ impl<T: Scalar> Points<T> {
     #[inline(always)]
     fn in_memory(&self, memory: *mut T, count: usize, codes: *mut i32, needs: &Needs) -> Points<T> {
         let mut buffer = Buffer { next: memory, count };
-        let f_old = buffer.array(needs.f_old, 9);
+        let f_old = buffer.array(needs.reads.old_gradient, 9);
         let f_new = buffer.array(true, 9);
         let fibre = buffer.array(!self.fibre[0].is_null(), 3);
         let second_axis = buffer.array(!self.second_axis[0].is_null(), 3);
@@ -152,6 +152,10 @@ impl<T: Scalar> Points<T> {
             fibre: components(fibre, count),
             second_axis: components(second_axis, count),
             limit: buffer.array(!self.limits(needs.last).is_null(), 1),
+            circumstances: Circumstances {
+                temperature: buffer.array(needs.reads.temperature, 1),
+                ..self.circumstances
+            },
             axes: buffer.array(!self.axes.is_null(), 9),
             state_old,
             state_new,
@@ -222,12 +226,16 @@ unsafe fn copied<T: Precision, L: Kernels<T>, const COUNT: usize, const ROWS: us
     // the points have that array; the offsets are those of points of the range. A number whose bytes are all 0 is 0.
     unsafe {
         let of_f = copies.group(deformation_gradient, 0);
-        if needs.f_old {
+        if needs.reads.old_gradient {
             of_f.all_in(&points.f_old, &of_copies.f_old);
         }
         of_f.all_in(&points.f_new, &of_copies.f_new);
         copies.group(fibre, 0).all_in(&points.fibre, &of_copies.fibre);
         copies.group(fibre, 0).all_in(&points.second_axis, &of_copies.second_axis);
+        if needs.reads.temperature {
+            let from = points.circumstances.temperature;
+            copies.group(1, 0).copy_in(from, of_copies.circumstances.temperature.cast_mut(), 1);
+        }
         if !of_copies.limit.is_null() {
             copies.group(limit, 0).copy_in(points.limit, of_copies.limit.cast_mut(), 1);
         }
@@ -279,12 +287,16 @@ pub(super) unsafe fn padded<T: Scalar, R: Lanes<T>, const ROWS: usize>(
     // SAFETY: `memory` has a register for each component, at which the arrays of `copies` begin; `count` values of each component of
     // the valid points are read and written, of the arrays that are not null.
     unsafe {
-        if needs.f_old {
+        if needs.reads.old_gradient {
             columns_in::<T, R, 9>(&points.f_old, &copies.f_old, count);
         }
         columns_in::<T, R, 9>(&points.f_new, &copies.f_new, count);
         columns_in::<T, R, 3>(&points.fibre, &copies.fibre, count);
         columns_in::<T, R, 3>(&points.second_axis, &copies.second_axis, count);
+        if needs.reads.temperature {
+            let from = points.circumstances.temperature;
+            filled::<T, R>(from, count).store(copies.circumstances.temperature.cast_mut());
+        }
         if !copies.limit.is_null() {
             filled::<T, R>(points.limit, count).store(copies.limit.cast_mut());
         }

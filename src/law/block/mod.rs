@@ -13,6 +13,7 @@
 //! | `stress` | σ11 σ22 σ33 σ12 σ23 σ31 (Cauchy) |
 //! | `modes` | S_el, S_tc, S_td, S_ld, each 11 22 33 12 23 31 (second Piola–Kirchhoff), of the hyperelastic law |
 //! | `wave_speed` | a bound of the wave speed at the end of the step, at the reference density `density` |
+//! | `temperature` | the temperature at the end of the step, of the `circumstances`; read by a law that says so |
 //! | `tangent` | of the `measure`: 6×6 or 9×9, entry (row, column) at 6 row + column or 9 row + column; all of it, symmetric or not |
 //! | `active` | 1, or 0 if the point has failed or cannot be evaluated |
 //!
@@ -42,6 +43,6 @@ mod run;
 pub use arrays::{Arrays, Block};
 pub use dispatch::Precision;
 pub(crate) use kernel::least_code;
+pub use points::{Circumstances, PARTS, Points, Strides, components, components_mut};
 pub(crate) use points::{MOST, check_layout, distances, parts};
-pub use points::{PARTS, Points, Strides, components, components_mut};
 pub(crate) use run::{Kernels, at_fault, evaluate};

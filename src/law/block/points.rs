@@ -3,7 +3,8 @@
 use core::ptr::{null, null_mut};
 
 use super::dispatch::Precision;
-use crate::law::error::Error;
+use crate::law::description::Reads;
+use crate::law::error::{Error, Value};
 use crate::law::failure::Failure;
 use crate::law::interface::Law;
 use crate::law::linear_elastic::{Criterion, Rotation};
@@ -51,6 +52,8 @@ pub struct Points<T> {
     /// A failure limit of each point: the true fibre strain, ln(1 + ε_lim), of the hyperelastic law, or the strength of
     /// the linear elastic one; null or 0 for that of the properties. Read where the failure is computed.
     pub limit: *const T,
+    /// When the step is, and how warm.
+    pub circumstances: Circumstances<T>,
     /// The three material axes in space, one after the other, in and out; only for [`Rotation::Spin`].
     pub axes: *mut T,
     /// The law's state variables, old and new, by the parts of [`Law::PARTS`].
@@ -79,8 +82,57 @@ pub struct Points<T> {
     pub level: Option<Level>,
 }
 
+/// When a step is, and how warm its points are. Each is read only by a law whose description says so.
+#[derive(Clone, Copy, Debug)]
+pub struct Circumstances<T> {
+    /// The length of the step, and the time at its end; NaN if the host does not know.
+    pub time_increment: f64,
+    pub time: f64,
+    /// The temperature of each point at the end of the step; null if the host does not know.
+    pub temperature: *const T,
+}
+
+impl<T> Circumstances<T> {
+    /// Those of a host that knows none.
+    pub const UNKNOWN: Self = Circumstances { time_increment: f64::NAN, time: f64::NAN, temperature: null() };
+
+    /// Those of the points from `first` on.
+    pub(crate) fn from(self, first: usize) -> Self {
+        let temperature = self.temperature;
+        Circumstances {
+            temperature: if temperature.is_null() { temperature } else { temperature.wrapping_add(first) },
+            ..self
+        }
+    }
+
+    /// Checks that the host knows what the law reads.
+    ///
+    /// # Errors
+    /// A number that is needed and not finite, a step of negative length, no temperatures.
+    fn check(&self, reads: &Reads, n: usize) -> Result<(), Error> {
+        let wrong = |name, value: f64, wanted| Err(Error::Argument { name, value: Value::of(value), wanted });
+        let unknown = |text| Err(Error::Setting { code: status::BAD_ARGUMENT, text });
+        if reads.time_increment && self.time_increment.is_nan() {
+            return unknown("argument time_increment is not known here, and this law reads it");
+        }
+        if reads.time && self.time.is_nan() {
+            return unknown("argument time is not known here, and this law reads it");
+        }
+        if reads.time_increment && !(0.0 <= self.time_increment && self.time_increment < f64::INFINITY) {
+            return wrong("time_increment", self.time_increment, "a finite number, not negative");
+        }
+        if reads.time && !self.time.is_finite() {
+            return wrong("time", self.time, "a finite number");
+        }
+        if reads.temperature && n > 0 && self.temperature.is_null() {
+            return unknown("argument temperature is not known here, and this law reads it");
+        }
+        Ok(())
+    }
+}
+
 /// The distance from one point to the next in each group of arrays; what has one number for a point (wave speed,
-/// status, active) is contiguous.
+/// status, active, temperature) is contiguous.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Strides {
     /// Of F at both ends.
@@ -174,6 +226,7 @@ impl<T> Points<T> {
             fibre: self.fibre.map(|p| input(p, fibre)),
             second_axis: self.second_axis.map(|p| input(p, fibre)),
             limit: input(self.limit, limit),
+            circumstances: self.circumstances.from(first),
             axes: output(self.axes, axes),
             state_old: self.state_old.map(|p| input(p, state)),
             state_new: self.state_new.map(|p| output(p, state)),
@@ -253,8 +306,8 @@ pub(crate) struct Needs {
     pub last: usize,
     /// The place of the latch in the last part.
     pub latch: usize,
-    /// Whether F at the start of the step is read.
-    pub f_old: bool,
+    /// What is read besides F at the end of the step and the old state.
+    pub reads: Reads,
     /// Whether points may have limits, second axes and axes of their own, and modes.
     pub limit: bool,
     pub axes: bool,
@@ -269,8 +322,8 @@ impl Needs {
             latch -= parts[last];
             last += 1;
         }
-        let f_old = description.reads_old_gradient;
-        Needs { parts, last, latch, f_old, limit: L::HAS_LIMIT, axes: L::HAS_AXES, modes: L::HAS_MODES }
+        let reads = description.reads;
+        Needs { parts, last, latch, reads, limit: L::HAS_LIMIT, axes: L::HAS_AXES, modes: L::HAS_MODES }
     }
 
     /// How many variables of a part's old state are read: in the last one those up to the latch, behind which is the
@@ -298,6 +351,7 @@ impl<T: Scalar> Points<T> {
             fibre: [null(); 3],
             second_axis: [null(); 3],
             limit: null(),
+            circumstances: Circumstances::UNKNOWN,
             axes: null_mut(),
             state_old: [null(); PARTS],
             state_new: [null_mut(); PARTS],
@@ -327,6 +381,7 @@ impl<T: Scalar> Points<T> {
             f_new: from.f_new,
             fibre: from.fibre,
             second_axis: from.second_axis,
+            circumstances: from.circumstances,
             state_old: [last(0), last(1), last(2)],
             rotation: self.rotation,
             criterion: self.criterion,
@@ -359,7 +414,7 @@ impl<T: Scalar> Points<T> {
     #[inline(always)]
     pub(crate) fn check(&self, needs: &Needs) -> Result<(), Error> {
         let missing = |array: &[*const T]| self.n > 0 && array.iter().any(|pointer| pointer.is_null());
-        if needs.f_old && missing(&self.f_old) {
+        if needs.reads.old_gradient && missing(&self.f_old) {
             return Err(Error::Null { name: "f_old" });
         }
         if missing(&self.f_new) {
@@ -380,6 +435,7 @@ impl<T: Scalar> Points<T> {
         if !needs.modes && !self.modes.is_null() {
             return refused("argument modes is not null; allowed: null, since this law has no stress by mode");
         }
+        self.circumstances.check(&needs.reads, self.n)?;
         let Strides { limit, axes, state, modes, tangent, .. } = self.strides;
         if !self.limits(needs.last).is_null() {
             check_layout(self.n, 1, self.n, limit, distances!("limit"))?;

@@ -4,7 +4,7 @@ use core::ops::Range;
 
 use super::{Array, MOST_DIRECTIONS, Response, Step, User, UserMaterial};
 use crate::law::axes::FibreFrame;
-use crate::law::block::{Kernels, Points, Precision, least_code};
+use crate::law::block::{Circumstances, Kernels, Points, Precision, least_code};
 use crate::law::description::Description;
 use crate::law::failure::Failure;
 use crate::law::number::level::Level;
@@ -38,7 +38,7 @@ impl<R: Real, S: Array<R>> Outcome<R, S> {
     }
 }
 
-/// F, directions and old state of the points in the lanes.
+/// F, directions, circumstances and old state of the points in the lanes.
 #[derive(Clone, Copy)]
 pub(super) struct Input<R: Real, S> {
     pub f_old: Matrix<R>,
@@ -46,6 +46,10 @@ pub(super) struct Input<R: Real, S> {
     pub directions: [[R; 3]; MOST_DIRECTIONS],
     /// Where the fibre direction is finite and not zero.
     pub usable: R::Mask,
+    /// 0 where the law does not read it.
+    pub time_increment: R,
+    pub time: R,
+    pub temperature: R,
     pub own: S,
     pub failed: R,
 }
@@ -62,15 +66,34 @@ impl<R: Real, S: Array<R>> Input<R, S> {
             directions[k] = [R::splat(x.into()), R::splat(y.into()), R::splat(z.into())];
             k += 1;
         }
-        Input { f_old: identity, f: identity, directions, usable: zero.le(zero), own: S::filled(zero), failed: zero }
+        Input {
+            f_old: identity,
+            f: identity,
+            directions,
+            usable: zero.le(zero),
+            time_increment: zero,
+            time: zero,
+            temperature: zero,
+            own: S::filled(zero),
+            failed: zero,
+        }
     }
 
     /// What the law is evaluated from.
     #[inline(always)]
     pub fn step(&self) -> Step<R, S> {
         let [fibre, a, b] = self.directions;
-        let (jacobian, other_directions) = (determinant(&self.f), [a, b]);
-        Step { f_old: self.f_old, f: self.f, jacobian, fibre, other_directions, state: self.own }
+        Step {
+            f_old: self.f_old,
+            f: self.f,
+            jacobian: determinant(&self.f),
+            fibre,
+            other_directions: [a, b],
+            time_increment: self.time_increment,
+            time: self.time,
+            temperature: self.temperature,
+            state: self.own,
+        }
     }
 
     /// Where the step is taken, since the point has not failed before and can be evaluated; and where det F is positive. An entry of F
@@ -81,7 +104,7 @@ impl<R: Real, S: Array<R>> Input<R, S> {
         step: &Step<R, S>,
         response: &Response<R, S>,
         wave_modulus: R,
-        &Description { reads_old_gradient, refusal, .. }: &Description,
+        &Description { reads, refusal, .. }: &Description,
     ) -> (R::Mask, R::Mask) {
         let zero = R::splat(0.0);
         // A number times zero is zero unless it is NaN or infinite. Two sums: half as long a chain of operations.
@@ -100,7 +123,7 @@ impl<R: Real, S: Array<R>> Input<R, S> {
             check -= response.status; // a code is negative
         }
         let mut not_inverted = zero.lt(step.jacobian);
-        if reads_old_gradient {
+        if reads.old_gradient {
             let jacobian = determinant(&self.f_old);
             check = jacobian.mul_add(zero, check);
             not_inverted = not_inverted & zero.lt(jacobian);
@@ -118,7 +141,7 @@ impl<R: Real, S: Array<R>> Input<R, S> {
         not_inverted: R::Mask,
         at_rest: R,
         own_status: R,
-        &Description { reads_old_gradient, refusal, .. }: &Description,
+        &Description { reads, refusal, .. }: &Description,
     ) {
         let (zero, one) = (R::splat(0.0), R::splat(1.0));
         let code = |status: i32| R::splat(f64::from(status));
@@ -140,7 +163,7 @@ impl<R: Real, S: Array<R>> Input<R, S> {
         outcome.active = R::select(taken, outcome.alive, zero);
         outcome.wave_modulus = R::select(taken, outcome.wave_modulus, at_rest);
         let mut finite = is_finite(&self.f);
-        if reads_old_gradient {
+        if reads.old_gradient {
             finite = finite & is_finite(&self.f_old);
         }
         // Later lines take precedence.
@@ -252,9 +275,12 @@ unsafe fn sweep<M: UserMaterial, T: Precision, R: Lanes<T>>(
     range: Range<usize>,
 ) -> i32 {
     let constants = law.constants::<R>();
-    let rest = Input::<R, M::State<R>>::at_rest(law);
+    let mut rest = Input::<R, M::State<R>>::at_rest(law);
     let zero = R::splat(0.0);
     let at_rest = if points.wave_speed.is_null() { zero } else { wave_modulus::<M, R>(&constants, &rest) };
+    let Circumstances { time_increment, time, .. } = points.circumstances;
+    rest.time_increment = if M::DESCRIPTION.reads.time_increment { R::splat(time_increment) } else { zero };
+    rest.time = if M::DESCRIPTION.reads.time { R::splat(time) } else { zero };
     let (mut worst, mut i) = (zero, range.start);
     let states = !points.state_old[0].is_null() && !points.state_new[0].is_null();
     let usual = states && !points.stress[0].is_null() && points.fibre[0].is_null() && points.wave_speed.is_null();
@@ -302,12 +328,15 @@ unsafe fn register<M: UserMaterial, T: Precision, R: Lanes<T>, const USUAL: bool
     unsafe {
         let mut input = *rest;
         input.f = gradient(&points.f_new, i);
-        input.f_old = if law.reads_old_gradient { gradient(&points.f_old, i) } else { input.f };
+        input.f_old = if law.reads.old_gradient { gradient(&points.f_old, i) } else { input.f };
         if !USUAL && !points.fibre[0].is_null() {
             let [x, y, z] = points.fibre;
             let (frame, usable) = FibreFrame::new([R::load(x.add(i)), R::load(y.add(i)), R::load(z.add(i))]);
             input.directions[0] = frame.m;
             input.usable = usable;
+        }
+        if law.reads.temperature {
+            input.temperature = R::load(points.circumstances.temperature.add(i));
         }
         if USUAL || !points.state_old[0].is_null() {
             let mut row = points.state_old[0].wrapping_add(i);

@@ -16,7 +16,7 @@
 mod kernel;
 mod tangent;
 
-pub use super::description::{Description, Direction, MOST_DIRECTIONS};
+pub use super::description::{Description, Direction, MOST_DIRECTIONS, Reads};
 pub use super::number::dual::Dual;
 pub use super::number::real::Real;
 pub use super::number::vector;
@@ -121,6 +121,11 @@ pub struct Step<R, S> {
     /// The unit vectors of the description's other directions in the reference placement, in its order; 0 for one that
     /// is 0, and behind the last one.
     pub other_directions: [[R; 3]; MOST_DIRECTIONS - 1],
+    /// The length of the step, not negative, and the time at its end, in the units of the host; the temperature at its
+    /// end. Each is 0 where the description does not say that the law reads it.
+    pub time_increment: R,
+    pub time: R,
+    pub temperature: R,
     /// The old state variables, without `failed` and `alive`; all 0 at the start.
     pub state: S,
 }

@@ -4,7 +4,7 @@
 use super::kernel::{Input, Outcome, wave_modulus};
 use super::{Array, Response, Step, User, UserMaterial};
 use crate::law::axes::FibreFrame;
-use crate::law::block::Precision;
+use crate::law::block::{Circumstances, Precision};
 use crate::law::differentiated::{Rates, Stress, first};
 use crate::law::interface::Points;
 use crate::law::linear_tangent::{LinearTangent, by_rows};
@@ -68,11 +68,15 @@ impl<M: UserMaterial> User<M, f64> {
         let row = |c: usize| c.wrapping_mul(points.leading_dimension);
         let mut input = Input::<f64, M::State<f64>>::at_rest(self);
         input.f = matrix(points.f_new);
-        input.f_old = if law.reads_old_gradient { matrix(points.f_old) } else { input.f };
+        input.f_old = if law.reads.old_gradient { matrix(points.f_old) } else { input.f };
         if !points.fibre[0].is_null() {
             let (frame, usable) = FibreFrame::new(points.fibre.map(load));
             (input.directions[0], input.usable) = (frame.m, usable);
         }
+        let Circumstances { time_increment, time, temperature } = points.circumstances;
+        input.time_increment = if law.reads.time_increment { time_increment } else { 0.0 };
+        input.time = if law.reads.time { time } else { 0.0 };
+        input.temperature = if law.reads.temperature { load(temperature) } else { 0.0 };
         if !points.state_old[0].is_null() {
             for (c, x) in input.own.as_mut().iter_mut().enumerate() {
                 *x = load(points.state_old[0].wrapping_add(row(c)));
@@ -167,6 +171,9 @@ impl<M: UserMaterial> Stress for Formulas<'_, M> {
         for (to, &from) in moved.directions.as_flattened_mut().iter_mut().zip(self.input.directions.as_flattened()) {
             *to = Dual::splat(from);
         }
+        moved.time_increment = Dual::splat(self.input.time_increment);
+        moved.time = Dual::splat(self.input.time);
+        moved.temperature = Dual::splat(self.input.temperature);
         for (to, &from) in moved.own.as_mut().iter_mut().zip(self.input.own.as_ref()) {
             *to = Dual::splat(from);
         }
@@ -183,7 +190,7 @@ impl<M: UserMaterial> Stress for Formulas<'_, M> {
         f: &Matrix<Dual<R>>,
     ) -> [Dual<R>; 6] {
         moved.f = *f;
-        if !M::DESCRIPTION.reads_old_gradient {
+        if !M::DESCRIPTION.reads.old_gradient {
             moved.f_old = *f;
         }
         let response = M::respond(constants, &moved.step());

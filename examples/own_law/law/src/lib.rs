@@ -3,10 +3,12 @@
 //! W = ½ μ (I1 − 3) − μ ln J + ½ Λ (ln J)² + ½ k (I4 − 1)² per reference volume, with I1 = tr FᵀF, I4 = a·a and a = Fm, the image of
 //! the unit fibre direction m; it fails where the stretch of the fibre reaches a limit.
 
+pub mod viscoelastic;
+
 use toron::user::parameters::{NUMBER, Property, STRESS, component, positive, positive_or_zero};
 use toron::user::state::{ALIVE, ENERGY_DENSITY, FAILED, StateVariable, variable};
 use toron::user::vector::{dot, image, scale, transposed};
-use toron::user::{Description, Direction, Real, Response, Step, UserMaterial};
+use toron::user::{Description, Direction, Reads, Real, Response, Step, UserMaterial};
 
 #[derive(Clone, Copy, Debug, Default)]
 pub struct ReinforcedSolid;
@@ -47,7 +49,7 @@ impl UserMaterial for ReinforcedSolid {
         energies: 0..1,
         failed: 2,
         alive: 3,
-        reads_old_gradient: false,
+        reads: Reads::NOTHING,
         lost: None,
         refusal: None,
     };

@@ -13,6 +13,7 @@ use toron::host::mgis::{self, BehaviourDataView, MgisLaw, StateView};
 use toron::host::openradioss;
 use toron::host::openradioss::card::{self, Layout};
 use toron::host::{abaqus, calculix, lsdyna};
+use toron::law::block::Circumstances;
 use toron::law::parameters::HYPERELASTIC_PROPERTIES;
 use toron::law::state::HYPERELASTIC_STATE;
 use toron::{Hyperelastic, Real};
@@ -263,6 +264,7 @@ impl<const STATE: usize> CalculixPoint<STATE> {
             pgauss: zeros.as_ptr(),
             orab: zeros.as_ptr(),
             pnewdt: &mut self.pnewdt,
+            circumstances: Circumstances::UNKNOWN,
         };
         entry(&call);
     }
@@ -326,6 +328,7 @@ impl<const STATE: usize> Umat<STATE> {
             ndi: 3,
             nshr: 3,
             nlgeom: 1,
+            circumstances: Circumstances::UNKNOWN,
         };
         // SAFETY: the arrays have the sizes that the structure tells.
         unsafe { L::umat(&call, null_mut(), 0) }
@@ -517,6 +520,7 @@ impl<T: BlockPrecision> OpenradiossGroup<T> {
             parameters: self.uparam.len() as i32,
             variables: self.layout.variables() as i32,
             time: T::from_f64(1e-6),
+            time_step: T::from_f64(1e-9),
             uparam: self.uparam.as_ptr(),
             numbers: null(),
             density: &self.density,
