@@ -1,7 +1,7 @@
 //! Time, time step and temperature: each host passes what it has to a law that reads it, and a law is not evaluated
 //! without what it reads.
 
-use std::ffi::c_char;
+use std::ffi::{CStr, c_char};
 use std::ptr::null_mut;
 
 use nalgebra::Matrix3;
@@ -11,8 +11,10 @@ use toron::host::calculix::{Behaviour, CalculixLaw};
 use toron::host::mgis::{BehaviourDataView, INTEGRATED, MESSAGE_CAPACITY, MgisLaw, StateView};
 use toron::law::block::{Circumstances, Points, Strides, components, components_mut};
 use toron::law::interface::Law;
-use toron::user::parameters::{Property, STRESS, positive};
+use toron::law::status;
+use toron::user::parameters::{Property, STRESS, positive, positive_or_zero};
 use toron::user::state::{ALIVE, FAILED, StateVariable, variable};
+use toron::user::vector::dot;
 use toron::user::{Description, Reads, Real, Response, Step, User, UserMaterial};
 
 type Viscoelastic<T> = User<ViscoelasticSolid, T>;
@@ -311,5 +313,77 @@ fn a_law_is_not_evaluated_without_what_it_reads() {
         let error = unsafe { law.step(&points) }.expect_err(message);
         assert!(error.to_string().contains(message), "{error}");
         assert_eq!(stress, [7.0; 6]);
+    }
+}
+
+/// A law with a root in its stress, that of the first invariant less 3: 0 at rest, where its slope is infinite; or, with a
+/// property of 0, a quotient of 0 and 0.
+#[derive(Clone, Copy, Debug, Default)]
+struct Rooted;
+
+static ROOTED_PROPERTIES: [Property; 1] = [positive_or_zero("k", "k", STRESS, None, "stiffness")];
+static ROOTED_STATE: [StateVariable; 2] = [FAILED, ALIVE];
+
+impl UserMaterial for Rooted {
+    const DESCRIPTION: Description = Description {
+        title: "law that has no tangent at rest",
+        properties: &ROOTED_PROPERTIES,
+        state: &ROOTED_STATE,
+        directions: &[],
+        energies: 0..0,
+        failed: 0,
+        alive: 1,
+        reads: Reads::NOTHING,
+        lost: None,
+        refusal: None,
+    };
+    type Properties<R: Real> = [R; 1];
+    type State<R: Real> = [R; 0];
+    type Constants<R: Real> = R;
+
+    #[inline(always)]
+    fn constants<R: Real>(&[k]: &[R; 1]) -> R {
+        k
+    }
+
+    #[inline(always)]
+    fn respond<R: Real>(k: &R, step: &Step<R, [R; 0]>) -> Response<R, [R; 0]> {
+        let zero = R::splat(0.0);
+        let [x, y, z] = step.f;
+        let growth = dot(x, x) + dot(y, y) + dot(z, z) - R::splat(3.0);
+        let quotient = growth / (growth + *k);
+        Response::new([(*k * growth).sqrt() + quotient * zero, zero, zero, zero, zero, zero], [])
+    }
+}
+
+/// The first increment of an implicit analysis, where F is 1.
+#[test]
+fn a_law_that_gives_no_numbers_at_rest_is_told_so() {
+    let f = Matrix3::<f64>::identity();
+    for (k, message) in [(0.0, "is there 0/0?"), (1.0, "is there the root of 0?")] {
+        let (mut stress, mut ddsdde, mut statev) = ([0.0; 6], [0.0; 36], [0.0; 2]);
+        let (mut sse, mut pnewdt, mut text) = (0.0, 1.0, [0 as c_char; 300]);
+        let call = abaqus::Umat {
+            stress: stress.as_mut_ptr(),
+            statev: statev.as_mut_ptr(),
+            ddsdde: ddsdde.as_mut_ptr(),
+            sse: &mut sse,
+            pnewdt: &mut pnewdt,
+            dfgrd0: f.as_ptr(),
+            dfgrd1: f.as_ptr(),
+            props: &k,
+            nprops: 1,
+            nstatv: 2,
+            ndi: 3,
+            nshr: 3,
+            nlgeom: 1,
+            circumstances: Circumstances::UNKNOWN,
+        };
+        // SAFETY: arrays as long as the call says.
+        let code = unsafe { User::<Rooted, f64>::umat(&call, text.as_mut_ptr(), text.len()) };
+        // SAFETY: the message ends in a null.
+        let text = unsafe { CStr::from_ptr(text.as_ptr()) }.to_string_lossy();
+        assert_eq!(code, status::PROPERTY_OUT_OF_BOUNDS, "{text}");
+        assert!(text.contains(message), "{text}");
     }
 }

@@ -303,6 +303,9 @@ impl Arguments<'_> {
         if L::DESCRIPTION.reads.old_gradient {
             answer.kept = Some(if answer.status == status::OK { *f_new } else { f_old });
         }
+        if answer.status == status::OVERFLOW {
+            law.told(status::OVERFLOW)?;
+        }
         answer.refusal = L::DESCRIPTION.refusal.filter(|_| answer.status == status::LAW);
         self.finish(answer, || law.bulk_modulus(values))
     }

@@ -188,7 +188,7 @@ pub unsafe fn block<N: Named<T>, T: Precision>(
             let law = N::Law::of(numbers::<T, _>(law)?);
             let points = read(points, &mut buffer)?;
             let told = of_points(law.step(&points.checked()?)?, points.status, points.n);
-            N::Law::DESCRIPTION.told(told.map_err(|error| N::Law::DESCRIPTION.named(error))?)
+            law.told(told.map_err(|error| N::Law::DESCRIPTION.named(error))?)
         }
     };
     // SAFETY: the message is the C caller's, and so are the arguments, which `body` checks.

@@ -47,6 +47,14 @@ pub unsafe trait Law<T: Precision>: Copy {
     /// that along the fibre: for hosts that compute their time step and contact stiffness from two elastic constants.
     fn bulk_and_shear(&self) -> [T; 2];
 
+    /// The worst status code of a call: as an error where there is more to say than the code does.
+    ///
+    /// # Errors
+    /// The law has refused a point, for a reason of its own; or it cannot be evaluated even at rest.
+    fn told(&self, code: i32) -> Result<i32, Error> {
+        Self::DESCRIPTION.told(code)
+    }
+
     /// The parts of a state whose variables are the rows of one array; null if that is.
     #[inline(always)]
     fn parts(state: *const T, leading_dimension: usize) -> [*const T; PARTS] {

@@ -413,7 +413,7 @@ unsafe fn step<L: Law<f64>>(call: &Umat) -> Result<i32, Error> {
             *call.pnewdt = (*call.pnewdt).min(CUTBACK);
         }
     }
-    L::DESCRIPTION.told(code)
+    law.told(code)
 }
 
 /// The UMAT of a law by its step, and the energy lost per current volume, variable `lost` of its state, to `spd`.

@@ -265,7 +265,7 @@ unsafe fn stretched<L: Law<T>, T: Precision>(
         }
         start += CHUNK;
     }
-    L::DESCRIPTION.told(worst)
+    law.told(worst)
 }
 
 /// Deletes a point that could not be evaluated, and writes its energy per mass, W/ρ0. The density that Abaqus passes is

@@ -55,7 +55,7 @@ unsafe fn evaluate<T: Precision, L: History<T>>(cm: *const T, nhv: i32, elements
         unsafe { elements.mark_failed(&L::DESCRIPTION, start, codes) };
         done += n;
     }
-    L::DESCRIPTION.told(worst)
+    law.told(worst)
 }
 
 /// The vectorised material routine.
@@ -129,7 +129,7 @@ unsafe fn tangents<T: Precision, L: History<T>>(
             }
         }
     }
-    L::DESCRIPTION.told(worst)
+    law.told(worst)
 }
 
 /// # Safety

@@ -119,6 +119,9 @@ unsafe fn evaluate<L: Law<f64>>(view: &BehaviourDataView, options: Options, plan
     };
     let step = Step { law: &law, f0: &f0, f1: &f1, old: &old, options, circumstances };
     let Outcome { stress: cauchy, state, speed, tangent, code } = step.evaluate()?;
+    if code == status::OVERFLOW {
+        law.told(code)?;
+    }
     if code != status::OK {
         return Ok(code);
     }

@@ -448,7 +448,9 @@ impl<T: Precision> Group<T> {
                 ..Points::without_arrays(count, n)
             };
             // SAFETY: the arrays from element `first` on have `count` values, NUVAR rows of them in UVAR.
-            unsafe { law.step(&points) }
+            let worst = unsafe { law.step(&points) }?;
+            // Elements that fail are taken out, but not all of them at rest.
+            if worst == status::OVERFLOW { law.told(worst) } else { Ok(worst) }
         };
         // SAFETY: the group is the caller's.
         unsafe { self.in_chunks(card.layout(), part)? };

@@ -113,7 +113,10 @@ impl<R: Real> Real for Dual<R> {
         let (zero, root) = (R::splat(0.0), self.value.sqrt());
         let at_zero = root.le(zero);
         let twice = R::select(at_zero, R::splat(1.0), root + root);
-        Dual::new(root, R::select(at_zero, zero, self.slope / twice))
+        // At 0 the slope is infinite, but that of a number which does not change, or whose square root is |x|, is 0.
+        let constant = self.slope.abs().le(zero);
+        let steep = R::select(constant, zero, self.slope * R::splat(f64::INFINITY));
+        Dual::new(root, R::select(at_zero, steep, self.slope / twice))
     }
     #[inline(always)]
     fn abs(self) -> Self {
@@ -184,8 +187,10 @@ impl<R: Real> Real for Dual<R> {
     fn powf(self, exponent: Self) -> Self {
         let (zero, one, x, q) = (R::splat(0.0), R::splat(1.0), self.value, exponent.value);
         let value = elementary::powf(x, q);
-        // At 0 it is 1 for q = 1, else 0: for q < 1 as for the root.
-        let at_zero = R::select(one.le(q) & q.le(one), one, zero);
+        // At 0 it is 1 for q = 1, 0 for q > 1, and for q < 1 as for the root.
+        let steep = q.lt(one) & !self.slope.abs().le(zero);
+        let below_one = R::select(steep, R::splat(f64::INFINITY), zero);
+        let at_zero = R::select(one.le(q) & q.le(one), one, below_one);
         let derivative = R::select(zero.lt(x), q * value / x, at_zero);
         let constant = exponent.slope.le(zero) & zero.le(exponent.slope);
         let by_exponent = R::select(constant, zero, value * elementary::ln(x) * exponent.slope);

@@ -353,6 +353,17 @@ unsafe impl<M: UserMaterial, T: Precision> Law<T> for User<M, T> {
         [T::splat(0.5 * modulus), T::splat(0.375 * modulus)]
     }
 
+    fn told(&self, code: i32) -> Result<i32, Error> {
+        // A temperature of 0 need not mean anything.
+        if code == status::OVERFLOW
+            && !M::DESCRIPTION.reads.temperature
+            && let Some(text) = self.doubled().fault_at_rest()
+        {
+            return Err(Error::Setting { code: status::PROPERTY_OUT_OF_BOUNDS, text });
+        }
+        M::DESCRIPTION.told(code)
+    }
+
     unsafe fn step(&self, points: &Points<T>) -> Result<i32, Error> {
         // SAFETY: the points are valid.
         unsafe { evaluate(self, points) }

@@ -53,6 +53,20 @@ impl<M: UserMaterial> User<M, f64> {
         acoustic_bound(&tangent, &outcome.stress)
     }
 
+    /// What is wrong with a law that gives no numbers at rest, where every model begins.
+    #[cold]
+    pub(super) fn fault_at_rest(&self) -> Option<&'static str> {
+        let Answer { outcome, tangent } =
+            self.answer(&Input::at_rest(self), Measure::Jaumann, 0.0, false, Level::Baseline);
+        if outcome.status != 0.0 {
+            return Some(
+                "at rest (F = 1, state 0) the stress or the state of this law is no number with these properties: is there 0/0?",
+            );
+        }
+        let finite = tangent.0.as_flattened().iter().all(|x| x.is_finite());
+        (!finite).then_some("at rest (F = 1, state 0) the tangent of this law is not finite with these properties: is there the root of 0?")
+    }
+
     /// Evaluates point `i` and stores its results. Returns its status code.
     ///
     /// # Safety
