@@ -272,8 +272,10 @@ typedef struct {name}_points_{suffix} {
     {real} *active;
     /* Out: a status code for each point. */
     int32_t *status;
-    /* In: the length of the step, and the time at its end. {time_increment} {time} */
-    double time_increment, time;
+    /* In: the length of the step. {time_increment} */
+    double time_increment;
+    /* In: the time at its end. {time} */
+    double time;
     /* In: the temperature of each point at the end of the step. {temperature} */
     const {real} *temperature;
 } {name}_points_{suffix};

@@ -166,6 +166,7 @@ mod tests {
             label: String::new(),
             own: String::new(),
             origin: Origin::default(),
+            temperature: None,
         };
         Medium::new(&material, density, CONTROL).expect("valid")
     }

@@ -92,6 +92,7 @@ mod tests {
             label: String::new(),
             own: String::new(),
             origin: Origin::default(),
+            temperature: None,
         }
     }
 
@@ -122,7 +123,7 @@ mod tests {
             // Along the fibre yarns stretch by some percent.
             let stretch = (1.0 + number(0.06)) / f.column(0).norm();
             f.column_mut(0).scale_mut(stretch);
-            let Ok((stress, tangent)) = material.tangent(&f, &material.at_rest()) else { continue };
+            let Ok((stress, tangent)) = material.tangent(&f, 0.0, &material.at_rest()) else { continue };
             let [along, across] = bounds(material, &f, &stress);
             let m = f.column(0).normalize();
             for general in [true, false] {

@@ -5,9 +5,11 @@ use std::path::{Path, PathBuf};
 use clap::Parser;
 use nalgebra::Matrix3;
 use reinforced_solid::ReinforcedSolid;
+use reinforced_solid::viscoelastic::ViscoelasticSolid;
 use serde_json::Value;
 use toron::host::laws::LAWS;
 use toron::host::units::UnitSystem;
+use toron::law::status;
 use toron::user::parameters::{Property, STRESS, component, positive};
 use toron::user::state::{ALIVE, FAILED};
 use toron::user::{Description, Direction, Reads, Real, Response, Step, UserMaterial};
@@ -101,6 +103,59 @@ fn tension_to_failure_is_the_closed_form() {
         // A wave along the fibre at rest, and faster ones beyond.
         assert!(value("wave_speed") >= ((2.0 * MU + LAMBDA + 4.0 * K) / 1.1e-9).sqrt());
     }
+}
+
+fn viscoelastic() -> &'static OwnLaw {
+    Box::leak(Box::new(OwnLaw::new::<ViscoelasticSolid>("VISCOELASTIC", 4).expect("a name and a number")))
+}
+
+/// σ11 of the viscoelastic solid with μ = 3, Λ = 7, μ₁ = 11, τ = 2.5 at these stretches, a time after a sudden step, half of
+/// which counts.
+fn relaxed(stretches: [f64; 3], time: f64) -> f64 {
+    let j: f64 = stretches.iter().product();
+    let growth = stretches[0] * stretches[0] - 1.0;
+    (3.0 * growth + 7.0 * j.ln() + 11.0 * growth * (-time / 2.5).exp()) / j
+}
+
+#[test]
+fn a_load_path_has_the_time_that_its_steps_take() {
+    let text = "units = \"mm-tonne-s\"\n[material]\ndensity = 1.1e-9\n[material.properties]\nmu = 3\nlambda = 7\nmu_1 = 11\n\
+                tau = 2.5\n[[step]]\nincrements = 1\nduration = 0.01\nF = { 11 = 1.3, 22 = 0.9, 33 = 1.05 }\n\
+                [[step]]\nincrements = 20\nduration = 4.0\n";
+    let path = LoadPath::parse(Laws::Own(viscoelastic()), "relaxation.toml", text).expect("the path is valid");
+    let histories = run(&path, &|| ());
+    let increments = &histories[0].increments;
+    assert_eq!((&histories[0].end, increments.len()), (&End::Completed, 22));
+    for increment in &increments[1..] {
+        let expected = relaxed([1.3, 0.9, 1.05], increment.time - 0.005);
+        let found = increment.answer.cauchy[0];
+        assert!((found - expected).abs() < 1e-13, "at {}: {found}, not {expected}", increment.time);
+    }
+}
+
+#[test]
+fn a_point_has_the_time_that_its_line_says() {
+    let ask = |more: &str| {
+        let line = format!(
+            "{{\"F\": [[1.3, 0, 0], [0, 0.9, 0], [0, 0, 1.05]]{more}, \"params\": {{\"mu\": 3, \"lambda\": 7, \"mu_1\": 11, \"tau\": 2.5}}}}"
+        );
+        let mut answer = Vec::new();
+        evaluate(viscoelastic(), Entry::Block, true, line.as_bytes(), &mut answer).expect("an answer");
+        serde_json::from_slice::<Value>(&answer).expect("an answer is JSON")
+    };
+    let (answer, expected) = (ask(", \"time_increment\": 0.01"), relaxed([1.3, 0.9, 1.05], 0.005));
+    let found = answer["sigma"][0].as_f64().expect("a stress");
+    assert!((found - expected).abs() < 1e-14, "{answer}");
+    let refused = ask("");
+    assert_eq!(refused["status"], status::BAD_ARGUMENT);
+    assert!(refused["message"].to_string().contains("time_increment is not known here"), "{refused}");
+}
+
+#[test]
+fn a_temperature_must_be_read_by_a_law() {
+    let error =
+        LoadPath::parse(laws(), "tension.toml", &format!("temperature = 293.0\n{TENSION}")).expect_err("refused");
+    assert!(error.to_string().contains("temperature is read by none of the laws"), "{error}");
 }
 
 #[test]
@@ -360,9 +415,10 @@ fn a_law_of_the_library_needs_no_more_than_its_description() {
     let [first, second] = [by_description, known].map(|name| {
         let law = Law::new(name, &values, Rotation::Fibre, Criterion::LargestPrincipal).expect("right properties");
         let origin = Origin::default();
-        let material = Material { law, density: None, label: String::new(), own: String::new(), origin };
+        let material =
+            Material { law, density: None, label: String::new(), own: String::new(), origin, temperature: None };
         let f = Matrix3::new(1.01, 0.1, 0.0, 0.0, 0.97, 0.02, 0.0, 0.0, 1.03);
-        material.evaluate(&f, &material.at_rest(), Request::STRESS_AND_STATE).expect("a point").cauchy
+        material.evaluate(&f, 0.0, &material.at_rest(), Request::STRESS_AND_STATE).expect("a point").cauchy
     });
     for (first, second) in first.iter().zip(second) {
         assert!((first - second).abs() <= 1e-12 * 80e3, "{first}, not {second}");

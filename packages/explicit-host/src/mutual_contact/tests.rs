@@ -30,6 +30,7 @@ fn media_with(k_ld: f64) -> Vec<Medium<f64>> {
         label: String::new(),
         own: String::new(),
         origin: Origin::default(),
+        temperature: None,
     };
     let control = Control { hourglass: 0.1, linear: 0.06, quadratic: 1.5, shape: 0.2, by_direction: false };
     vec![Medium::new(&material, preset.density, control).expect("valid")]

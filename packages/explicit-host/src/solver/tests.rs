@@ -18,8 +18,14 @@ fn cube_of(values: Vec<f64>, support_of: impl Fn([f64; 3]) -> Support) -> Solver
     let preset = parameters::preset("kevlar-km2-600").expect("it exists");
     let law = Law::new(preset.into(), &values, Rotation::Fibre, Criterion::LargestPrincipal).expect("valid");
     let density = preset.density;
-    let material =
-        Material { law, density: Some(density), label: String::new(), own: String::new(), origin: Origin::default() };
+    let material = Material {
+        law,
+        density: Some(density),
+        label: String::new(),
+        own: String::new(),
+        origin: Origin::default(),
+        temperature: None,
+    };
     let control = Control { hourglass: 0.1, linear: 0.06, quadratic: 1.5, shape: 0.2, by_direction: false };
     let section = Section::Rectangle;
     let yarn = Yarn { section, length: 1e-3, height: 1e-3, width: 1e-3, layers: 1, rows: 1, columns: 1 };

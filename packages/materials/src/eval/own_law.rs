@@ -33,6 +33,10 @@ struct Input {
     f: [[f64; 3]; 3],
     /// The fibre direction instead of that of `params`.
     m: Option<[f64; 3]>,
+    /// Of a law that reads them: the length of the step, the time at its end, the temperature there.
+    time_increment: Option<f64>,
+    time: Option<f64>,
+    temperature: Option<f64>,
     params: BTreeMap<String, f64>,
 }
 
@@ -111,7 +115,8 @@ pub fn evaluate(
             Err(reason) => return refused(status::BAD_ARGUMENT, format!("line {number}: {reason}")),
         };
         match law.prepared(&values) {
-            Ok(own) => evaluate_point(&own, entry, tangent, &Matrix3::from(point.f).transpose(), number),
+            Ok(own) => evaluate_point(&own, entry, tangent, &point, number)
+                .unwrap_or_else(|error| refused(error.code(), error.to_string())),
             Err(error) => refused(error.code(), error.to_string()),
         }
     })
@@ -141,7 +146,10 @@ fn properties(law: &OwnLaw, point: &Input) -> Result<Vec<f64>, String> {
     Ok(values)
 }
 
-fn evaluate_point(own: &Own, entry: Entry, tangent: bool, f: &Matrix3<f64>, line: usize) -> Output {
+/// # Errors
+/// The law reads what the line does not give.
+fn evaluate_point(own: &Own, entry: Entry, tangent: bool, input: &Input, line: usize) -> Result<Output, toron::Error> {
+    let f = Matrix3::from(input.f).transpose();
     let (n, at, stride) = if entry == Entry::Law { (1, 0, 1) } else { place(line) };
     let mut points = own.at_rest(n, stride, tangent.then_some(Measure::Jaumann));
     for i in 0..n {
@@ -150,17 +158,20 @@ fn evaluate_point(own: &Own, entry: Entry, tangent: bool, f: &Matrix3<f64>, line
             points.f[c * stride + i] = entry;
         }
     }
-    own.step(&mut points);
+    let (time, increment) = (input.time.unwrap_or(f64::NAN), input.time_increment.unwrap_or(f64::NAN));
+    (points.time, points.time_increment) = (time, increment);
+    points.temperature = input.temperature.map_or(Vec::new(), |temperature| vec![temperature; stride]);
+    own.try_step(&mut points)?;
     let PointArrays { stress, state, tangent, status, .. } = &points;
     let value = |array: &[f64], c: usize| array[c * stride + at];
     let rows = || std::array::from_fn(|i| std::array::from_fn(|j| value(tangent, 6 * i + j)));
     let status = status[at];
-    Output {
+    Ok(Output {
         law: own.law,
         sigma: order(std::array::from_fn(|c| value(stress, c))),
         state: (0..own.law.description.state.len()).map(|c| value(state, c)).collect(),
         status,
         message: status::meaning(status).filter(|_| status != status::OK).map(str::to_string),
         ddsdde: points.measure.map(|_| order(rows().map(order))),
-    }
+    })
 }

@@ -32,6 +32,7 @@ struct PathFile {
     title: Option<String>,
     units: Spanned<String>,
     element: Option<Numbers<3, Positive>>,
+    temperature: Option<Spanned<f64>>,
     #[serde(rename = "material")]
     _material: Option<MaterialFile>,
     #[serde(default)]
@@ -111,16 +112,38 @@ impl LoadPath {
         let source = Source { name, text };
         let file: PathFile = source.parse()?;
         let units = units::system(&source, &file.units)?;
-        let points = points(&source, laws, &file, &units)?;
+        let mut points = points(&source, laws, &file, &units)?;
+        set_temperature(&source, &file, &mut points)?;
         Ok(LoadPath {
             title: file.title.clone().unwrap_or_else(|| name.to_string()),
             element: element(&file.element),
-            steps: steps(&source, &file.step)?,
+            steps: steps(&source, &file.step, points.iter().any(takes_time))?,
             abscissa: abscissa(&source, &file.plot, &points)?,
             units,
             points,
         })
     }
+}
+
+/// Gives the points the temperature of the file.
+///
+/// # Errors
+/// There is none, and a law reads it; or there is one that is no number, or that no law reads.
+fn set_temperature(source: &Source<'_>, file: &PathFile, points: &mut [Point]) -> Result<(), Error> {
+    let reads = |point: &Point| point.material.law.name().description().reads.temperature;
+    let Some(temperature) = &file.temperature else {
+        let Some(point) = points.iter().find(|point| reads(point)) else { return Ok(()) };
+        let message = format!("temperature is missing; the law {} reads it", point.material.law_name());
+        return Err(source.error(file.units.span(), &message));
+    };
+    let value = source.finite("temperature", *temperature.get_ref(), temperature.span())?;
+    if !points.iter().any(reads) {
+        return Err(source.error(temperature.span(), "temperature is read by none of the laws"));
+    }
+    for point in points {
+        point.material.temperature = Some(value);
+    }
+    Ok(())
 }
 
 fn element(size: &Option<Numbers<3, Positive>>) -> Hexahedron {
@@ -162,7 +185,13 @@ fn points(source: &Source<'_>, laws: Laws, file: &PathFile, units: &UnitSystem) 
     Ok(points)
 }
 
-fn steps(source: &Source<'_>, file: &[Spanned<StepFile>]) -> Result<Vec<Step>, Error> {
+/// Whether the law of a point does something while its deformation is held.
+fn takes_time(point: &Point) -> bool {
+    let reads = point.material.law.name().description().reads;
+    reads.time_increment || reads.time
+}
+
+fn steps(source: &Source<'_>, file: &[Spanned<StepFile>], takes_time: bool) -> Result<Vec<Step>, Error> {
     if file.is_empty() {
         return Err(source.error(0..0, "no [[step]]: a load path needs one at least"));
     }
@@ -175,7 +204,7 @@ fn steps(source: &Source<'_>, file: &[Spanned<StepFile>]) -> Result<Vec<Step>, E
         }
     }
     let (mut steps, mut number) = (Vec::new(), 0);
-    unroll(source, file, 1, &mut number, &mut steps)?;
+    unroll(source, file, takes_time, 1, &mut number, &mut steps)?;
     Ok(steps)
 }
 
@@ -183,6 +212,7 @@ fn steps(source: &Source<'_>, file: &[Spanned<StepFile>]) -> Result<Vec<Step>, E
 fn unroll(
     source: &Source<'_>,
     file: &[Spanned<StepFile>],
+    takes_time: bool,
     cycle: usize,
     number: &mut usize,
     steps: &mut Vec<Step>,
@@ -191,14 +221,14 @@ fn unroll(
         let (span, step) = (step.span(), step.get_ref());
         if step.step.is_empty() && step.cycles.is_none() {
             *number += 1;
-            steps.push(read_step(source, step, *number, cycle, span)?);
+            steps.push(read_step(source, step, takes_time, *number, cycle, span)?);
             continue;
         }
         let cycles = cycles(source, step, span)?;
         let first = *number;
         for cycle in 1..=cycles {
             *number = first;
-            unroll(source, &step.step, cycle, number, steps)?;
+            unroll(source, &step.step, takes_time, cycle, number, steps)?;
         }
     }
     Ok(())
@@ -224,6 +254,7 @@ fn cycles(source: &Source<'_>, group: &StepFile, span: Range<usize>) -> Result<u
 fn read_step(
     source: &Source<'_>,
     file: &StepFile,
+    takes_time: bool,
     number: usize,
     cycle: usize,
     span: Range<usize>,
@@ -254,7 +285,8 @@ fn read_step(
         targets[k] = Some(Target::Stress(value));
     }
     let rotation = file.rotation.as_ref().map(|rotation| read_rotation(source, rotation)).transpose()?;
-    if rotation.is_none() && targets.iter().all(Option::is_none) {
+    let holds = takes_time && file.duration.is_some();
+    if rotation.is_none() && targets.iter().all(Option::is_none) && !holds {
         return Err(source.error(span, "the step does nothing; allowed: targets in F or P, or a rotation"));
     }
     let name = file.name.clone().unwrap_or_default();

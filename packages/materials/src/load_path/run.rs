@@ -91,7 +91,7 @@ pub fn run_point<'a>(path: &'a LoadPath, point: &'a Point, progress: &dyn Fn()) 
     let mut control = [Control::Gradient; 9];
     let mut start_of_step = 0.0;
     for (index, step) in path.steps.iter().enumerate() {
-        let ramp = Ramp::new(step, &state, &mut control);
+        let ramp = Ramp::new(step, start_of_step, &state, &mut control);
         let mut from = 0.0;
         for (number, &to) in (1..).zip(&step.fractions) {
             let place = || format!("{step}, increment {number}");
@@ -106,7 +106,7 @@ pub fn run_point<'a>(path: &'a LoadPath, point: &'a Point, progress: &dyn Fn()) 
             if history.failure.is_none() && state.failed() {
                 history.failure = Some(history.increments.len());
             }
-            history.increments.push(state.increment(index, number, start_of_step + to * step.duration));
+            history.increments.push(state.increment(index, number, ramp.time(to)));
             state.iterations = 0;
             from = to;
             progress();
@@ -126,6 +126,7 @@ enum Control {
 /// The prescribed values of a step, at its start and its end.
 struct Ramp<'a> {
     step: &'a Step,
+    start_time: f64,
     start: [Prescribed; 9],
     end: [Prescribed; 9],
     rotation: Matrix3<f64>,
@@ -133,7 +134,7 @@ struct Ramp<'a> {
 
 impl<'a> Ramp<'a> {
     /// The ramp from the current state; what the step does not name is held, in the conjugate that `control` names.
-    fn new(step: &'a Step, state: &PointState, control: &mut [Control; 9]) -> Self {
+    fn new(step: &'a Step, start_time: f64, state: &PointState, control: &mut [Control; 9]) -> Self {
         let mut start = [Prescribed::Gradient(0.0); 9];
         let mut end = start;
         for (k, &component) in COMPONENTS.iter().enumerate() {
@@ -153,7 +154,12 @@ impl<'a> Ramp<'a> {
             };
             (start[k], end[k]) = (from, to);
         }
-        Ramp { step, start, end, rotation: state.q }
+        Ramp { step, start_time, start, end, rotation: state.q }
+    }
+
+    /// The time at the fraction `s` of the step.
+    fn time(&self, s: f64) -> f64 {
+        self.start_time + s * self.step.duration
     }
 
     /// What is prescribed at the fraction `s` of the step, and the rotation on top; exact at the end of the step.
@@ -191,7 +197,7 @@ struct PointState<'a> {
 impl<'a> PointState<'a> {
     fn at_rest(material: &'a Material, element: Hexahedron) -> Result<Self, newton::Failure> {
         let f = Matrix3::identity();
-        let answer = material.evaluate(&f, &material.at_rest(), Request::ALL).map_err(newton::Failure::Law)?;
+        let answer = material.evaluate(&f, 0.0, &material.at_rest(), Request::ALL).map_err(newton::Failure::Law)?;
         let p = first_piola_kirchhoff(&answer.cauchy, &f);
         let scale = material.stress_scale();
         Ok(PointState { material, element, scale, answer, f, p, q: f, held: [0.0; 9], work: 0.0, iterations: 0 })
@@ -210,10 +216,10 @@ impl<'a> PointState<'a> {
     /// Advances along the ramp, in halves where the whole cannot be solved.
     fn advance(&mut self, ramp: &Ramp, from: f64, to: f64, halvings: usize) -> Result<(), newton::Failure> {
         let (prescribed, q) = ramp.at(to);
-        let failure = match self.solve(&prescribed, &q) {
+        let failure = match self.solve(&prescribed, &q, ramp.time(to)) {
             Ok(solution) => {
                 self.iterations += solution.residuals.len() - 1;
-                return self.accept(&solution.f, &q, &prescribed);
+                return self.accept(&solution.f, &q, ramp.time(to), &prescribed);
             }
             Err(failure) => failure,
         };
@@ -229,12 +235,17 @@ impl<'a> PointState<'a> {
     }
 
     /// The deformation gradient, before the rotation, that meets what is prescribed.
-    fn solve(&self, prescribed: &[Prescribed; 9], q: &Matrix3<f64>) -> Result<newton::Solution, newton::Failure> {
+    fn solve(
+        &self,
+        prescribed: &[Prescribed; 9],
+        q: &Matrix3<f64>,
+        time: f64,
+    ) -> Result<newton::Solution, newton::Failure> {
         // The rotation acts on the first index of P and F.
         let rotation = SMatrix::<f64, 3, 3>::identity().kronecker(q);
         let stress = |f: &Matrix3<f64>| {
             let rotated = q * f;
-            let (cauchy, tangent) = self.material.tangent(&rotated, &self.answer.memory)?;
+            let (cauchy, tangent) = self.material.tangent(&rotated, time, &self.answer.memory)?;
             let p = q.transpose() * first_piola_kirchhoff(&cauchy, &rotated);
             Ok((p, rotation.transpose() * tangent * rotation))
         };
@@ -246,11 +257,12 @@ impl<'a> PointState<'a> {
         &mut self,
         f: &Matrix3<f64>,
         q: &Matrix3<f64>,
+        time: f64,
         prescribed: &[Prescribed; 9],
     ) -> Result<(), newton::Failure> {
         let rotated = q * f;
         let answer =
-            self.material.evaluate(&rotated, &self.answer.memory, Request::ALL).map_err(newton::Failure::Law)?;
+            self.material.evaluate(&rotated, time, &self.answer.memory, Request::ALL).map_err(newton::Failure::Law)?;
         let p = q.transpose() * first_piola_kirchhoff(&answer.cauchy, &rotated);
         // A point that has failed before takes no work; the rotation never does.
         if !self.failed() {

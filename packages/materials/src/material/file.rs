@@ -141,7 +141,7 @@ pub fn read_material(
     let density = value(&file.density).or(preset.as_ref().and_then(|preset| preset.density_in(units)));
     let origin = preset.as_ref().map_or(Origin::default(), |preset| file.origin(preset));
     let label = preset.map_or_else(|| law_name.text().to_string(), |preset| preset.name);
-    Ok(Material { law, density, label, own: file.own_text(law_name.table(), units), origin })
+    Ok(Material { law, density, label, own: file.own_text(law_name.table(), units), origin, temperature: None })
 }
 
 fn preset(source: &Source<'_>, laws: Laws, name: &Spanned<String>) -> Result<Preset, Error> {

@@ -38,6 +38,8 @@ pub struct Material {
     /// What is other than the preset has it, as in `k_ld = 126 MPa; density = 1.44e-3 g/mm³`.
     pub own: String,
     pub origin: Origin,
+    /// The temperature of its points, for a law that reads it.
+    pub temperature: Option<f64>,
 }
 
 /// Where a material's values come from.
@@ -51,8 +53,9 @@ pub struct Origin {
 /// The history of a point: what it keeps from one increment to the next.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Memory {
-    /// Deformation gradient of the last increment.
+    /// Deformation gradient of the last increment, and the time at its end.
     pub f: Matrix3<f64>,
+    pub time: f64,
     /// The law's state variables.
     pub state: Vec<f64>,
     /// The linear elastic law's axes, which follow the spin where that is its frame.
@@ -209,14 +212,14 @@ impl Material {
             Law::LinearElastic { law, .. } => law.reference_axes(),
         };
         let state = if let Law::Own(own) = &self.law { own.fresh() } else { vec![0.0; self.state_table().len()] };
-        Memory { f: Matrix3::identity(), state, axes }
+        Memory { f: Matrix3::identity(), time: 0.0, state, axes }
     }
 
-    /// The stress and the new memory at the deformation gradient `f`.
+    /// The stress and the new memory at the deformation gradient `f` and the time `time`, for a law that reads it.
     ///
     /// # Errors
     /// The law's status code where it cannot be evaluated.
-    pub fn evaluate(&self, f: &Matrix3<f64>, memory: &Memory, request: Request) -> Result<Answer, i32> {
+    pub fn evaluate(&self, f: &Matrix3<f64>, time: f64, memory: &Memory, request: Request) -> Result<Answer, i32> {
         let mut axes = memory.axes;
         let none = [[0.0; 6]; 4];
         let (status, cauchy, state, modes, wave_modulus) = match &self.law {
@@ -229,19 +232,19 @@ impl Material {
                 (point.status, point.stress, point.state.to_vec(), none, law.wave_modulus())
             }
             Law::Own(own) => {
-                let point = own.point(&memory.f, f, &memory.state, None);
+                let point = own.point([&memory.f, f], [memory.time, time], self.temperature, &memory.state, None);
                 (point.status[0], array(&point.stress), point.state, none, point.wave_modulus[0])
             }
         };
-        let memory = Memory { f: *f, state, axes };
+        let memory = Memory { f: *f, time, state, axes };
         if status == status::OK { Ok(Answer { cauchy, memory, modes, wave_modulus }) } else { Err(status) }
     }
 
-    /// The Cauchy stress at the deformation gradient `f`, and dP/dF.
+    /// The Cauchy stress at the deformation gradient `f` and the time `time`, and dP/dF.
     ///
     /// # Errors
     /// The law's status code where it cannot be evaluated.
-    pub fn tangent(&self, f: &Matrix3<f64>, memory: &Memory) -> Result<([f64; 6], NominalTangent), i32> {
+    pub fn tangent(&self, f: &Matrix3<f64>, time: f64, memory: &Memory) -> Result<([f64; 6], NominalTangent), i32> {
         let (cauchy, nominal, status) = match &self.law {
             Law::Hyperelastic { law, .. } => {
                 let request = Request { stress: true, ..Request::default() };
@@ -254,7 +257,9 @@ impl Material {
                 (point.stress, tangent.nominal(f, &point.stress), point.status)
             }
             Law::Own(own) => {
-                let point = own.point(&memory.f, f, &memory.state, Some(Measure::Nominal));
+                let times = [memory.time, time];
+                let measure = Some(Measure::Nominal);
+                let point = own.point([&memory.f, f], times, self.temperature, &memory.state, measure);
                 // By rows there.
                 let nominal = std::array::from_fn(|entry| point.tangent[entry % 9 * 9 + entry / 9]);
                 (array(&point.stress), nominal, point.status[0])

@@ -1,7 +1,7 @@
 //! A law of one's own, as a program of its own has it: its names in files and solvers, and its evaluation behind one interface.
 
 use std::fmt;
-use std::ptr::null_mut;
+use std::ptr::{null, null_mut};
 use std::sync::Arc;
 
 use nalgebra::Matrix3;
@@ -9,6 +9,7 @@ use toron::Level;
 use toron::host::laws::{LAWS, LibraryLaw};
 use toron::host::prepared::AsNumbers;
 use toron::host::{Material, is_name, is_number};
+use toron::law::block::Circumstances;
 use toron::law::description::Description;
 use toron::law::interface::{Law, Points};
 use toron::{Error, Measure};
@@ -122,6 +123,11 @@ pub struct PointArrays {
     /// F at the start and at the end of the step, by columns.
     pub f_old: Vec<f64>,
     pub f: Vec<f64>,
+    /// The length of the step, and the time at its end.
+    pub time_increment: f64,
+    pub time: f64,
+    /// The temperature of each point; empty where it is not known.
+    pub temperature: Vec<f64>,
     /// The fibre direction of each point; empty for that of the properties.
     pub fibre: Vec<f64>,
     /// The state before the call, and after it.
@@ -168,6 +174,9 @@ impl Own {
             stride,
             f_old: f.clone(),
             f,
+            time_increment: 0.0,
+            time: 0.0,
+            temperature: Vec::new(),
             fibre: Vec::new(),
             state: filled(&self.fresh()),
             stress: vec![0.0; 6 * stride],
@@ -194,9 +203,17 @@ impl Own {
         self.prepared.step(points).map(|_| ())
     }
 
-    /// One point: a step from one deformation gradient to another.
-    pub fn point(&self, old: &Matrix3<f64>, f: &Matrix3<f64>, state: &[f64], measure: Option<Measure>) -> PointArrays {
-        let mut point = self.at_rest(1, 1, measure);
+    /// One point: a step from one deformation gradient and time to others.
+    pub fn point(
+        &self,
+        [old, f]: [&Matrix3<f64>; 2],
+        [start, time]: [f64; 2],
+        temperature: Option<f64>,
+        state: &[f64],
+        measure: Option<Measure>,
+    ) -> PointArrays {
+        let temperature = temperature.into_iter().collect();
+        let mut point = PointArrays { time_increment: time - start, time, temperature, ..self.at_rest(1, 1, measure) };
         point.f_old.copy_from_slice(old.as_slice());
         point.f.copy_from_slice(f.as_slice());
         point.state.copy_from_slice(state);
@@ -227,12 +244,17 @@ impl<L: Law<f64> + Send + Sync> Prepared for L {
     }
 
     fn step(&self, points: &mut PointArrays) -> Result<i32, Error> {
-        let PointArrays { n, stride, f_old, f, fibre, state, stress, wave_modulus, measure, tangent, status, level } =
-            points;
+        let PointArrays { n, stride, f_old, f, time_increment, time, temperature, .. } = points;
+        let PointArrays { fibre, state, stress, wave_modulus, measure, tangent, status, level, .. } = points;
         let components = |array: &[f64]| std::array::from_fn(|c| array[c * *stride..].as_ptr());
         let own = Points {
             f_old: components(f_old),
             f_new: components(f),
+            circumstances: Circumstances {
+                time_increment: *time_increment,
+                time: *time,
+                temperature: if temperature.is_empty() { null() } else { temperature.as_ptr() },
+            },
             state_old: L::parts(state.as_ptr(), *stride),
             state_new: L::parts_mut(state.as_mut_ptr(), *stride),
             // With the density 1 the square of the speed is the modulus.

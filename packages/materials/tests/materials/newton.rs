@@ -14,14 +14,21 @@ fn material(preset: &str, frame: Rotation, changed: &[(usize, f64)]) -> Material
         values[index] = value;
     }
     let law = Law::new(preset.into(), &values, frame, Criterion::LargestPrincipal).expect("valid properties");
-    Material { law, density: None, label: preset.name.into(), own: String::new(), origin: Default::default() }
+    Material {
+        law,
+        density: None,
+        label: preset.name.into(),
+        own: String::new(),
+        origin: Default::default(),
+        temperature: None,
+    }
 }
 
 /// The way to the deformation gradient at which the law carries the stress of `target`, from `start`.
 fn way(material: &Material, start: &Matrix3<f64>, target: &Matrix3<f64>) -> Solution {
     let memory = material.at_rest();
     let stress = |f: &Matrix3<f64>| {
-        let (cauchy, tangent) = material.tangent(f, &memory)?;
+        let (cauchy, tangent) = material.tangent(f, 0.0, &memory)?;
         Ok((first_piola_kirchhoff(&cauchy, f), tangent))
     };
     let (wanted, _) = stress(target).expect("a state");

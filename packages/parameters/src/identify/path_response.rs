@@ -111,7 +111,7 @@ impl PathResponse {
             return Ok(response);
         }
         let refused = |code: i32| format!("the law has no tangent here: status {code}");
-        let (_, tangent) = material.tangent(&increment.f, &material.at_rest()).map_err(refused)?;
+        let (_, tangent) = material.tangent(&increment.f, 0.0, &material.at_rest()).map_err(refused)?;
         let by_columns = |k: usize| COMPONENTS[k].0 + 3 * COMPONENTS[k].1;
         let stiffness = |row: usize, column: usize| tangent[(by_columns(row), by_columns(column))];
         let matrix = DMatrix::from_fn(free.len(), free.len(), |i, j| stiffness(free[i], free[j]));

@@ -60,7 +60,7 @@ impl Deck {
         (0..=STEPS)
             .map(|step| {
                 let time = self.end * step as f64 / STEPS as f64;
-                let answer = material.evaluate(&(point.path)(time), &memory, Request::ALL).expect("an answer");
+                let answer = material.evaluate(&(point.path)(time), time, &memory, Request::ALL).expect("an answer");
                 memory = answer.memory;
                 let stress = answer.cauchy.map(|s| if s.abs() < 5e-5 { 0.0 } else { s });
                 (time, stress, material.energy(&memory), material.failed(&memory))
