@@ -1,6 +1,7 @@
 //! A program for a law of one's own: its load paths against the closed form, its tables, messages and cards.
 
 use std::path::{Path, PathBuf};
+use std::process::Command;
 
 use clap::Parser;
 use nalgebra::Matrix3;
@@ -149,6 +150,33 @@ fn a_point_has_the_time_that_its_line_says() {
     let refused = ask("");
     assert_eq!(refused["status"], status::BAD_ARGUMENT);
     assert!(refused["message"].to_string().contains("time_increment is not known here"), "{refused}");
+}
+
+/// `examples/own_law/new-law` makes a law under another name in every place.
+#[test]
+fn a_new_law_is_the_example_under_its_own_name() {
+    let script = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples/own_law/new-law");
+    let folder = folder("new-law").join("maxwell-yarn");
+    let _ = std::fs::remove_dir_all(&folder);
+    let run = |arguments: &[&str]| Command::new(script).args(arguments).arg(&folder).output().expect("sh runs");
+    for (wrong, message) in [(["Maxwell", "7"], "a small letter first"), (["maxwell", "0"], "allowed: 1 to 99")] {
+        let refused = run(&wrong);
+        assert_eq!(refused.status.code(), Some(2));
+        assert!(String::from_utf8_lossy(&refused.stderr).contains(message), "{refused:?}");
+    }
+    assert!(run(&["maxwell-yarn", "7"]).status.success());
+    for file in ["Cargo.toml", "double/Cargo.toml", "double/src/lib.rs", "program/Cargo.toml", "program/src/main.rs"] {
+        let text = std::fs::read_to_string(folder.join(file)).expect(file).to_lowercase();
+        assert!(!text.contains("reinforced") && !text.contains("viscoelastic") && !text.contains("own_law"), "{text}");
+    }
+    let library = std::fs::read_to_string(folder.join("double/src/lib.rs")).expect("the library");
+    assert!(library.contains("maxwell_yarn::MaxwellYarn as \"MAXWELL_YARN\", user 7;"), "{library}");
+    let mut cargo = Command::new(env!("CARGO"));
+    cargo
+        .args(["check", "--quiet", "--offline", "--package", "maxwell-yarn", "--target-dir"])
+        .arg(folder.join("target"));
+    let checked = cargo.current_dir(&folder).output().expect("cargo runs");
+    assert!(checked.status.success(), "{}", String::from_utf8_lossy(&checked.stderr));
 }
 
 #[test]
