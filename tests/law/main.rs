@@ -9,5 +9,6 @@ mod linear_elastic;
 mod parameters;
 mod properties;
 mod tangent;
+mod tensor;
 mod user;
 mod wave_speed;

@@ -8,6 +8,7 @@ pub mod real;
 pub(crate) mod registers;
 mod scalar;
 mod series;
+pub mod tensor;
 pub(crate) mod twice;
 pub mod vector;
 #[cfg(target_arch = "x86_64")]

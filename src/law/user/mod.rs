@@ -19,7 +19,7 @@ mod tangent;
 pub use super::description::{Description, Direction, MOST_DIRECTIONS, Reads};
 pub use super::number::dual::Dual;
 pub use super::number::real::Real;
-pub use super::number::vector;
+pub use super::number::{tensor, vector};
 
 /// What the table of properties is made of.
 pub mod parameters {
@@ -67,7 +67,14 @@ pub trait UserMaterial: Copy + Default + Send + Sync + 'static {
         Ok(())
     }
 
-    /// The constants of the formulas, from properties that have been checked.
+    /// The properties as the formulas use them, in plain arithmetic, once where the law is prepared: an angle may become its
+    /// cosine. By default they are those that have been checked, as they are; the directions are always those of the
+    /// properties themselves.
+    fn prepare(properties: &Self::Properties<f64>) -> Self::Properties<f64> {
+        *properties
+    }
+
+    /// The constants of the formulas, from properties that have been checked and [prepared](Self::prepare).
     fn constants<R: Real>(properties: &Self::Properties<R>) -> Self::Constants<R>;
 
     /// The law: stress and new state at the end of a step. Written without branches on a point's value: a choice is
@@ -274,11 +281,14 @@ impl<M: UserMaterial, T: Precision> User<M, T> {
         let zero = T::splat(0.0);
         let mut own = M::Properties::<T>::filled(zero);
         let mut doubled = M::Properties::<f64>::filled(0.0);
-        for ((to, double), &from) in own.as_mut().iter_mut().zip(doubled.as_mut()).zip(properties) {
-            (*to, *double) = (from, from.into());
+        for (double, &from) in doubled.as_mut().iter_mut().zip(properties) {
+            *double = from.into();
         }
         let directions = Self::directions(properties)?;
         M::check(&doubled).map_err(Error::for_caller_of::<T>)?;
+        for (to, &from) in own.as_mut().iter_mut().zip(M::prepare(&doubled).as_ref()) {
+            *to = T::splat(from);
+        }
         Ok(User { properties: own, directions })
     }
 
