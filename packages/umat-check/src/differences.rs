@@ -67,8 +67,8 @@ type Stress<'a> = dyn FnMut(usize, f64) -> Option<Components> + 'a;
 fn differences(components: usize, halvings: usize, stress: &mut Stress) -> Option<Derivative> {
     let mut all = Derivative { value: [[0.0; 6]; 6], error: [[f64::INFINITY; 6]; 6], kinks: [[false; 6]; 6] };
     let mut jumps = [[0.0; 6]; 6];
-    for j in 0..components {
-        let column = column(j, halvings, stress)?;
+    let columns: Option<Vec<Column>> = (0..components).map(|j| column(j, halvings, stress)).collect();
+    for (j, column) in columns?.iter().enumerate() {
         for (i, candidates) in column.candidates.iter().enumerate() {
             for candidate in candidates {
                 if candidate.error < all.error[i][j] {
@@ -239,7 +239,7 @@ mod tests {
             assert!(kinked.kinks[..3].iter().all(|row| row[..3] == [true; 3]), "{kinked:?}");
         }
         // Nor is one of a branch that is narrower than nearly all steps.
-        let narrow = |h: f64| (h + 1e-2 * (h.clamp(-2e-6, 3e-6)));
+        let narrow = |h: f64| h + 1e-2 * h.clamp(-2e-6, 3e-6);
         let kinked = differences(3, HALVINGS, &mut |_, h| Some([narrow(h); 6])).expect("finite");
         assert!((kinked.value[0][0] - 1.01).abs() < 20.0 * kinked.error[0][0], "{kinked:?}");
         let aside = |h: f64| h + 10.0 * h * h + 1e-3 * (h - 1e-5).max(0.0);

@@ -187,7 +187,8 @@ impl Deck {
         if keyword.label("TYPE").is_some_and(|kind| kind != "MECHANICAL") {
             return Ok(Data::None);
         }
-        let constants: usize = match keyword.value("CONSTANTS") {
+        // Abaqus takes CONST too.
+        let constants: usize = match keyword.value("CONSTANTS").or(keyword.value("CONST")) {
             Some(value) => keyword.line.number("CONSTANTS", value)?,
             None => return Err(keyword.line.error("*USER MATERIAL without CONSTANTS; allowed: CONSTANTS=NUMBER")),
         };
@@ -400,7 +401,7 @@ mod tests {
     fn a_deck_says_what_its_materials_are() {
         let deck = "*Parameter\nBULK = 20.\n*Part, name=P\n*Element, type=CPE4R\n7, 1, 2, 3, 4\n*Elset, elset=ALL, generate\n\
                     7, 7, 1\n*Solid Section, elset=ALL, material=Soft, orientation=O\n,\n*End Part\n*Material, name=SOFT\n\
-                    *Density\n7.8e-9,\n*Depvar, delete=2\n3,\n1, A, \"first\"\n*User Material, constants=2, unsymm\n0.8, <BULK>\n\
+                    *Density\n7.8e-9,\n*Depvar, delete=2\n3,\n1, A, \"first\"\n*User Material, const=2, unsymm\n0.8, <BULK>\n\
                     *Initial Conditions, type=FIELD, variable=2\nI.LEFT, 5.\nI.RIGHT, 5.\n\
                     *Initial Conditions, type=TEMPERATURE\nI.LEFT, 5.\nI.RIGHT, 6.\n\
                     *Initial Conditions, type=STRESS\nI.ALL, -1., -2., -3.\n*Initial Conditions, type=SOLUTION\nI.ALL, 4., 5.\n\
