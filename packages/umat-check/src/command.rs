@@ -72,6 +72,9 @@ pub struct Arguments {
     /// NTENS: 6, 4 (plane strain, axisymmetric), 3 (plane stress), 2 (shells of revolution) or 1 (trusses).
     #[arg(long)]
     ntens: Option<usize>,
+    /// Of cohesive elements with traction and separation, NTENS 3 or 2: the largest separation, as STRAN has it.
+    #[arg(long)]
+    separation: Option<f64>,
     /// What the law is: hyperelastic, dissipative, isotropic.
     #[arg(long, value_delimiter = ',')]
     traits: Option<Vec<String>>,
@@ -150,6 +153,7 @@ pub fn run(program: &str, arguments: &Arguments) -> Result<(), Error> {
         properties: arguments.props.clone(),
         states: arguments.statev,
         components: arguments.ntens,
+        separation: arguments.separation,
         plane: None,
         traits: arguments.traits.clone(),
         name: arguments.name.clone(),
@@ -390,6 +394,13 @@ impl Check<'_> {
                 Err(ending) if question.may_end() => {
                     let text = format!("the law does not answer: {}", ending.text);
                     return Ok(Finding::new(question, Verdict::NotAsked, None, text));
+                }
+                // No solver passes NaN or an inverted F for long: to end by STOP or XIT is right there.
+                Err(ending) if question == Question::Invalid => {
+                    let is_meant = matches!(ending.kind.as_str(), "stop" | "XIT");
+                    let verdict = if is_meant { Verdict::Right } else { Verdict::Warning };
+                    let text = format!("NaN or an inverted F: {}", ending.text);
+                    return Ok(Finding::new(question, verdict, None, text).with(&ending.kind));
                 }
                 Err(ending) => return self.ending_as_finding(material, question, ending, guard, ended),
             }

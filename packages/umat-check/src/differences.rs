@@ -189,11 +189,11 @@ pub fn of_deformation(
 
 /// The plain ∂Δσ/∂Δε: the strain increment grows, the rotation stays.
 pub fn of_strain_increment(session: &mut Session, base: &Call) -> Option<Derivative> {
-    let components = session.material.components;
+    let (components, layout) = (session.material.components, session.material.layout());
     differences(components, halvings(session), &mut |column, size| {
         let mut call = base.clone();
         call.strain_increment[column] += size;
-        call.f1 = exp(&(unit_strain(components, column) * size)) * base.f1;
+        call.f1 = exp(&(unit_strain(layout, column) * size)) * base.f1;
         let answer = session.call_law(&call);
         answered(&answer).then_some(answer.stress)
     })

@@ -75,14 +75,14 @@ fn cycle(session: &mut Session, rng: &mut Rng, parts: usize) -> Result<Option<Cy
 /// P : Ḟ = J σ : (Ḟ F⁻¹).
 fn power(point: &Point, rate: &Matrix3<f64>, material: &Material) -> f64 {
     let Some(inverse) = point.f.try_inverse() else { return f64::NAN };
-    point.global_stress(material).dot(&(rate * inverse)) * point.f.determinant()
+    point.global_stress(material).dot(&(rate * inverse)) * material.volume(&point.f)
 }
 
 /// Whether a potential has the stress.
 pub fn cycles(session: &mut Session, reads: Reads) -> Finding {
     let material = session.material;
     let declared = material.traits;
-    if material.components <= 3 {
+    if !material.has_work() {
         return Finding::new(
             Question::Cycles,
             Verdict::NotAsked,
@@ -173,7 +173,8 @@ fn reported(session: &mut Session, increments: usize) -> Result<Option<Reported>
                 Err(Failure::NotFinite(_)) => return Err("not finite on a straight path".to_string()),
             }
             // τ : D along a path of constant D.
-            let power = point.global_stress(session.material).dot(&strain) * f.determinant() / increments as f64;
+            let volume = session.material.volume(&f);
+            let power = point.global_stress(session.material).dot(&strain) * volume / increments as f64;
             work += 0.5 * (power + power_before);
             power_before = power;
             largest = largest.max(work.abs());
@@ -182,7 +183,7 @@ fn reported(session: &mut Session, increments: usize) -> Result<Option<Reported>
             all.dissipated_untouched &= plastic == 0.0 && creep == 0.0;
             let regained = before[1] + before[2] - plastic - creep;
             let sum = elastic + plastic + creep;
-            let by_volume = work / f.determinant();
+            let by_volume = work / volume;
             differences.push((
                 [(elastic - work).abs(), (elastic - by_volume).abs()],
                 [(sum - work).abs(), (sum - by_volume).abs()],
@@ -234,7 +235,7 @@ const NO_ENERGY: f64 = 1e8;
 
 /// What SSE is.
 pub fn energy(session: &mut Session) -> Finding {
-    if session.material.components <= 3 {
+    if !session.material.has_work() {
         return Finding::new(
             Question::Energy,
             Verdict::NotAsked,
@@ -295,7 +296,7 @@ pub fn energy(session: &mut Session) -> Finding {
 
 /// Whether SPD + SCD ever decrease.
 pub fn dissipation(session: &mut Session) -> Finding {
-    if session.material.components <= 3 {
+    if !session.material.has_work() {
         return Finding::new(
             Question::Dissipation,
             Verdict::NotAsked,

@@ -153,7 +153,7 @@ impl<'a> Sample<'a> {
                 return None;
             }
             if let Some(exact) = exact(session, &self.states[k], convention) {
-                tried.push((k, usual_mistakes(&exact, self.components)));
+                tried.push((k, usual_mistakes(&exact, session.material.layout())));
             }
         }
         Some(tried)

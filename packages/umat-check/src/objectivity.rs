@@ -29,6 +29,9 @@ struct Worst {
 
 /// Superposed rotations: of a total law at once, of others in turns as solvers have them.
 pub fn objectivity(session: &mut Session, reads: Reads) -> Finding {
+    if session.material.separation.is_some() {
+        return Finding::new(Question::Objectivity, Verdict::NotAsked, None, "tractions turn with their element");
+    }
     if reads == Reads::Total { at_large_turns(session) } else { at_small_turns(session) }
 }
 
@@ -106,7 +109,7 @@ pub fn isotropy(session: &mut Session) -> Finding {
     if !material.traits.isotropic && material.fibres.is_empty() {
         return Finding::new(Question::Isotropy, Verdict::NotAsked, None, "neither isotropic nor fibres are declared");
     }
-    if material.orientation {
+    if material.orientation || material.separation.is_some() {
         return Finding::new(Question::Isotropy, Verdict::NotAsked, None, "on the material's own axes");
     }
     let rotations = |rng: &mut Rng, material: &Material, number: usize, count: usize| {

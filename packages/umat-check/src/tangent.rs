@@ -11,9 +11,9 @@ use super::finding::{Finding, NOT_FINITE, Question, Verdict};
 use super::histories::history;
 use super::hypotheses::stress_by_volume;
 use super::judgement::{Difference, compare, contraction, wrong_entries};
-use super::kinematics::{Components, Increment, Modulus, name};
+use super::kinematics::{Components, Increment, Layout, Modulus, name};
 use super::map::{self, Branch};
-use super::material::{Reads, direct};
+use super::material::{Material, Reads, direct};
 use super::mistakes::{self, Sample};
 use super::noise;
 use super::point::{Failure, Point};
@@ -48,9 +48,11 @@ pub enum Convention {
 }
 
 impl Convention {
-    fn of(reads: Reads, components: usize) -> &'static [Convention] {
+    fn of(reads: Reads, material: &Material) -> &'static [Convention] {
         use Convention::{Jaumann, Plain, PlainWithVolume};
+        let components = material.components;
         match reads {
+            _ if material.separation.is_some() => &[Plain],
             // Where there is no strain across the law alone knows the thickness, and so J.
             _ if components <= 3 => &[Plain, PlainWithVolume],
             Reads::Total => &[Jaumann],
@@ -140,7 +142,7 @@ fn tangent_in_order(session: &mut Session, reads: Reads, allowed: Option<f64>) -
     if broken && states.is_empty() {
         return not_sure("the law asks for smaller increments at every state");
     }
-    let conventions = Convention::of(reads, components);
+    let conventions = Convention::of(reads, session.material);
     let Some((mut convention, mut found)) = best_convention(&states, conventions, components) else {
         return Finding::new(Question::Tangent, Verdict::NotAsked, None, "");
     };
@@ -164,7 +166,8 @@ fn tangent_in_order(session: &mut Session, reads: Reads, allowed: Option<f64>) -
         return not_sure("no state has sure differences");
     };
     let (unsure, aside) = without_sure_differences(&states, &found);
-    let judged = Judged { states: &states, found: &found, convention, components };
+    let layout = session.material.layout();
+    let judged = Judged { states: &states, found: &found, convention, components, layout };
     let within = steps.is_some_and(|steps| judged.largest_error() < OF_STEPS * steps);
     if difference.worst <= TOLERANCE || within {
         let text = format!("{} at {} states{aside}", convention.name(), states.len());
@@ -213,6 +216,7 @@ struct Judged<'a> {
     found: &'a [Option<Difference>],
     convention: Convention,
     components: usize,
+    layout: Layout,
 }
 
 /// Of the stiffness, what differences err by at most for steps of the stress of one part of it.
@@ -275,12 +279,12 @@ impl Judged<'_> {
     /// These entries in words.
     fn named(&self, all: &[(usize, usize)]) -> String {
         let direct = direct(self.components);
-        let named = |(i, j): &(usize, usize)| format!("({}, {})", name(self.components, *i), name(self.components, *j));
+        let named = |(i, j): &(usize, usize)| format!("({}, {})", name(self.layout, *i), name(self.layout, *j));
         match all {
             [] => String::new(),
             few if few.len() <= 4 => format!("in {} alone", few.iter().map(named).collect::<Vec<_>>().join(", ")),
-            _ if all.iter().all(|&(i, j)| i < direct && j < direct) => {
-                let names = (0..direct).map(|i| name(self.components, i)).collect::<Vec<_>>();
+            _ if !self.layout.traction && all.iter().all(|&(i, j)| i < direct && j < direct) => {
+                let names = (0..direct).map(|i| name(self.layout, i)).collect::<Vec<_>>();
                 format!("in {} alone", names.join(", "))
             }
             _ if all.iter().all(|&(i, j)| i >= direct && j >= direct) => "in shears by shears alone".to_string(),
@@ -333,7 +337,7 @@ fn wrong_tangent(
     tolerance: f64,
     aside: &str,
 ) -> Finding {
-    let &Judged { states, found, convention, components } = judged;
+    let &Judged { states, found, convention, components, layout } = judged;
     let those = |is_wrong: bool| {
         let judged = |k: &usize| found[*k].is_some_and(|difference| (difference.worst > TOLERANCE) == is_wrong);
         (0..states.len()).filter(judged).collect::<Vec<usize>>()
@@ -341,9 +345,10 @@ fn wrong_tangent(
     let (wrong, right) = (those(true), those(false));
     let (at, difference) = worst(found).unwrap_or_default();
     let (i, j) = difference.place;
-    let place = format!("({}, {})", name(components, i), name(components, j));
-    let instead = states[at].truth(convention, components).map_or(f64::NAN, |(_, truth)| truth[i][j]);
-    let is = states[at].modulus[i][j];
+    let place = format!("({}, {})", name(layout, i), name(layout, j));
+    let unit = session.material.unit_of_strain();
+    let instead = states[at].truth(convention, components).map_or(f64::NAN, |(_, truth)| truth[i][j]) / unit;
+    let is = states[at].modulus[i][j] / unit;
     let factor = wrong.iter().filter_map(|&k| {
         let (_, truth) = states[k].truth(convention, components)?;
         contraction(&states[k].modulus, &truth, components)
@@ -541,7 +546,7 @@ fn derivatives(
     f1: &Matrix3<f64>,
     reads: Reads,
 ) -> (Option<Derivative>, Option<Derivative>) {
-    let conventions = Convention::of(reads, session.material.components);
+    let conventions = Convention::of(reads, session.material);
     let jaumann = conventions.contains(&Convention::Jaumann);
     let plain = conventions.contains(&Convention::Plain);
     (
