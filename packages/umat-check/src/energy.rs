@@ -132,7 +132,7 @@ pub fn cycles(session: &mut Session, reads: Reads) -> Finding {
     Finding::new(Question::Cycles, Verdict::Right, Some((-gained).max(0.0)), text)
 }
 
-/// What SSE, SPD and SCD are along straight paths from rest.
+/// What SSE, SPD and SCD are along straight paths from rest and back.
 struct Reported {
     /// The largest difference of SSE, or of SSE + SPD + SCD, from W and from W/J, as parts of the largest W.
     from_work: [f64; 2],
@@ -141,7 +141,7 @@ struct Reported {
     dissipated_untouched: bool,
     /// The largest decrease of SPD + SCD, there and back, as a part of W.
     regained: f64,
-    /// SPD + SCD at the ends of the paths, all together.
+    /// SPD + SCD at the far ends of the paths, all together.
     dissipated: f64,
 }
 
@@ -164,37 +164,39 @@ fn reported(session: &mut Session, increments: usize) -> Result<Option<Reported>
         let mut point = Point::virgin(session, [1, 1]);
         let (mut work, mut largest, mut power_before) = (0.0, 0.0_f64, 0.0);
         let mut differences = Vec::new();
-        for k in 1..=increments {
+        // There and back.
+        let back = (0..increments).rev().map(|k| (k, -1.0));
+        for (k, sense) in (1..=increments).map(|k| (k, 1.0)).chain(back) {
             let f = exp(&(strain * (k as f64 / increments as f64)));
             let before = point.energies;
             match point.advance_in(session, &f, time_step) {
                 Ok(_) => {}
+                Err(Failure::Refused) if sense < 0.0 => break,
                 Err(Failure::Refused) => return Ok(None),
-                Err(Failure::NotFinite(_)) => return Err("not finite on a straight path".to_string()),
+                Err(Failure::NotFinite(_)) => return Err("not finite on a straight path there and back".to_string()),
             }
             // τ : D along a path of constant D.
             let volume = session.material.volume(&f);
             let power = point.global_stress(session.material).dot(&strain) * volume / increments as f64;
-            work += 0.5 * (power + power_before);
+            work += 0.5 * sense * (power + power_before);
             power_before = power;
             largest = largest.max(work.abs());
             let [elastic, plastic, creep] = point.energies;
             all.untouched &= elastic == 0.0;
             all.dissipated_untouched &= plastic == 0.0 && creep == 0.0;
-            let regained = before[1] + before[2] - plastic - creep;
             let sum = elastic + plastic + creep;
             let by_volume = work / volume;
             differences.push((
                 [(elastic - work).abs(), (elastic - by_volume).abs()],
                 [(sum - work).abs(), (sum - by_volume).abs()],
-                regained,
+                before[1] + before[2] - plastic - creep,
             ));
+            if k == increments {
+                all.dissipated += plastic + creep;
+            }
         }
-        all.dissipated += point.energies[1] + point.energies[2];
-        let regained_back = regained_back(session, &mut point, &strain, increments)?;
         if largest > 0.0 {
             asked += 1;
-            all.regained = all.regained.max(regained_back / largest);
             for (elastic, sum, regained) in differences {
                 for i in 0..2 {
                     all.elastic_alone_from_work[i] = all.elastic_alone_from_work[i].max(elastic[i] / largest);
@@ -205,29 +207,6 @@ fn reported(session: &mut Session, increments: usize) -> Result<Option<Reported>
         }
     }
     Ok((asked > 0).then_some(all))
-}
-
-/// The largest decrease of SPD + SCD on the way back to rest, as far as there is one.
-fn regained_back(
-    session: &mut Session,
-    point: &mut Point,
-    strain: &Matrix3<f64>,
-    increments: usize,
-) -> Result<f64, String> {
-    let time_step = session.material.time_step * STRAIGHT as f64 / increments as f64;
-    let mut regained = 0.0_f64;
-    for k in (0..increments).rev() {
-        let before = point.energies;
-        let f = exp(&(strain * (k as f64 / increments as f64)));
-        match point.advance_in(session, &f, time_step) {
-            Ok(_) => {}
-            Err(Failure::Refused) => break,
-            Err(Failure::NotFinite(_)) => return Err("not finite on the way back to rest".to_string()),
-        }
-        let [_, plastic, creep] = point.energies;
-        regained = regained.max(before[1] + before[2] - plastic - creep);
-    }
-    Ok(regained)
 }
 
 /// Of the work: what is no energy at all.

@@ -14,7 +14,7 @@ pub struct ExactTangent {
     pub stress: Components,
     /// On the law's axes.
     pub f: Matrix3<f64>,
-    /// Moduli of other increments from the state: unloading a little, in no time, and going on a little.
+    /// Moduli of other increments from the state: unloading a little, in no time, going on a little, in a long time.
     pub intact: Vec<Modulus>,
 }
 
@@ -202,6 +202,7 @@ pub fn usual_mistakes(exact: &ExactTangent, layout: Layout) -> Vec<Hypothesis> {
         ("intact", "the modulus of unloading"),
         ("intact", "the modulus without time"),
         ("continuum", "the modulus of a vanishing increment, not that of the increment (the consistent one)"),
+        ("relaxed", "the modulus of a very long increment"),
     ];
     for (index, (kind, text)) in others.into_iter().enumerate() {
         let modulus = exact.intact.get(index).copied().unwrap_or(nowhere);
@@ -212,7 +213,7 @@ pub fn usual_mistakes(exact: &ExactTangent, layout: Layout) -> Vec<Hypothesis> {
     }
     add(&["scale"], "all of it", *truth, Factor::OfAllStates);
     // A traction has neither volume nor tensor.
-    let of_traction = ["transposed", "symmetrised", "intact", "continuum", "scale"];
+    let of_traction = ["transposed", "symmetrised", "intact", "continuum", "relaxed", "scale"];
     found.retain(|hypothesis| !layout.traction || of_traction.contains(&hypothesis.kinds[0]));
     found
 }

@@ -27,6 +27,13 @@ const SETTLED: f64 = 1e-3;
 /// An order of convergence below this is none.
 const LOWEST_ORDER: f64 = 0.5;
 
+/// What half the increment leaves of a stress that is of the increment alone, at most; and of which part of the whole
+/// stress it is asked.
+const ALONE: f64 = 0.55;
+const LEAST_PART: f64 = 1e-3;
+/// The order of what grows as the increments shrink.
+const DIVERGES: f64 = -0.5;
+
 /// A path, the stress at its end with the most parts and the largest on the way, and the last change of the first over
 /// the second.
 struct Ended {
@@ -41,6 +48,8 @@ pub fn steps(session: &mut Session) -> Finding {
     let mut largest_change = 0.0_f64;
     let (mut coarse, mut fine, mut last) = (0.0, 0.0, 0.0);
     let (mut compared, mut worst) = (0, None::<Ended>);
+    // Deviator and pressure, each with quarters, eighths and sixteenths of the increment, and the whole stress.
+    let (mut parts, mut whole) = ([[0.0; 3]; 2], 0.0);
     for _ in 0..HISTORIES {
         let mut path = history(&mut rng, session.material, 2);
         path.truncate(INCREMENTS);
@@ -53,6 +62,12 @@ pub fn steps(session: &mut Session) -> Finding {
             continue;
         }
         largest_change = largest_change.max((two - one).norm() / size);
+        whole += size;
+        for (k, stress) in [four, eight, sixteen].iter().enumerate() {
+            let pressure = Matrix3::identity() * (stress.trace() / 3.0);
+            parts[0][k] += (stress - pressure).norm();
+            parts[1][k] += pressure.norm();
+        }
         coarse += (two - one).norm() / size + (four - two).norm() / size;
         last = f64::max(last, (sixteen - eight).norm() / size);
         fine += (eight - four).norm() / size + (sixteen - eight).norm() / size;
@@ -64,6 +79,15 @@ pub fn steps(session: &mut Session) -> Finding {
     }
     if compared == 0 {
         return Finding::new(Question::Steps, Verdict::NotSure, None, "there was no stress");
+    }
+    let shrinks = |[four, eight, sixteen]: &[f64; 3]| {
+        *four > LEAST_PART * whole && *eight < ALONE * four && *sixteen < ALONE * eight
+    };
+    if let Some(part) = parts.iter().position(shrinks) {
+        let part = ["the deviator of the stress", "the pressure"][part];
+        let text =
+            format!("{part} is that of the increment alone, and not added up: with half the increment it is half");
+        return Finding::new(Question::Steps, Verdict::Wrong, Some(largest_change), text).with("not accumulated");
     }
     if largest_change <= SAME {
         let text = "an increment in two gives the same stress";
@@ -89,7 +113,8 @@ pub fn steps(session: &mut Session) -> Finding {
     }
     let text =
         format!("finer increments change the stress by {largest_change:.1e}, and order {order:.1} is no convergence");
-    Finding::new(Question::Steps, Verdict::Warning, Some(order), text).with("no convergence")
+    let verdict = if order < DIVERGES { Verdict::Wrong } else { Verdict::Warning };
+    Finding::new(Question::Steps, verdict, Some(order), text).with("no convergence")
 }
 
 /// The stress at the end of a path in ever more parts, as far as the law does not refuse, and the largest of all on the

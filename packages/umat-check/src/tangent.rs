@@ -83,6 +83,12 @@ pub struct State {
 }
 
 impl State {
+    /// Whether there is stress that nothing in the increment changes.
+    fn lags(&self, convention: Convention, components: usize) -> bool {
+        let changes = self.truth(convention, components).is_none_or(|(sure, _)| sure.value != [[0.0; 6]; 6]);
+        !changes && self.modulus != [[0.0; 6]; 6]
+    }
+
     /// The differences, and what DDSDDE should be.
     pub fn truth(&self, convention: Convention, components: usize) -> Option<(&Derivative, Modulus)> {
         let differences = match convention {
@@ -355,17 +361,26 @@ fn wrong_tangent(
     });
     let slows = convergence(factor.fold(0.0, f64::max));
     let few = wrong.len() <= FEW && states.len() >= MANY * FEW;
-    let (kinds, way) = if few {
+    let lags = wrong.iter().all(|&k| states[k].lags(convention, components));
+    let (kinds, way) = if lags {
+        let text = "the stress does not change with the increment: is it that of STRAN or DFGRD0, at its beginning?";
+        (vec!["lagging".to_string()], text.to_string())
+    } else if few {
         (vec![FEW_STATES.to_string()], "in few states alone, perhaps at kinks that are not seen".to_string())
     } else {
         mistakes::name(session, &Sample::new(components, states, found, &wrong, &right), conventions)
     };
     let where_ = states_named(states, &wrong);
     let all = judged.entries();
-    let (entries, size) = (judged.named(&all), mistakes::percent(difference.worst));
+    let entries = judged.named(&all);
+    // Where nothing should be there is no measure.
+    let size = match difference.worst.is_finite() {
+        true => format!("wrong by up to {}", mistakes::percent(difference.worst)),
+        false => "wrong".to_string(),
+    };
     let growth = growth(states, found);
     let text = format!(
-        "{way}; wrong by up to {size} {entries}{growth} at {} of {} states ({where_}), worst at {place} {}, {is:.5e} instead of {instead:.5e}; {slows}{aside}",
+        "{way}; {size} {entries}{growth} at {} of {} states ({where_}), worst at {place} {}, {is:.5e} instead of {instead:.5e}; {slows}{aside}",
         wrong.len(),
         states.len(),
         states[at].name,
