@@ -378,9 +378,7 @@ fn of_element(name: &str) -> Option<(usize, Option<Plane>)> {
         None
     } else if begins(&["COH3D"]) {
         Some((3, None))
-    } else if begins(&["COH"]) {
-        Some((2, None))
-    } else if begins(&["SAX", "MAX"]) {
+    } else if begins(&["COH", "SAX", "MAX"]) {
         Some((2, None))
     } else if begins(&["T2", "T3", "B2"]) {
         Some((1, None))

@@ -210,7 +210,8 @@ fn stresses(session: &mut Session, path: &[Matrix3<f64>], time_step: f64) -> Vec
     all
 }
 
-fn divided(path: &[Matrix3<f64>], parts: usize) -> Vec<Matrix3<f64>> {
+/// A path, each of its increments in so many equal parts.
+pub fn divided(path: &[Matrix3<f64>], parts: usize) -> Vec<Matrix3<f64>> {
     let mut divided = Vec::new();
     let mut before = Matrix3::identity();
     for f in path {

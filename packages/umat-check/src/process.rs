@@ -85,7 +85,7 @@ pub fn touch(session: &mut Session) -> Finding {
         }
     }
     if answered == 0 {
-        let text = "the law asks for ever smaller increments: nothing is computed";
+        let text = "no increment has an answer: PNEWDT asks for ever smaller ones, or what comes back is not finite";
         return Finding::new(Question::Memory, Verdict::NotSure, None, text);
     }
     let text = format!("{calls} increments touch nothing beyond STATEV, PROPS, STRESS, DDSDDE");

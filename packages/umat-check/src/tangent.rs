@@ -33,6 +33,9 @@ pub const FEW_STATES: &str = "few states";
 const FEW: usize = 2;
 const MANY: usize = 25;
 
+/// Of the stress, what is left of a product that is the stress.
+const SECANT: f64 = 1e-6;
+
 /// The kind of a law that is written for another order.
 pub const EXCHANGED: &str = "13 and 23 exchanged";
 
@@ -83,6 +86,17 @@ pub struct State {
 }
 
 impl State {
+    /// Whether DDSDDE times the strain is the stress.
+    fn is_secant(&self, components: usize) -> bool {
+        let largest = self.stress.iter().fold(0.0_f64, |largest, stress| largest.max(stress.abs()));
+        largest > 0.0
+            && (0..components).all(|i| {
+                let strains = self.call.strain.iter().zip(&self.call.strain_increment).map(|(a, b)| a + b);
+                let product: f64 = strains.zip(&self.modulus[i]).map(|(strain, entry)| strain * entry).sum();
+                (product - self.stress[i]).abs() < SECANT * largest
+            })
+    }
+
     /// Whether there is stress that nothing in the increment changes.
     fn lags(&self, convention: Convention, components: usize) -> bool {
         let changes = self.truth(convention, components).is_none_or(|(sure, _)| sure.value != [[0.0; 6]; 6]);
@@ -369,6 +383,12 @@ fn wrong_tangent(
         (vec![FEW_STATES.to_string()], "in few states alone, perhaps at kinks that are not seen".to_string())
     } else {
         mistakes::name(session, &Sample::new(components, states, found, &wrong, &right), conventions)
+    };
+    let (kinds, way) = if kinds[..] == ["unknown"] && wrong.iter().all(|&k| states[k].is_secant(components)) {
+        let text = "secant: DDSDDE times the strain is the stress, without the derivative of the damage";
+        (vec!["secant".to_string()], text.to_string())
+    } else {
+        (kinds, way)
     };
     let where_ = states_named(states, &wrong);
     let all = judged.entries();
