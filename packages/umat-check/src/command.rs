@@ -395,13 +395,6 @@ impl Check<'_> {
                     let text = format!("the law does not answer: {}", ending.text);
                     return Ok(Finding::new(question, Verdict::NotAsked, None, text));
                 }
-                // No solver passes NaN or an inverted F for long: to end by STOP or XIT is right there.
-                Err(ending) if question == Question::Invalid => {
-                    let is_meant = matches!(ending.kind.as_str(), "stop" | "XIT");
-                    let verdict = if is_meant { Verdict::Right } else { Verdict::Warning };
-                    let text = format!("NaN or an inverted F: {}", ending.text);
-                    return Ok(Finding::new(question, verdict, None, text).with(&ending.kind));
-                }
                 Err(ending) => return self.ending_as_finding(material, question, ending, guard, ended),
             }
         }
@@ -497,8 +490,9 @@ impl Check<'_> {
         if question == Question::Invalid && kind == "XIT" {
             return Ok(Finding::new(question, Verdict::Right, None, text));
         }
-        if question == Question::Invalid && kind == "stop" {
-            return Ok(Finding::new(question, Verdict::Warning, None, text).with("stop"));
+        // No solver passes NaN or an inverted F for long.
+        if question == Question::Invalid {
+            return Ok(Finding::new(question, Verdict::Warning, None, text).with(&kind));
         }
         if let Some(array) = old_assumed_size(&text) {
             let text = format!(
