@@ -375,21 +375,7 @@ fn wrong_tangent(
     });
     let slows = convergence(factor.fold(0.0, f64::max));
     let few = wrong.len() <= FEW && states.len() >= MANY * FEW;
-    let lags = wrong.iter().all(|&k| states[k].lags(convention, components));
-    let (kinds, way) = if lags {
-        let text = "the stress does not change with the increment: is it that of STRAN or DFGRD0, at its beginning?";
-        (vec!["lagging".to_string()], text.to_string())
-    } else if few {
-        (vec![FEW_STATES.to_string()], "in few states alone, perhaps at kinks that are not seen".to_string())
-    } else {
-        mistakes::name(session, &Sample::new(components, states, found, &wrong, &right), conventions)
-    };
-    let (kinds, way) = if kinds[..] == ["unknown"] && wrong.iter().all(|&k| states[k].is_secant(components)) {
-        let text = "secant: DDSDDE times the strain is the stress, without the derivative of the damage";
-        (vec!["secant".to_string()], text.to_string())
-    } else {
-        (kinds, way)
-    };
+    let (kinds, way) = in_what_way(session, judged, few, (&wrong, &right), conventions);
     let where_ = states_named(states, &wrong);
     let all = judged.entries();
     let entries = judged.named(&all);
@@ -418,6 +404,30 @@ fn wrong_tangent(
     finding.map = judged.map();
     finding.call_bits = Some(states[at].call.numbers().into_iter().map(f64::to_bits).collect());
     finding
+}
+
+/// In what way DDSDDE is wrong: kinds, and a text.
+fn in_what_way(
+    session: &mut Session,
+    judged: &Judged,
+    few: bool,
+    (wrong, right): (&[usize], &[usize]),
+    conventions: &[Convention],
+) -> (Vec<String>, String) {
+    let &Judged { states, found, convention, components, .. } = judged;
+    let of = |kind: &str, text: &str| (vec![kind.to_string()], text.to_string());
+    if wrong.iter().all(|&k| states[k].lags(convention, components)) {
+        let text = "the stress does not change with the increment: is it that of STRAN or DFGRD0, at its beginning?";
+        return of("lagging", text);
+    }
+    if few {
+        return of(FEW_STATES, "in few states alone, perhaps at kinks that are not seen");
+    }
+    let (kinds, way) = mistakes::name(session, &Sample::new(components, states, found, wrong, right), conventions);
+    if kinds[..] == ["unknown"] && wrong.iter().all(|&k| states[k].is_secant(components)) {
+        return of("secant", "secant: DDSDDE times the strain is the stress, without the derivative of the damage");
+    }
+    (kinds, way)
 }
 
 /// How the error goes with the strain, where that can be said: at rest, and at the smaller and the larger strains.
