@@ -140,6 +140,20 @@ pub struct Call {
 }
 
 impl Call {
+    /// As a cohesive element passes it: a strain of 1 inside is a separation of one unit, and nothing else is deformed.
+    pub fn with_separations(&self, unit: f64) -> Call {
+        let identity = Matrix3::identity();
+        Call {
+            strain: self.strain.map(|strain| strain * unit),
+            strain_increment: self.strain_increment.map(|strain| strain * unit),
+            energies: self.energies.map(|energy| energy * unit),
+            rotation: identity,
+            f0: identity,
+            f1: identity,
+            ..self.clone()
+        }
+    }
+
     /// As numbers in a row, for [`Shared`] and files.
     pub fn numbers(&self) -> Vec<f64> {
         self.named().into_iter().flat_map(|(_, numbers)| numbers).collect()
@@ -404,6 +418,18 @@ impl<'a> Session<'a> {
         if let Some(shared) = self.shared {
             if self.records { shared.record(&call.numbers()) } else { shared.count() }
         }
+        if self.material.separation.is_none() {
+            return self.call_as_it_is(call);
+        }
+        let unit = self.material.unit_of_strain();
+        let mut answer = self.call_as_it_is(&call.with_separations(unit));
+        answer.modulus = answer.modulus.map(|row| row.map(|entry| entry * unit));
+        answer.energies = answer.energies.map(|energy| energy / unit);
+        answer
+    }
+
+    /// The same of a call as the law sees it.
+    pub fn call_as_it_is(&mut self, call: &Call) -> Answer {
         let components = self.material.components;
         self.stress.numbers_mut().copy_from_slice(&call.stress[..components]);
         self.state.numbers_mut().copy_from_slice(&call.state);

@@ -148,7 +148,8 @@ fn reply_to(request: &Path) -> Result<(), Error> {
         }
         Task::Call(bits) => {
             let call = Call::from_bits(&bits).ok_or_else(|| Error::Input("a call is not whole".to_string()))?;
-            ChildReply::Answer(answer_table(&session.call_law(&call), &material))
+            let separated = material.separation.map(|_| call.with_separations(material.unit_of_strain()));
+            ChildReply::Answer(answer_table(&session.call_as_it_is(separated.as_ref().unwrap_or(&call)), &material))
         }
     };
     write_reply(&result, &reply)

@@ -235,7 +235,10 @@ impl Built {
         }
         let error = |error: std::io::Error| Error::Input(format!("{}: {error}", file.display()));
         let text = String::from_utf8_lossy(&std::fs::read(file).map_err(error)?).to_lowercase();
-        if !text.contains("vaba_param.inc") {
+        let included = |line: &str| {
+            line.trim_start().trim_start_matches('#').starts_with("include") && line.contains("vaba_param.inc")
+        };
+        if !text.lines().any(included) {
             return Ok(None);
         }
         let inner = folder.join("single");

@@ -30,8 +30,11 @@ const HALVINGS_OF_STEPS: usize = 2;
 /// Columns of the extrapolation.
 const ORDERS: usize = 4;
 
-/// What one-sided slopes leave of their jump if the step is halved, where the stress is smooth: a half, with some room.
-const SMOOTH: f64 = 0.75;
+/// Steps by halves over which a jump of the slope stays, if it is that of a kink, or grows to twice as much with each, if
+/// the state is on a branch that is narrower than the step; within this part. Where the stress is smooth the jump falls
+/// to a half at least, and noise has no sign.
+const KINK: usize = 4;
+const ALIKE: f64 = 0.75;
 
 /// A modulus by differences.
 #[derive(Clone, Debug)]
@@ -46,84 +49,111 @@ pub struct Derivative {
 #[derive(Clone, Copy, Debug)]
 struct Candidate {
     value: f64,
+    /// Of the extrapolation, of rounding, and of kinks within the step.
     error: f64,
-    /// Between the forward and the backward slope, with this step and with twice the step.
-    jumps: [f64; 2],
 }
 
-impl Candidate {
-    /// No kink within the step that would spoil an entry measured by this.
-    fn smooth(&self, scale: f64) -> bool {
-        let [jump, before] = self.jumps;
-        jump < 0.1 * TOLERANCE * scale || jump < SMOOTH * before
-    }
+/// The entries of a column, by rows.
+#[derive(Default)]
+struct Column {
+    candidates: [Vec<Candidate>; 6],
+    /// What stays of the slope's jump with the smallest steps.
+    jump: Components,
 }
 
 /// A stress of the strain of one component of this size; none where the law refuses.
 type Stress<'a> = dyn FnMut(usize, f64) -> Option<Components> + 'a;
 
 fn differences(components: usize, halvings: usize, stress: &mut Stress) -> Option<Derivative> {
-    let columns = (0..components).map(|column| candidates(column, halvings, stress));
-    let columns: Option<Vec<[Vec<Candidate>; 6]>> = columns.collect();
-    let columns = columns?;
-    let (value, error) = chosen(&columns, |_, _, _| true);
-    let scale = scale(&value, components);
-    let (smooth, error_of_smooth) = chosen(&columns, |i, j, candidate| candidate.smooth(scale[i][j]));
-    let mut all = Derivative { value: smooth, error: error_of_smooth, kinks: [[false; 6]; 6] };
-    for i in 0..components {
-        for j in 0..components {
-            if !all.error[i][j].is_finite() {
-                (all.value[i][j], all.error[i][j]) = (value[i][j], error[i][j]);
-                all.kinks[i][j] = error[i][j].is_finite();
+    let mut all = Derivative { value: [[0.0; 6]; 6], error: [[f64::INFINITY; 6]; 6], kinks: [[false; 6]; 6] };
+    let mut jumps = [[0.0; 6]; 6];
+    let columns: Option<Vec<Column>> = (0..components).map(|j| column(j, halvings, stress)).collect();
+    for (j, column) in columns?.iter().enumerate() {
+        for (i, candidates) in column.candidates.iter().enumerate() {
+            for candidate in candidates {
+                if candidate.error < all.error[i][j] {
+                    (all.value[i][j], all.error[i][j]) = (candidate.value, candidate.error);
+                }
             }
+            jumps[i][j] = column.jump[i];
         }
     }
+    let scale = scale(&all.value, components);
+    all.kinks = std::array::from_fn(|i| std::array::from_fn(|j| jumps[i][j] > 0.1 * TOLERANCE * scale[i][j]));
     all.value.iter().flatten().all(|entry| entry.is_finite()).then_some(all)
 }
 
-/// Of each entry the candidate with the least error, among those that are taken.
-fn chosen(columns: &[[Vec<Candidate>; 6]], taken: impl Fn(usize, usize, &Candidate) -> bool) -> (Modulus, Modulus) {
-    let (mut value, mut error) = ([[0.0; 6]; 6], [[f64::INFINITY; 6]; 6]);
-    for (j, rows) in columns.iter().enumerate() {
-        for (i, candidates) in rows.iter().enumerate() {
-            for candidate in candidates.iter().filter(|candidate| taken(i, j, candidate)) {
-                if candidate.error < error[i][j] {
-                    (value[i][j], error[i][j]) = (candidate.value, candidate.error);
-                }
-            }
-        }
-    }
-    (value, error)
-}
-
-/// The entries of a column, by rows, with ever smaller steps.
-fn candidates(column: usize, halvings: usize, stress: &mut Stress) -> Option<[Vec<Candidate>; 6]> {
+/// A column with ever smaller steps.
+fn column(column: usize, halvings: usize, stress: &mut Stress) -> Option<Column> {
     let centre = stress(column, 0.0)?;
-    let mut all: [Vec<Candidate>; 6] = Default::default();
-    let mut above: Vec<Components> = Vec::new();
-    let mut jumps_before: Components = [0.0; 6];
-    for k in 0..=halvings {
-        let size = LARGEST / (1 << k) as f64;
+    let mut all = Column::default();
+    let (mut slopes, mut jumps) = (Extrapolation::new(4.0), Extrapolation::new(2.0));
+    let mut left: [Vec<f64>; 6] = Default::default();
+    for step in 0..=halvings {
+        let size = LARGEST / (1 << step) as f64;
         let (Some(plus), Some(minus)) = (stress(column, size), stress(column, -size)) else {
-            above.clear();
+            (slopes.rows, jumps.rows) = Default::default();
+            left = Default::default();
             continue;
         };
-        let jumps: Components = std::array::from_fn(|i| (plus[i] - 2.0 * centre[i] + minus[i]).abs() / size);
-        let mut row = vec![std::array::from_fn(|i| (plus[i] - minus[i]) / (2.0 * size))];
-        for order in 1..ORDERS.min(above.len() + 1) {
-            let factor = 4f64.powi(order as i32);
-            let (coarse, fine): (&Components, &Components) = (&above[order - 1], &row[order - 1]);
-            let next: Components = std::array::from_fn(|i| (factor * fine[i] - coarse[i]) / (factor - 1.0));
-            for (i, candidates) in all.iter_mut().enumerate() {
+        slopes.add(std::array::from_fn(|i| (plus[i] - minus[i]) / (2.0 * size)));
+        jumps.add(std::array::from_fn(|i| (plus[i] - 2.0 * centre[i] + minus[i]) / size));
+        let [above, row] = &slopes.rows;
+        for (i, candidates) in all.candidates.iter_mut().enumerate() {
+            for order in 1..row.len() {
+                let [coarse, fine, value] = [above[order - 1][i], row[order - 1][i], row[order][i]];
                 let rounding = f64::EPSILON * (plus[i].abs() + minus[i].abs()) / size;
-                let error = (next[i] - fine[i]).abs().max((next[i] - coarse[i]).abs()) + rounding;
-                candidates.push(Candidate { value: next[i], error, jumps: [jumps[i], jumps_before[i]] });
+                // Where the stress is smooth nothing is left of the jump; a kink adds up to a half of it to the slope.
+                let kink = 0.5 * jumps.rows[1][order][i].abs();
+                let error = (value - fine).abs().max((value - coarse).abs()).max(kink) + rounding;
+                candidates.push(Candidate { value, error });
             }
-            row.push(next);
+            left[i].extend(jumps.rows[1].get(1).map(|jump| jump[i]));
+            all.jump[i] = jump_that_stays(&left[i]);
+            // Larger steps may end on one branch beyond it.
+            for candidate in candidates.iter_mut() {
+                candidate.error = candidate.error.max(0.5 * all.jump[i]);
+            }
         }
-        (above, jumps_before) = (row, jumps);
     }
     Some(all)
+}
+
+/// The last of the jumps that are left, if the last few are those of a kink.
+fn jump_that_stays(left: &[f64]) -> f64 {
+    let Some(last) = left.len().checked_sub(KINK).map(|first| &left[first..]) else { return 0.0 };
+    let grows = |by: f64| {
+        last.windows(2).all(|two| {
+            let alike = two[1] / (by * two[0]);
+            alike > ALIKE && alike < 1.0 / ALIKE
+        })
+    };
+    if grows(1.0) || grows(2.0) { last[KINK - 1].abs() } else { 0.0 }
+}
+
+/// The last two rows of Richardson's table of what is found with halved steps.
+struct Extrapolation {
+    rows: [Vec<Components>; 2],
+    /// What a halving leaves of the error of the first column, as its inverse; of each further one a quarter of that.
+    first: f64,
+}
+
+impl Extrapolation {
+    fn new(first: f64) -> Self {
+        Extrapolation { rows: Default::default(), first }
+    }
+
+    /// Adds what is found with half the last step.
+    fn add(&mut self, found: Components) {
+        let [_, above] = std::mem::take(&mut self.rows);
+        let mut row = vec![found];
+        for order in 1..ORDERS.min(above.len() + 1) {
+            let factor = self.first * 4f64.powi(order as i32 - 1);
+            let (coarse, fine): (&Components, &Components) = (&above[order - 1], &row[order - 1]);
+            row.push(std::array::from_fn(|i| (factor * fine[i] - coarse[i]) / (factor - 1.0)));
+        }
+        self.rows = [above, row];
+    }
 }
 
 fn halvings(session: &Session) -> usize {
@@ -159,11 +189,11 @@ pub fn of_deformation(
 
 /// The plain ∂Δσ/∂Δε: the strain increment grows, the rotation stays.
 pub fn of_strain_increment(session: &mut Session, base: &Call) -> Option<Derivative> {
-    let components = session.material.components;
+    let (components, layout) = (session.material.components, session.material.layout());
     differences(components, halvings(session), &mut |column, size| {
         let mut call = base.clone();
         call.strain_increment[column] += size;
-        call.f1 = exp(&(unit_strain(components, column) * size)) * base.f1;
+        call.f1 = exp(&(unit_strain(layout, column) * size)) * base.f1;
         let answer = session.call_law(&call);
         answered(&answer).then_some(answer.stress)
     })
@@ -201,6 +231,20 @@ mod tests {
             let sure = !kinked.kinks[0][0] && kinked.error[0][0] < 0.1 * TOLERANCE;
             assert!(!sure || (kinked.value[0][0] - slope).abs() < TOLERANCE, "{away}: {kinked:?}");
         }
+
+        // A weak one is not lost in the curvature, nor where larger steps are beyond another branch on either side.
+        let between = |h: f64| h + (50.0 * h * h - 5e-3 * h).max(0.0);
+        for weak in [&between as &dyn Fn(f64) -> f64, &|h| h + 10.0 * h * h + 1e-3 * h.max(1e-7)] {
+            let kinked = differences(3, HALVINGS, &mut |_, h| Some([weak(h); 6])).expect("finite");
+            assert!(kinked.kinks[..3].iter().all(|row| row[..3] == [true; 3]), "{kinked:?}");
+        }
+        // Nor is one of a branch that is narrower than nearly all steps.
+        let narrow = |h: f64| h + 1e-2 * h.clamp(-2e-6, 3e-6);
+        let kinked = differences(3, HALVINGS, &mut |_, h| Some([narrow(h); 6])).expect("finite");
+        assert!((kinked.value[0][0] - 1.01).abs() < 20.0 * kinked.error[0][0], "{kinked:?}");
+        let aside = |h: f64| h + 10.0 * h * h + 1e-3 * (h - 1e-5).max(0.0);
+        let smooth = differences(3, HALVINGS, &mut |_, h| Some([aside(h); 6])).expect("finite");
+        assert!(!smooth.kinks[0][0] && (smooth.value[0][0] - 1.0).abs() < 1e-8, "{smooth:?}");
 
         let noisy = differences(3, HALVINGS, &mut |_, h| Some([h + 1e-4 * (1e9 * h).sin(); 6])).expect("finite");
         assert!(noisy.error[0][0] > 1e-4, "{}", noisy.error[0][0]);

@@ -6,6 +6,8 @@ use super::material::Material;
 
 /// The program; none where a number is not finite, which Fortran's source cannot have.
 pub fn driver(call: &Call, material: &Material, law: &str) -> Option<String> {
+    let separated = material.separation.map(|_| call.with_separations(material.unit_of_strain()));
+    let call = separated.as_ref().unwrap_or(call);
     let all = call.numbers();
     if all.iter().chain(&material.properties).any(|number| !number.is_finite()) {
         return None;
@@ -48,10 +50,14 @@ pub fn driver(call: &Call, material: &Material, law: &str) -> Option<String> {
          ! gfortran -std=legacy -ffixed-line-length-132 -I. {law} THIS.f90 -o one && ./one\n\
          program one\n  implicit none\n{counts}{declared}{BODY}",
         )
+        .replace("h = 1d-6", &format!("h = {}", real(STEP * material.unit_of_strain())))
         .replace("@scalars\n", &scalars)
         .replace("@name", &name),
     )
 }
+
+/// Of strain, for differences.
+const STEP: f64 = 1e-6;
 
 fn real(number: f64) -> String {
     format!("{number:e}").replace('e', "d")

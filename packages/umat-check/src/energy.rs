@@ -75,14 +75,14 @@ fn cycle(session: &mut Session, rng: &mut Rng, parts: usize) -> Result<Option<Cy
 /// P : Ḟ = J σ : (Ḟ F⁻¹).
 fn power(point: &Point, rate: &Matrix3<f64>, material: &Material) -> f64 {
     let Some(inverse) = point.f.try_inverse() else { return f64::NAN };
-    point.global_stress(material).dot(&(rate * inverse)) * point.f.determinant()
+    point.global_stress(material).dot(&(rate * inverse)) * material.volume(&point.f)
 }
 
 /// Whether a potential has the stress.
 pub fn cycles(session: &mut Session, reads: Reads) -> Finding {
     let material = session.material;
     let declared = material.traits;
-    if material.components <= 3 {
+    if !material.has_work() {
         return Finding::new(
             Question::Cycles,
             Verdict::NotAsked,
@@ -132,7 +132,7 @@ pub fn cycles(session: &mut Session, reads: Reads) -> Finding {
     Finding::new(Question::Cycles, Verdict::Right, Some((-gained).max(0.0)), text)
 }
 
-/// What SSE, SPD and SCD are along straight paths from rest.
+/// What SSE, SPD and SCD are along straight paths from rest and back.
 struct Reported {
     /// The largest difference of SSE, or of SSE + SPD + SCD, from W and from W/J, as parts of the largest W.
     from_work: [f64; 2],
@@ -141,7 +141,7 @@ struct Reported {
     dissipated_untouched: bool,
     /// The largest decrease of SPD + SCD, there and back, as a part of W.
     regained: f64,
-    /// SPD + SCD at the ends of the paths, all together.
+    /// SPD + SCD at the far ends of the paths, all together.
     dissipated: f64,
 }
 
@@ -164,36 +164,39 @@ fn reported(session: &mut Session, increments: usize) -> Result<Option<Reported>
         let mut point = Point::virgin(session, [1, 1]);
         let (mut work, mut largest, mut power_before) = (0.0, 0.0_f64, 0.0);
         let mut differences = Vec::new();
-        for k in 1..=increments {
+        // There and back.
+        let back = (0..increments).rev().map(|k| (k, -1.0));
+        for (k, sense) in (1..=increments).map(|k| (k, 1.0)).chain(back) {
             let f = exp(&(strain * (k as f64 / increments as f64)));
             let before = point.energies;
             match point.advance_in(session, &f, time_step) {
                 Ok(_) => {}
+                Err(Failure::Refused) if sense < 0.0 => break,
                 Err(Failure::Refused) => return Ok(None),
-                Err(Failure::NotFinite(_)) => return Err("not finite on a straight path".to_string()),
+                Err(Failure::NotFinite(_)) => return Err("not finite on a straight path there and back".to_string()),
             }
             // τ : D along a path of constant D.
-            let power = point.global_stress(session.material).dot(&strain) * f.determinant() / increments as f64;
-            work += 0.5 * (power + power_before);
+            let volume = session.material.volume(&f);
+            let power = point.global_stress(session.material).dot(&strain) * volume / increments as f64;
+            work += 0.5 * sense * (power + power_before);
             power_before = power;
             largest = largest.max(work.abs());
             let [elastic, plastic, creep] = point.energies;
             all.untouched &= elastic == 0.0;
             all.dissipated_untouched &= plastic == 0.0 && creep == 0.0;
-            let regained = before[1] + before[2] - plastic - creep;
             let sum = elastic + plastic + creep;
-            let by_volume = work / f.determinant();
+            let by_volume = work / volume;
             differences.push((
                 [(elastic - work).abs(), (elastic - by_volume).abs()],
                 [(sum - work).abs(), (sum - by_volume).abs()],
-                regained,
+                before[1] + before[2] - plastic - creep,
             ));
+            if k == increments {
+                all.dissipated += plastic + creep;
+            }
         }
-        all.dissipated += point.energies[1] + point.energies[2];
-        let regained_back = regained_back(session, &mut point, &strain, increments)?;
         if largest > 0.0 {
             asked += 1;
-            all.regained = all.regained.max(regained_back / largest);
             for (elastic, sum, regained) in differences {
                 for i in 0..2 {
                     all.elastic_alone_from_work[i] = all.elastic_alone_from_work[i].max(elastic[i] / largest);
@@ -206,35 +209,12 @@ fn reported(session: &mut Session, increments: usize) -> Result<Option<Reported>
     Ok((asked > 0).then_some(all))
 }
 
-/// The largest decrease of SPD + SCD on the way back to rest, as far as there is one.
-fn regained_back(
-    session: &mut Session,
-    point: &mut Point,
-    strain: &Matrix3<f64>,
-    increments: usize,
-) -> Result<f64, String> {
-    let time_step = session.material.time_step * STRAIGHT as f64 / increments as f64;
-    let mut regained = 0.0_f64;
-    for k in (0..increments).rev() {
-        let before = point.energies;
-        let f = exp(&(strain * (k as f64 / increments as f64)));
-        match point.advance_in(session, &f, time_step) {
-            Ok(_) => {}
-            Err(Failure::Refused) => break,
-            Err(Failure::NotFinite(_)) => return Err("not finite on the way back to rest".to_string()),
-        }
-        let [_, plastic, creep] = point.energies;
-        regained = regained.max(before[1] + before[2] - plastic - creep);
-    }
-    Ok(regained)
-}
-
 /// Of the work: what is no energy at all.
 const NO_ENERGY: f64 = 1e8;
 
 /// What SSE is.
 pub fn energy(session: &mut Session) -> Finding {
-    if session.material.components <= 3 {
+    if !session.material.has_work() {
         return Finding::new(
             Question::Energy,
             Verdict::NotAsked,
@@ -295,7 +275,7 @@ pub fn energy(session: &mut Session) -> Finding {
 
 /// Whether SPD + SCD ever decrease.
 pub fn dissipation(session: &mut Session) -> Finding {
-    if session.material.components <= 3 {
+    if !session.material.has_work() {
         return Finding::new(
             Question::Dissipation,
             Verdict::NotAsked,

@@ -47,7 +47,7 @@ pub fn expect(session: &mut Session) -> Finding {
             let figure = (stress[i] - wanted).abs() / size;
             worst = worst.max(figure / expected.tolerance);
             if figure.is_nan() || figure > expected.tolerance {
-                let component = name(session.material.components, i);
+                let component = name(session.material.layout(), i);
                 let text = format!(
                     "{of}: the stress {component} is {:.6e} instead of {wanted:.6e}, by {} of the largest; allowed: {}",
                     stress[i],
@@ -71,6 +71,7 @@ fn stress_at_end(session: &mut Session, expected: &Expected) -> Result<Component
             let part = k as f64 / expected.increments as f64;
             for (i, end) in corner.iter().enumerate() {
                 if let Some(end) = end {
+                    let end = end / session.material.unit_of_strain();
                     strain[i] = begin[i] + (end - begin[i]) * part;
                 }
             }
@@ -78,7 +79,7 @@ fn stress_at_end(session: &mut Session, expected: &Expected) -> Result<Component
             (strain, point) = balanced(session, &point, strain, corner, time_step)?;
         }
     }
-    Ok(super::kinematics::of_stress(&point.global_stress(session.material), session.material.components))
+    Ok(super::kinematics::of_stress(&point.global_stress(session.material), session.material.layout()))
 }
 
 /// Iterations for the free components, their step of strain for differences, and what is left of the stress over the
@@ -95,11 +96,11 @@ fn balanced(
     corner: &[Option<f64>; 6],
     time_step: f64,
 ) -> Result<(Components, Point), String> {
-    let components = session.material.components;
+    let (components, layout) = (session.material.components, session.material.layout());
     let free: Vec<usize> = (0..components).filter(|&i| corner[i].is_none()).collect();
     let mut after = |strain: &Components| {
         let mut point = before.clone();
-        let f: Matrix3<f64> = exp(&strain_tensor(strain, components));
+        let f: Matrix3<f64> = exp(&strain_tensor(strain, layout));
         match point.advance_in(session, &f, time_step) {
             Ok(_) => Ok(point),
             Err(Failure::Refused) => Err("the law asks for ever smaller increments".to_string()),

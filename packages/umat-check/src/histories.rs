@@ -69,7 +69,7 @@ fn planar(matrix: &Matrix3<f64>, material: &Material, across: f64) -> Matrix3<f6
     if material.components == 6 {
         return *matrix;
     }
-    if material.components < 3 {
+    if material.is_diagonal() {
         let is_kept = |i: usize, j: usize| i == j && i < material.components;
         return Matrix3::from_fn(|i, j| if is_kept(i, j) { matrix[(i, j)] } else { 0.0 });
     }
@@ -86,7 +86,7 @@ fn planar(matrix: &Matrix3<f64>, material: &Material, across: f64) -> Matrix3<f6
 /// revolution.
 pub fn rotation(rng: &mut Rng, material: &Material) -> Matrix3<f64> {
     // Between two turns of it a bar would be sheared.
-    if material.components < 3 {
+    if material.is_diagonal() {
         return Matrix3::identity();
     }
     if material.components < 6 {

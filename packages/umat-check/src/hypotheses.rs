@@ -2,7 +2,7 @@
 
 use nalgebra::Matrix3;
 
-use super::kinematics::{Components, Modulus, places, tensor, unit_strain};
+use super::kinematics::{Components, Layout, Modulus, places, tensor, unit_strain};
 use super::material::direct;
 
 /// The right tangent at one state, and what the usual mistakes are made of.
@@ -14,7 +14,7 @@ pub struct ExactTangent {
     pub stress: Components,
     /// On the law's axes.
     pub f: Matrix3<f64>,
-    /// Moduli of other increments from the state: unloading a little, in no time, and going on a little.
+    /// Moduli of other increments from the state: unloading a little, in no time, going on a little, in a long time.
     pub intact: Vec<Modulus>,
 }
 
@@ -154,7 +154,8 @@ fn shears_of_tensors(truth: &Modulus, components: usize) -> Vec<(String, Modulus
 }
 
 /// The modulus that each usual mistake gives at a state, always in the same order.
-pub fn usual_mistakes(exact: &ExactTangent, components: usize) -> Vec<Hypothesis> {
+pub fn usual_mistakes(exact: &ExactTangent, layout: Layout) -> Vec<Hypothesis> {
+    let components = layout.components;
     let ExactTangent { truth, stress, f, .. } = exact;
     let mut found = Vec::new();
     let mut add = |kinds: &[&'static str], text: &str, modulus: Modulus, factor: Factor| {
@@ -201,6 +202,7 @@ pub fn usual_mistakes(exact: &ExactTangent, components: usize) -> Vec<Hypothesis
         ("intact", "the modulus of unloading"),
         ("intact", "the modulus without time"),
         ("continuum", "the modulus of a vanishing increment, not that of the increment (the consistent one)"),
+        ("relaxed", "the modulus of a very long increment"),
     ];
     for (index, (kind, text)) in others.into_iter().enumerate() {
         let modulus = exact.intact.get(index).copied().unwrap_or(nowhere);
@@ -210,5 +212,8 @@ pub fn usual_mistakes(exact: &ExactTangent, components: usize) -> Vec<Hypothesis
         }
     }
     add(&["scale"], "all of it", *truth, Factor::OfAllStates);
+    // A traction has neither volume nor tensor.
+    let of_traction = ["transposed", "symmetrised", "intact", "continuum", "relaxed", "scale"];
+    found.retain(|hypothesis| !layout.traction || of_traction.contains(&hypothesis.kinds[0]));
     found
 }

@@ -56,6 +56,8 @@ struct Deck {
     types: BTreeMap<i64, String>,
     sets: BTreeMap<String, Vec<i64>>,
     sections: Vec<(String, String, bool)>,
+    /// Sets of cohesive elements that have stress, not traction.
+    continua: Vec<String>,
     /// Of all parts: material, set, whether oriented, and the type of its elements. Materials stand behind them.
     used: Vec<(String, String, bool, Option<String>)>,
     /// The type of the elements that follow, or the name of the set.
@@ -118,6 +120,10 @@ impl abaqus::Reader for Deck {
                 Data::Layers
             }
             name if name.ends_with("SECTION") => {
+                let response = keyword.label("RESPONSE").map(|response| response.replace(' ', ""));
+                if name == "COHESIVESECTION" && response.is_none_or(|response| response != "TRACTIONSEPARATION") {
+                    self.continua.extend(keyword.label("ELSET"));
+                }
                 if let (Some(material), Some(set)) = (keyword.label("MATERIAL"), keyword.label("ELSET")) {
                     self.sections.push((material, set, keyword.value("ORIENTATION").is_some()));
                 }
@@ -187,7 +193,8 @@ impl Deck {
         if keyword.label("TYPE").is_some_and(|kind| kind != "MECHANICAL") {
             return Ok(Data::None);
         }
-        let constants: usize = match keyword.value("CONSTANTS") {
+        // Abaqus takes CONST too.
+        let constants: usize = match keyword.value("CONSTANTS").or(keyword.value("CONST")) {
             Some(value) => keyword.line.number("CONSTANTS", value)?,
             None => return Err(keyword.line.error("*USER MATERIAL without CONSTANTS; allowed: CONSTANTS=NUMBER")),
         };
@@ -247,7 +254,10 @@ impl Deck {
     fn resolve(&mut self) {
         for (material, set, oriented) in std::mem::take(&mut self.sections) {
             let numbers = self.sets.get(&set).and_then(|numbers| numbers.first());
-            let element = numbers.and_then(|number| self.types.get(number)).cloned();
+            let mut element = numbers.and_then(|number| self.types.get(number)).cloned();
+            if self.continua.contains(&set) {
+                element = element.map(|element| format!("{element} without RESPONSE=TRACTION SEPARATION"));
+            }
             self.used.push((material, set, oriented, element));
         }
         self.types.clear();
@@ -334,6 +344,11 @@ impl Deck {
                 let allowed = "solids, plane, axisymmetric, shell and membrane elements, trusses, or --ntens";
                 Error::Input(format!("{file}: {} is of {element}; allowed: {allowed}", user.name))
             })?;
+            let is_cohesive = element.starts_with("COH");
+            if is_cohesive != material.separation.is_some() {
+                let allowed = "the largest separation with cohesive elements, and with no others (--separation)";
+                return Err(Error::Input(format!("{file}: {} is of {element}; allowed: {allowed}", user.name)));
+            }
         }
         if let Some(values) = of_set(&self.stresses) {
             for (stress, value) in material.stress.iter_mut().zip(values) {
@@ -359,9 +374,11 @@ fn of_element(name: &str) -> Option<(usize, Option<Plane>)> {
         Some((4, Some(Plane::Axisymmetric)))
     } else if begins(&["CPS", "S3", "S4", "S8", "SC", "STRI", "M3D"]) {
         Some((3, None))
-    } else if begins(&["COH", "B3", "PIPE", "SAXA", "MGAX"]) {
+    } else if begins(&["B3", "PIPE", "SAXA", "MGAX"]) || name.contains(' ') {
         None
-    } else if begins(&["SAX", "MAX"]) {
+    } else if begins(&["COH3D"]) {
+        Some((3, None))
+    } else if begins(&["COH", "SAX", "MAX"]) {
         Some((2, None))
     } else if begins(&["T2", "T3", "B2"]) {
         Some((1, None))
@@ -386,7 +403,10 @@ mod tests {
             (material.as_str(), *oriented, element.as_deref().and_then(of_element)),
             ("UD", true, Some((3, None)))
         );
-        assert_eq!(["COH3D8", "T3D2", "SAX1"].map(of_element), [None, Some((1, None)), Some((2, None))]);
+        assert_eq!(
+            ["COH3D8", "T3D2", "SAX1", "B31"].map(of_element),
+            [Some((3, None)), Some((1, None)), Some((2, None)), None]
+        );
     }
 
     /// Some public inputs have FILE=.
@@ -400,7 +420,7 @@ mod tests {
     fn a_deck_says_what_its_materials_are() {
         let deck = "*Parameter\nBULK = 20.\n*Part, name=P\n*Element, type=CPE4R\n7, 1, 2, 3, 4\n*Elset, elset=ALL, generate\n\
                     7, 7, 1\n*Solid Section, elset=ALL, material=Soft, orientation=O\n,\n*End Part\n*Material, name=SOFT\n\
-                    *Density\n7.8e-9,\n*Depvar, delete=2\n3,\n1, A, \"first\"\n*User Material, constants=2, unsymm\n0.8, <BULK>\n\
+                    *Density\n7.8e-9,\n*Depvar, delete=2\n3,\n1, A, \"first\"\n*User Material, const=2, unsymm\n0.8, <BULK>\n\
                     *Initial Conditions, type=FIELD, variable=2\nI.LEFT, 5.\nI.RIGHT, 5.\n\
                     *Initial Conditions, type=TEMPERATURE\nI.LEFT, 5.\nI.RIGHT, 6.\n\
                     *Initial Conditions, type=STRESS\nI.ALL, -1., -2., -3.\n*Initial Conditions, type=SOLUTION\nI.ALL, 4., 5.\n\

@@ -10,7 +10,7 @@ use super::expect::Expected;
 use super::finding::Question;
 use super::given::{self, Expect};
 use super::inp::{self, Given};
-use super::material::{DEFAULT_NAME, Explicit, MOST_FIELDS, Material, Plane, Traits};
+use super::material::{DEFAULT_NAME, Explicit, LARGEST_SEPARATION, MOST_FIELDS, Material, Plane, Traits};
 use toron_shared::checked::{Checked, Positive, value};
 use toron_shared::error::Error;
 use toron_shared::toml_file::{Source, read};
@@ -27,6 +27,7 @@ struct File {
     ntens: Option<Spanned<usize>>,
     plane: Option<Plane>,
     stretch: Option<Spanned<Vec<f64>>>,
+    separation: Option<Positive>,
     increment: Option<Positive>,
     temperature: Option<Spanned<f64>>,
     fields: Option<Spanned<Vec<f64>>>,
@@ -64,6 +65,7 @@ pub struct Overrides {
     pub properties: Option<Vec<f64>>,
     pub states: Option<usize>,
     pub components: Option<usize>,
+    pub separation: Option<f64>,
     pub plane: Option<Plane>,
     pub traits: Option<Vec<String>>,
     pub name: Option<String>,
@@ -118,7 +120,7 @@ pub fn input(law: &Path, file: Option<&Path>, overrides: &Overrides) -> Result<I
     }
     for material in &mut input.materials {
         // The axes of a truss or of a shell of revolution are its own.
-        material.orientation |= material.components < 3;
+        material.orientation |= material.is_diagonal();
     }
     Ok(input)
 }
@@ -154,6 +156,7 @@ fn material(source: &Source, file: &File, own: &Own, overrides: &Overrides) -> R
         }
         (None, None) => 6,
     };
+    let separation = separation(file, components, overrides)?;
     let name = match (&overrides.name, own.name.as_ref().or(file.name.as_ref())) {
         (Some(name), _) => allowed_name(name).map_err(Error::Input)?,
         (None, Some(name)) => allowed_name(name.get_ref()).map_err(|message| source.error(name.span(), &message))?,
@@ -166,6 +169,7 @@ fn material(source: &Source, file: &File, own: &Own, overrides: &Overrides) -> R
     all_finite(key, &properties)?;
     all_finite("initial", &initial)?;
     let stretch = match &file.stretch {
+        _ if separation.is_some() => [(-LARGEST_SEPARATION).exp(), LARGEST_SEPARATION.exp()],
         None => [0.9, 1.1],
         Some(stretch) => match stretch.get_ref()[..] {
             [low, high] if low > 0.0 && low <= 1.0 && high >= 1.0 && low < high && high.is_finite() => [low, high],
@@ -181,7 +185,11 @@ fn material(source: &Source, file: &File, own: &Own, overrides: &Overrides) -> R
         stress: initial_stress(source, file.stress.as_ref(), components)?,
         components,
         stretch,
-        increment: value(&file.increment).unwrap_or(0.01),
+        separation,
+        increment: match (value(&file.increment), separation) {
+            (Some(increment), Some(largest)) => increment * LARGEST_SEPARATION / largest,
+            (given, _) => given.unwrap_or(0.01),
+        },
         temperature: match &file.temperature {
             Some(value) => source.finite("temperature", *value.get_ref(), value.span())?,
             None => 0.0,
@@ -201,6 +209,20 @@ fn material(source: &Source, file: &File, own: &Own, overrides: &Overrides) -> R
         symbol: None,
         expected: known_answers(source, file, components)?,
     })
+}
+
+/// The largest separation of a cohesive element.
+fn separation(file: &File, components: usize, overrides: &Overrides) -> Result<Option<f64>, Error> {
+    let separation = overrides.separation.or(value(&file.separation));
+    match separation {
+        Some(largest) if !(largest > 0.0 && largest.is_finite()) => {
+            Err(Error::Input(format!("separation is {largest}; allowed: a finite number > 0")))
+        }
+        Some(largest) if components > 3 && overrides.deck.is_none() => Err(Error::Input(format!(
+            "separation is {largest}, and ntens {components}; allowed with ntens 3 (COH3D), 2 (COH2D, COHAX) and 1"
+        ))),
+        given => Ok(given),
+    }
 }
 
 /// STATEV at the beginning.
@@ -292,7 +314,7 @@ fn allowed_components(components: usize) -> Result<usize, String> {
         6 | 4 | 3 | 2 | 1 => Ok(components),
         _ => Err(format!(
             "ntens is {components}; allowed: 6 (solids), 4 (plane strain, axisymmetric), 3 (plane stress), 2 \
-             (shells of revolution: 11 and 22), 1 (trusses); the extra equation of \
+             (shells of revolution: 11 and 22), 1 (trusses), 3 and 2 of cohesive elements too (separation); the extra equation of \
              hybrid elements and UVARM are not checked"
         )),
     }

@@ -12,7 +12,7 @@ use super::kinematics::exp;
 use super::point::Point;
 
 const PATHS: usize = 6;
-const TIME: Duration = Duration::from_secs(5);
+const TIME: Duration = Duration::from_secs(10);
 /// Increments of each of the three legs: out, back, and out again.
 const INCREMENTS: [usize; 3] = [200, 800, 3200];
 /// Time steps that a leg takes.

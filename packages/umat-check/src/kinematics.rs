@@ -82,9 +82,25 @@ pub type Components = [f64; 6];
 /// NTENS by NTENS components or fewer.
 pub type Modulus = [[f64; 6]; 6];
 
-/// Row and column of each component: 11 22 33 12 13 23, without 33 in plane stress; 11 22 of a shell of revolution.
-pub fn places(components: usize) -> &'static [(usize, usize)] {
+/// NTENS, and whether the components are those of a traction: along the normal and two in the plane.
+#[derive(Clone, Copy, Debug)]
+pub struct Layout {
+    pub components: usize,
+    pub traction: bool,
+}
+
+impl From<usize> for Layout {
+    fn from(components: usize) -> Layout {
+        Layout { components, traction: false }
+    }
+}
+
+/// Row and column of each component: 11 22 33 12 13 23, without 33 in plane stress; 11 22 of a shell of revolution. A
+/// traction's stand on the diagonal: the logarithms of stretches there add up, as separations do.
+pub fn places(layout: impl Into<Layout>) -> &'static [(usize, usize)] {
+    let Layout { components, traction } = layout.into();
     match components {
+        3 if traction => &[(0, 0), (1, 1), (2, 2)],
         1 => &[(0, 0)],
         2 => &[(0, 0), (1, 1)],
         3 => &[(0, 0), (1, 1), (0, 1)],
@@ -93,13 +109,17 @@ pub fn places(components: usize) -> &'static [(usize, usize)] {
     }
 }
 
-/// How a component is written: `12`.
-pub fn name(components: usize, index: usize) -> String {
-    let (i, j) = places(components)[index];
+/// How a component is written: `12`; those of a traction `n`, `s`, `t`.
+pub fn name(layout: impl Into<Layout>, index: usize) -> String {
+    let layout = layout.into();
+    if layout.traction {
+        return ["n", "s", "t"][index].to_string();
+    }
+    let (i, j) = places(layout)[index];
     format!("{}{}", i + 1, j + 1)
 }
 
-pub fn tensor(values: &Components, components: usize) -> Matrix3<f64> {
+pub fn tensor(values: &Components, components: impl Into<Layout>) -> Matrix3<f64> {
     let mut tensor = Matrix3::zeros();
     for (&value, &(i, j)) in values.iter().zip(places(components)) {
         tensor[(i, j)] = value;
@@ -108,7 +128,7 @@ pub fn tensor(values: &Components, components: usize) -> Matrix3<f64> {
     tensor
 }
 
-pub fn of_stress(tensor: &Matrix3<f64>, components: usize) -> Components {
+pub fn of_stress(tensor: &Matrix3<f64>, components: impl Into<Layout>) -> Components {
     let mut values = [0.0; 6];
     for (value, &(i, j)) in values.iter_mut().zip(places(components)) {
         *value = 0.5 * (tensor[(i, j)] + tensor[(j, i)]);
@@ -117,7 +137,8 @@ pub fn of_stress(tensor: &Matrix3<f64>, components: usize) -> Components {
 }
 
 /// Shear strains are twice the tensor's.
-pub fn of_strain(tensor: &Matrix3<f64>, components: usize) -> Components {
+pub fn of_strain(tensor: &Matrix3<f64>, components: impl Into<Layout>) -> Components {
+    let components = components.into();
     let mut values = of_stress(tensor, components);
     for (value, (i, j)) in values.iter_mut().zip(places(components)) {
         *value *= if i == j { 1.0 } else { 2.0 };
@@ -125,7 +146,7 @@ pub fn of_strain(tensor: &Matrix3<f64>, components: usize) -> Components {
     values
 }
 
-pub fn strain_tensor(values: &Components, components: usize) -> Matrix3<f64> {
+pub fn strain_tensor(values: &Components, components: impl Into<Layout>) -> Matrix3<f64> {
     let mut tensor = tensor(values, components);
     for i in 0..3 {
         for j in 0..3 {
@@ -136,7 +157,7 @@ pub fn strain_tensor(values: &Components, components: usize) -> Matrix3<f64> {
 }
 
 /// The strain whose component is 1, a shear strain being twice the tensor's.
-pub fn unit_strain(components: usize, index: usize) -> Matrix3<f64> {
+pub fn unit_strain(components: impl Into<Layout>, index: usize) -> Matrix3<f64> {
     let mut values = [0.0; 6];
     values[index] = 1.0;
     strain_tensor(&values, components)
@@ -169,7 +190,10 @@ mod tests {
             assert_eq!(of_stress(&tensor(&values, components), components), values);
             assert_eq!(of_strain(&strain_tensor(&values, components), components), values);
         }
-        assert_eq!(name(6, 4), "13");
+        let traction = Layout { components: 3, traction: true };
+        let values = [1.0, 2.0, 3.0, 0.0, 0.0, 0.0];
+        assert_eq!(of_strain(&strain_tensor(&values, traction), traction), values);
+        assert_eq!((name(6, 4), name(traction, 2)), ("13".to_string(), "t".to_string()));
         assert_eq!(name(3, 2), "12");
     }
 }

@@ -4,7 +4,10 @@ use std::path::PathBuf;
 
 use serde::{Deserialize, Serialize};
 
+use nalgebra::Matrix3;
+
 use super::expect::Expected;
+use super::kinematics::Layout;
 
 /// CMNAME, where none is given.
 pub const DEFAULT_NAME: &str = "MATERIAL";
@@ -22,6 +25,10 @@ pub struct Material {
     pub stress: [f64; 6],
     /// NTENS: 6, 4 (plane strain, axisymmetric) or 3 (plane stress).
     pub components: usize,
+    /// The largest separation of a cohesive element, over its thickness, by which strains are measured inside: they
+    /// go up to [`LARGEST_SEPARATION`].
+    #[serde(default)]
+    pub separation: Option<f64>,
     /// The range of the principal stretches that are reached.
     pub stretch: [f64; 2],
     /// The norm of the logarithmic strain of one increment.
@@ -118,7 +125,34 @@ pub fn direct(components: usize) -> usize {
 /// So many fields a call passes; those that are not known are 0.
 pub const MOST_FIELDS: usize = 8;
 
+/// What the largest separation is inside.
+pub const LARGEST_SEPARATION: f64 = 0.1;
+
 impl Material {
+    pub fn layout(&self) -> Layout {
+        Layout { components: self.components, traction: self.separation.is_some() }
+    }
+
+    /// What a strain of 1 inside is to the law.
+    pub fn unit_of_strain(&self) -> f64 {
+        self.separation.map_or(1.0, |largest| largest / LARGEST_SEPARATION)
+    }
+
+    /// Whether nothing shears or turns: trusses, shells of revolution, cohesive elements.
+    pub fn is_diagonal(&self) -> bool {
+        self.components < 3 || self.separation.is_some()
+    }
+
+    /// Whether the work done is known.
+    pub fn has_work(&self) -> bool {
+        self.components > 3 || self.separation.is_some()
+    }
+
+    /// J; of a separation there is none.
+    pub fn volume(&self, f: &Matrix3<f64>) -> f64 {
+        if self.separation.is_some() { 1.0 } else { f.determinant() }
+    }
+
     /// PREDEF and DPRED: fields stay as they are.
     pub fn passed_fields(&self) -> [[f64; MOST_FIELDS]; 2] {
         let mut fields = [[0.0; MOST_FIELDS]; 2];
@@ -130,7 +164,7 @@ impl Material {
 
     /// NDI.
     pub fn direct(&self) -> usize {
-        direct(self.components)
+        if self.separation.is_some() { 1 } else { direct(self.components) }
     }
 
     /// Whether no strain 33 ever is.

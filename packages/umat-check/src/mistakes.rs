@@ -153,7 +153,7 @@ impl<'a> Sample<'a> {
                 return None;
             }
             if let Some(exact) = exact(session, &self.states[k], convention) {
-                tried.push((k, usual_mistakes(&exact, self.components)));
+                tried.push((k, usual_mistakes(&exact, session.material.layout())));
             }
         }
         Some(tried)
@@ -171,7 +171,7 @@ impl<'a> Sample<'a> {
             truth
                 .is_none_or(|(sure, truth)| compare(&all[mistake].modulus, &truth, sure, components).worst < TWO_MODULI)
         });
-        if is_kept && kinds.contains(&"intact") {
+        if is_kept && (kinds.contains(&"intact") || kinds.contains(&"relaxed")) {
             return None;
         }
         if common.is_nan() || (*factor == Factor::OfAllStates && (common - 1.0).abs() < 1e-3) {
@@ -256,7 +256,7 @@ impl<'a> Sample<'a> {
 
 /// Whether it is a modulus that is found beside the state.
 fn is_of_other_increment(kinds: &[&'static str]) -> bool {
-    kinds.contains(&"intact") || kinds.contains(&"continuum")
+    kinds.iter().any(|kind| ["intact", "continuum", "relaxed"].contains(kind))
 }
 
 fn error_at(found: &[Option<Difference>], k: usize) -> f64 {
@@ -292,9 +292,10 @@ const TAKEN_BACK: f64 = 0.02;
 const LEAST_BACK: f64 = 2e-5;
 /// Of the time step, what passes in no time.
 const NO_TIME: f64 = 1e-9;
+const ALL_TIME: f64 = 1e6;
 
-/// The moduli of unloading, without time for the state to change, and of going on a little.
-fn intact(session: &mut Session, state: &State, convention: Convention) -> [Option<Modulus>; 3] {
+/// The moduli of unloading, without time for the state to change, of going on a little, and with all the time.
+fn intact(session: &mut Session, state: &State, convention: Convention) -> [Option<Modulus>; 4] {
     let answer = session.call_law(&state.call);
     let after = state.before.after(&state.f1, &state.call, &answer);
     let components = session.material.components;
@@ -320,5 +321,5 @@ fn intact(session: &mut Session, state: &State, convention: Convention) -> [Opti
     // Of a vanishing increment, by two that are not.
     let [one, two] = onwards.map(|(f, time)| of(&f, time));
     let vanishing = one.zip(two).map(|(one, two)| sum(&times(&one, 2.0), &two, -1.0));
-    [of(&back, 1.0), of(&state.f1, NO_TIME), vanishing]
+    [of(&back, 1.0), of(&state.f1, NO_TIME), vanishing, of(&state.f1, ALL_TIME)]
 }

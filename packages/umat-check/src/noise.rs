@@ -38,8 +38,7 @@ pub fn steps(session: &mut Session, states: &[State], truth: impl Fn(&State) -> 
 }
 
 fn stresses(session: &mut Session, state: &State, column: usize) -> Option<Vec<[f64; 6]>> {
-    let components = session.material.components;
-    let strain = unit_strain(components, column);
+    let strain = unit_strain(session.material.layout(), column);
     let stress = |k: usize| {
         let size = RANGE * (k as f64 / (POINTS - 1) as f64 - 0.5);
         let mut call = state.call.clone();

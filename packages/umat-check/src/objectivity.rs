@@ -29,6 +29,9 @@ struct Worst {
 
 /// Superposed rotations: of a total law at once, of others in turns as solvers have them.
 pub fn objectivity(session: &mut Session, reads: Reads) -> Finding {
+    if session.material.separation.is_some() {
+        return Finding::new(Question::Objectivity, Verdict::NotAsked, None, "tractions turn with their element");
+    }
     if reads == Reads::Total { at_large_turns(session) } else { at_small_turns(session) }
 }
 
@@ -106,7 +109,7 @@ pub fn isotropy(session: &mut Session) -> Finding {
     if !material.traits.isotropic && material.fibres.is_empty() {
         return Finding::new(Question::Isotropy, Verdict::NotAsked, None, "neither isotropic nor fibres are declared");
     }
-    if material.orientation {
+    if material.orientation || material.separation.is_some() {
         return Finding::new(Question::Isotropy, Verdict::NotAsked, None, "on the material's own axes");
     }
     let rotations = |rng: &mut Rng, material: &Material, number: usize, count: usize| {
@@ -207,7 +210,8 @@ fn stresses(session: &mut Session, path: &[Matrix3<f64>], time_step: f64) -> Vec
     all
 }
 
-fn divided(path: &[Matrix3<f64>], parts: usize) -> Vec<Matrix3<f64>> {
+/// A path, each of its increments in so many equal parts.
+pub fn divided(path: &[Matrix3<f64>], parts: usize) -> Vec<Matrix3<f64>> {
     let mut divided = Vec::new();
     let mut before = Matrix3::identity();
     for f in path {

@@ -74,7 +74,7 @@ impl Point {
 
     /// The arguments for the increment to this deformation.
     pub fn call(&self, f1: &Matrix3<f64>, material: &Material) -> Call {
-        let components = material.components;
+        let components = material.layout();
         let increment = Increment::between(&self.f, f1);
         let turned = |tensor: Matrix3<f64>| increment.rotation * tensor * increment.rotation.transpose();
         let mut call = Call {
@@ -192,7 +192,7 @@ impl Point {
 
 /// A stress on the law's axes, on global ones.
 pub fn global(stress: &Components, f: &Matrix3<f64>, material: &Material) -> Matrix3<f64> {
-    let local = tensor(stress, material.components);
+    let local = tensor(stress, material.layout());
     if material.orientation {
         let r = rotation_of(f);
         return r * local * r.transpose();

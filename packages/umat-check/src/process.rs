@@ -85,7 +85,7 @@ pub fn touch(session: &mut Session) -> Finding {
         }
     }
     if answered == 0 {
-        let text = "the law asks for ever smaller increments: nothing is computed";
+        let text = "no increment has an answer: PNEWDT asks for ever smaller ones, or what comes back is not finite";
         return Finding::new(Question::Memory, Verdict::NotSure, None, text);
     }
     let text = format!("{calls} increments touch nothing beyond STATEV, PROPS, STRESS, DDSDDE");
@@ -463,7 +463,7 @@ const MANY: usize = 20;
 const NEARLY_ALL: f64 = 0.9;
 
 fn not_finite(answer: &Answer, session: &Session) -> String {
-    let components = session.material.components;
+    let (components, layout) = (session.material.components, session.material.layout());
     if let Some(i) = (0..components).find(|&i| !answer.stress[i].is_finite()) {
         return format!("STRESS({}) is not finite in an increment", i + 1);
     }
@@ -474,7 +474,7 @@ fn not_finite(answer: &Answer, session: &Session) -> String {
     let place = place.into_iter().find(|&(i, j)| !answer.modulus[i][j].is_finite());
     match place {
         Some((i, j)) => {
-            format!("DDSDDE({}, {}) is not finite in an increment", name(components, i), name(components, j))
+            format!("DDSDDE({}, {}) is not finite in an increment", name(layout, i), name(layout, j))
         }
         None => "a number is not finite the first time".to_string(),
     }

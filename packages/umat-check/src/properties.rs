@@ -46,7 +46,7 @@ pub fn properties(session: &mut Session) -> Finding {
             idle.push(index + 1);
         }
     }
-    let of_fields = fields(session, &paths, &alone);
+    let of_fields = fields(session, &paths, &alone) + &idle_states(&session.material.initial, &alone);
     if idle.is_empty() {
         return line(Verdict::Right, format!("each of {count} changes the answer{of_fields}"));
     }
@@ -59,6 +59,17 @@ pub fn properties(session: &mut Session) -> Finding {
     );
     // Flags, thresholds that are not reached and directions of any length are right.
     line(Verdict::Right, text).with("changes nothing")
+}
+
+/// The state variables that stay as they begin.
+fn idle_states(initial: &[f64], alone: &[Vec<Answer>]) -> String {
+    let stays = |i: &usize| alone.iter().flatten().all(|answer| answer.state[*i].to_bits() == initial[*i].to_bits());
+    let idle: Vec<String> = (0..initial.len()).filter(stays).map(|i| (i + 1).to_string()).collect();
+    match idle.len() {
+        0 => String::new(),
+        count if count == initial.len() => format!("; none of {count} state variables ever changes"),
+        _ => format!("; STATEV of {} never changes", idle.join(", ")),
+    }
 }
 
 /// Which fields change the answer, by PREDEF and by DPRED.

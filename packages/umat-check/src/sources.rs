@@ -20,19 +20,25 @@ struct Modules {
     uses: Vec<String>,
     /// Of which its submodules are.
     extends: Vec<String>,
+    /// Files that are part of it.
+    includes: Vec<String>,
 }
 
 impl Modules {
     fn of(text: &str) -> Modules {
         let mut found = Modules::default();
         for line in text.lines() {
-            let line = line.split('!').next().unwrap_or_default().trim().to_lowercase();
+            let written = line.split('!').next().unwrap_or_default().trim();
+            let line = written.to_lowercase();
             if let Some((_, rest)) = line.split_once('(').filter(|(word, _)| word.trim() == "submodule") {
                 found.extends.extend(rest.split([':', ')']).next().map(|name| name.trim().to_string()));
             }
             let mut words = line.split([' ', ',', '\t', ':']).filter(|word| !word.is_empty());
             match (words.next(), words.next(), words.next()) {
                 (Some("module"), Some(name), None) => found.has.push(name.to_string()),
+                (Some("include"), Some(_), _) => {
+                    found.includes.extend(written.split(['"', '\'']).nth(1).map(str::to_string));
+                }
                 (Some("use"), Some("intrinsic"), _) => {}
                 (Some("use"), Some("non_intrinsic"), Some(name)) | (Some("use"), Some(name), _) => {
                     found.uses.push(name.to_string());
@@ -44,8 +50,20 @@ impl Modules {
         found
     }
 
+    /// Those of a file, and of what it includes from beside it.
     fn read(path: &Path) -> Modules {
-        Modules::of(&String::from_utf8_lossy(&std::fs::read(path).unwrap_or_default()))
+        let of = |path: &Path| Modules::of(&String::from_utf8_lossy(&std::fs::read(path).unwrap_or_default()));
+        let mut all = of(path);
+        let mut next = 0;
+        while let Some(name) = all.includes.get(next).filter(|_| next < FILES) {
+            let inner = of(&path.with_file_name(name));
+            next += 1;
+            all.has.extend(inner.has);
+            all.uses.extend(inner.uses);
+            all.includes.extend(inner.includes);
+        }
+        all.uses.retain(|name| !all.has.contains(name));
+        all
     }
 }
 
@@ -170,6 +188,7 @@ mod tests {
                     module procedure f\n      use yield\n";
         let modules = Modules::of(text);
         assert_eq!(Modules::of("submodule (yield) impl\n").extends, ["yield"]);
+        assert_eq!(Modules::of("      INCLUDE 'Sub/Yield.f'\n").includes, ["Sub/Yield.f"]);
         assert_eq!((modules.has, modules.uses), (vec!["yield".to_string()], vec!["tensors".to_string()]));
     }
 }

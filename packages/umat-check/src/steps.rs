@@ -27,6 +27,42 @@ const SETTLED: f64 = 1e-3;
 /// An order of convergence below this is none.
 const LOWEST_ORDER: f64 = 0.5;
 
+/// What half the increment leaves of a stress that is of the increment alone, at most; and of which part of the whole
+/// stress it is asked.
+const ALONE: f64 = 0.55;
+const LEAST_PART: f64 = 1e-3;
+/// The order of what grows as the increments shrink.
+const DIVERGES: f64 = -0.5;
+
+/// Deviator and pressure, each with three halvings of the increment, and the whole stress, over many histories.
+#[derive(Default)]
+pub struct Shares {
+    parts: [[f64; 3]; 2],
+    whole: f64,
+}
+
+impl Shares {
+    pub fn add(&mut self, halvings: [&Matrix3<f64>; 3], whole: f64) {
+        self.whole += whole;
+        for (k, stress) in halvings.into_iter().enumerate() {
+            let pressure = Matrix3::identity() * (stress.trace() / 3.0);
+            self.parts[0][k] += (stress - pressure).norm();
+            self.parts[1][k] += pressure.norm();
+        }
+    }
+
+    /// The line where a part of the stress halves with the increment, again and again.
+    pub fn not_added_up(&self) -> Option<Finding> {
+        let shrinks = |[one, half, quarter]: &[f64; 3]| {
+            *one > LEAST_PART * self.whole && *half < ALONE * one && *quarter < ALONE * half
+        };
+        let part = ["the deviator of the stress", "the pressure"][self.parts.iter().position(shrinks)?];
+        let text =
+            format!("{part} is that of the increment alone, and not added up: with half the increment it is half");
+        Some(Finding::new(Question::Steps, Verdict::Wrong, None, text).with("not accumulated"))
+    }
+}
+
 /// A path, the stress at its end with the most parts and the largest on the way, and the last change of the first over
 /// the second.
 struct Ended {
@@ -41,6 +77,7 @@ pub fn steps(session: &mut Session) -> Finding {
     let mut largest_change = 0.0_f64;
     let (mut coarse, mut fine, mut last) = (0.0, 0.0, 0.0);
     let (mut compared, mut worst) = (0, None::<Ended>);
+    let mut shares = Shares::default();
     for _ in 0..HISTORIES {
         let mut path = history(&mut rng, session.material, 2);
         path.truncate(INCREMENTS);
@@ -53,6 +90,7 @@ pub fn steps(session: &mut Session) -> Finding {
             continue;
         }
         largest_change = largest_change.max((two - one).norm() / size);
+        shares.add([&four, &eight, &sixteen], size);
         coarse += (two - one).norm() / size + (four - two).norm() / size;
         last = f64::max(last, (sixteen - eight).norm() / size);
         fine += (eight - four).norm() / size + (sixteen - eight).norm() / size;
@@ -64,6 +102,9 @@ pub fn steps(session: &mut Session) -> Finding {
     }
     if compared == 0 {
         return Finding::new(Question::Steps, Verdict::NotSure, None, "there was no stress");
+    }
+    if let Some(line) = shares.not_added_up() {
+        return line;
     }
     if largest_change <= SAME {
         let text = "an increment in two gives the same stress";
@@ -89,7 +130,8 @@ pub fn steps(session: &mut Session) -> Finding {
     }
     let text =
         format!("finer increments change the stress by {largest_change:.1e}, and order {order:.1} is no convergence");
-    Finding::new(Question::Steps, Verdict::Warning, Some(order), text).with("no convergence")
+    let verdict = if order < DIVERGES { Verdict::Wrong } else { Verdict::Warning };
+    Finding::new(Question::Steps, verdict, Some(order), text).with("no convergence")
 }
 
 /// The stress at the end of a path in ever more parts, as far as the law does not refuse, and the largest of all on the

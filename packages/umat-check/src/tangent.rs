@@ -11,9 +11,9 @@ use super::finding::{Finding, NOT_FINITE, Question, Verdict};
 use super::histories::history;
 use super::hypotheses::stress_by_volume;
 use super::judgement::{Difference, compare, contraction, wrong_entries};
-use super::kinematics::{Components, Increment, Modulus, name};
+use super::kinematics::{Components, Increment, Layout, Modulus, name};
 use super::map::{self, Branch};
-use super::material::{Reads, direct};
+use super::material::{Material, Reads, direct};
 use super::mistakes::{self, Sample};
 use super::noise;
 use super::point::{Failure, Point};
@@ -33,6 +33,9 @@ pub const FEW_STATES: &str = "few states";
 const FEW: usize = 2;
 const MANY: usize = 25;
 
+/// Of the stress, what is left of a product that is the stress.
+const SECANT: f64 = 1e-6;
+
 /// The kind of a law that is written for another order.
 pub const EXCHANGED: &str = "13 and 23 exchanged";
 
@@ -48,9 +51,11 @@ pub enum Convention {
 }
 
 impl Convention {
-    fn of(reads: Reads, components: usize) -> &'static [Convention] {
+    fn of(reads: Reads, material: &Material) -> &'static [Convention] {
         use Convention::{Jaumann, Plain, PlainWithVolume};
+        let components = material.components;
         match reads {
+            _ if material.separation.is_some() => &[Plain],
             // Where there is no strain across the law alone knows the thickness, and so J.
             _ if components <= 3 => &[Plain, PlainWithVolume],
             Reads::Total => &[Jaumann],
@@ -81,6 +86,23 @@ pub struct State {
 }
 
 impl State {
+    /// Whether DDSDDE times the strain is the stress.
+    fn is_secant(&self, components: usize) -> bool {
+        let largest = self.stress.iter().fold(0.0_f64, |largest, stress| largest.max(stress.abs()));
+        largest > 0.0
+            && (0..components).all(|i| {
+                let strains = self.call.strain.iter().zip(&self.call.strain_increment).map(|(a, b)| a + b);
+                let product: f64 = strains.zip(&self.modulus[i]).map(|(strain, entry)| strain * entry).sum();
+                (product - self.stress[i]).abs() < SECANT * largest
+            })
+    }
+
+    /// Whether there is stress that nothing in the increment changes.
+    fn lags(&self, convention: Convention, components: usize) -> bool {
+        let changes = self.truth(convention, components).is_none_or(|(sure, _)| sure.value != [[0.0; 6]; 6]);
+        !changes && self.modulus != [[0.0; 6]; 6]
+    }
+
     /// The differences, and what DDSDDE should be.
     pub fn truth(&self, convention: Convention, components: usize) -> Option<(&Derivative, Modulus)> {
         let differences = match convention {
@@ -140,7 +162,7 @@ fn tangent_in_order(session: &mut Session, reads: Reads, allowed: Option<f64>) -
     if broken && states.is_empty() {
         return not_sure("the law asks for smaller increments at every state");
     }
-    let conventions = Convention::of(reads, components);
+    let conventions = Convention::of(reads, session.material);
     let Some((mut convention, mut found)) = best_convention(&states, conventions, components) else {
         return Finding::new(Question::Tangent, Verdict::NotAsked, None, "");
     };
@@ -164,7 +186,8 @@ fn tangent_in_order(session: &mut Session, reads: Reads, allowed: Option<f64>) -
         return not_sure("no state has sure differences");
     };
     let (unsure, aside) = without_sure_differences(&states, &found);
-    let judged = Judged { states: &states, found: &found, convention, components };
+    let layout = session.material.layout();
+    let judged = Judged { states: &states, found: &found, convention, components, layout };
     let within = steps.is_some_and(|steps| judged.largest_error() < OF_STEPS * steps);
     if difference.worst <= TOLERANCE || within {
         let text = format!("{} at {} states{aside}", convention.name(), states.len());
@@ -213,6 +236,7 @@ struct Judged<'a> {
     found: &'a [Option<Difference>],
     convention: Convention,
     components: usize,
+    layout: Layout,
 }
 
 /// Of the stiffness, what differences err by at most for steps of the stress of one part of it.
@@ -275,12 +299,12 @@ impl Judged<'_> {
     /// These entries in words.
     fn named(&self, all: &[(usize, usize)]) -> String {
         let direct = direct(self.components);
-        let named = |(i, j): &(usize, usize)| format!("({}, {})", name(self.components, *i), name(self.components, *j));
+        let named = |(i, j): &(usize, usize)| format!("({}, {})", name(self.layout, *i), name(self.layout, *j));
         match all {
             [] => String::new(),
             few if few.len() <= 4 => format!("in {} alone", few.iter().map(named).collect::<Vec<_>>().join(", ")),
-            _ if all.iter().all(|&(i, j)| i < direct && j < direct) => {
-                let names = (0..direct).map(|i| name(self.components, i)).collect::<Vec<_>>();
+            _ if !self.layout.traction && all.iter().all(|&(i, j)| i < direct && j < direct) => {
+                let names = (0..direct).map(|i| name(self.layout, i)).collect::<Vec<_>>();
                 format!("in {} alone", names.join(", "))
             }
             _ if all.iter().all(|&(i, j)| i >= direct && j >= direct) => "in shears by shears alone".to_string(),
@@ -333,7 +357,7 @@ fn wrong_tangent(
     tolerance: f64,
     aside: &str,
 ) -> Finding {
-    let &Judged { states, found, convention, components } = judged;
+    let &Judged { states, found, convention, components, layout } = judged;
     let those = |is_wrong: bool| {
         let judged = |k: &usize| found[*k].is_some_and(|difference| (difference.worst > TOLERANCE) == is_wrong);
         (0..states.len()).filter(judged).collect::<Vec<usize>>()
@@ -341,26 +365,28 @@ fn wrong_tangent(
     let (wrong, right) = (those(true), those(false));
     let (at, difference) = worst(found).unwrap_or_default();
     let (i, j) = difference.place;
-    let place = format!("({}, {})", name(components, i), name(components, j));
-    let instead = states[at].truth(convention, components).map_or(f64::NAN, |(_, truth)| truth[i][j]);
-    let is = states[at].modulus[i][j];
+    let place = format!("({}, {})", name(layout, i), name(layout, j));
+    let unit = session.material.unit_of_strain();
+    let instead = states[at].truth(convention, components).map_or(f64::NAN, |(_, truth)| truth[i][j]) / unit;
+    let is = states[at].modulus[i][j] / unit;
     let factor = wrong.iter().filter_map(|&k| {
         let (_, truth) = states[k].truth(convention, components)?;
         contraction(&states[k].modulus, &truth, components)
     });
     let slows = convergence(factor.fold(0.0, f64::max));
     let few = wrong.len() <= FEW && states.len() >= MANY * FEW;
-    let (kinds, way) = if few {
-        (vec![FEW_STATES.to_string()], "in few states alone, perhaps at kinks that are not seen".to_string())
-    } else {
-        mistakes::name(session, &Sample::new(components, states, found, &wrong, &right), conventions)
-    };
+    let (kinds, way) = in_what_way(session, judged, few, (&wrong, &right), conventions);
     let where_ = states_named(states, &wrong);
     let all = judged.entries();
-    let (entries, size) = (judged.named(&all), mistakes::percent(difference.worst));
+    let entries = judged.named(&all);
+    // Where nothing should be there is no measure.
+    let size = match difference.worst.is_finite() {
+        true => format!("wrong by up to {}", mistakes::percent(difference.worst)),
+        false => "wrong".to_string(),
+    };
     let growth = growth(states, found);
     let text = format!(
-        "{way}; wrong by up to {size} {entries}{growth} at {} of {} states ({where_}), worst at {place} {}, {is:.5e} instead of {instead:.5e}; {slows}{aside}",
+        "{way}; {size} {entries}{growth} at {} of {} states ({where_}), worst at {place} {}, {is:.5e} instead of {instead:.5e}; {slows}{aside}",
         wrong.len(),
         states.len(),
         states[at].name,
@@ -378,6 +404,30 @@ fn wrong_tangent(
     finding.map = judged.map();
     finding.call_bits = Some(states[at].call.numbers().into_iter().map(f64::to_bits).collect());
     finding
+}
+
+/// In what way DDSDDE is wrong: kinds, and a text.
+fn in_what_way(
+    session: &mut Session,
+    judged: &Judged,
+    few: bool,
+    (wrong, right): (&[usize], &[usize]),
+    conventions: &[Convention],
+) -> (Vec<String>, String) {
+    let &Judged { states, found, convention, components, .. } = judged;
+    let of = |kind: &str, text: &str| (vec![kind.to_string()], text.to_string());
+    if wrong.iter().all(|&k| states[k].lags(convention, components)) {
+        let text = "the stress does not change with the increment: is it that of STRAN or DFGRD0, at its beginning?";
+        return of("lagging", text);
+    }
+    if few {
+        return of(FEW_STATES, "in few states alone, perhaps at kinks that are not seen");
+    }
+    let (kinds, way) = mistakes::name(session, &Sample::new(components, states, found, wrong, right), conventions);
+    if kinds[..] == ["unknown"] && wrong.iter().all(|&k| states[k].is_secant(components)) {
+        return of("secant", "secant: DDSDDE times the strain is the stress, without the derivative of the damage");
+    }
+    (kinds, way)
 }
 
 /// How the error goes with the strain, where that can be said: at rest, and at the smaller and the larger strains.
@@ -541,7 +591,7 @@ fn derivatives(
     f1: &Matrix3<f64>,
     reads: Reads,
 ) -> (Option<Derivative>, Option<Derivative>) {
-    let conventions = Convention::of(reads, session.material.components);
+    let conventions = Convention::of(reads, session.material);
     let jaumann = conventions.contains(&Convention::Jaumann);
     let plain = conventions.contains(&Convention::Plain);
     (

@@ -79,7 +79,7 @@ fn at_worst(session: &Session, given: &Components, wanted: &Components) -> Strin
     let i = (0..components).max_by(|a, b| apart(a).total_cmp(&apart(b))).unwrap_or(0);
     format!(
         "DDSDDT is not the derivative of the stress by DTEMP: worst at {}, {:.5e} instead of {:.5e}",
-        name(components, i),
+        name(session.material.layout(), i),
         given[i],
         wanted[i]
     )

@@ -3,24 +3,17 @@
 
 mod support;
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use fastrand::Rng;
 use serde::Deserialize;
 use serde_json::Value;
-use support::{ROOT, check, corpus, parse};
+use support::{ROOT, changed, check, corpus, parse};
 use toron_test_support::update::is_asked;
 
 /// The lines that depend on the properties, and take little time.
 const OF_PROPERTIES: &str = "--only=rest,tangent,objectivity,isotropy,steps,energy,cycles,dissipation";
 const DOCUMENT: &str = "docs/results/check.md";
-/// A new folder, named after what is in it.
-fn folder(name: &str) -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
-    std::fs::create_dir_all(&folder).expect("a folder");
-    folder
-}
-
 /// The lines of the report that are not right: name, verdict, kinds, text.
 struct Complaint {
     line: String,
@@ -162,27 +155,12 @@ struct Fault {
 }
 
 impl Fault {
-    /// The law with the fault, and its TOML beside it, in a folder of their own.
-    fn write(&self, number: usize) -> PathBuf {
-        let folder = folder(&format!("check-{number}"));
-        let right = corpus("laws").join(&self.law);
-        let mut text = std::fs::read_to_string(&right).expect("a law");
-        for [from, to] in &self.change {
-            assert_eq!(text.matches(from).count(), 1, "{} of the fault {}: {from:?}", self.law, self.what);
-            text = text.replace(from, to);
-        }
-        let scene = right.with_extension("toml");
-        std::fs::copy(&scene, folder.join(scene.file_name().expect("a name"))).expect("a copy");
-        let law = folder.join(&self.law);
-        std::fs::write(&law, text).expect("the law is written");
-        law
-    }
-
     /// The row of the document's table, or what was found in its place.
     fn row(&self, number: usize) -> Result<[String; 4], String> {
         let only = self.line.iter().map(|line| format!("--only={line}"));
         let arguments: Vec<String> = self.arguments.iter().cloned().chain(only).collect();
-        let (code, report) = check(&self.write(number), &arguments);
+        let (code, report) =
+            check(&changed(&corpus("laws").join(&self.law), &self.change, &format!("check-{number}")), &arguments);
         let found = complaints(&report);
         let named = found.iter().find(|complaint| {
             complaint.kinds.contains(&self.kind) && self.line.as_ref().is_none_or(|line| *line == complaint.line)

@@ -7,8 +7,10 @@ use nalgebra::Matrix3;
 
 use super::super::finding::{Finding, Question, Verdict};
 use super::super::histories::{history, rotation};
-use super::super::kinematics::{Increment, rotation_of};
+use super::super::kinematics::rotation_of;
 use super::super::material::Reads;
+use super::super::objectivity::divided;
+use super::super::steps::Shares;
 use super::call::{Given, Misread, Session};
 use super::point::{self, Point, tensor, time};
 
@@ -211,34 +213,35 @@ fn anisotropy(session: &mut Session) -> io::Result<Option<(f64, usize)>> {
 /// # Errors
 /// The system has no memory.
 pub fn steps(session: &mut Session) -> io::Result<Finding> {
-    if !session.material.traits.hyperelastic {
-        return Ok(Finding::new(Question::Steps, Verdict::NotAsked, None, "hyperelastic is not declared"));
-    }
     let mut rng = Rng::with_seed(session.material.seed ^ 0x57);
-    let (mut figure, mut compared) = (0.0_f64, 0);
+    let (mut figure, mut compared, mut shares) = (0.0_f64, 0, Shares::default());
     for _ in 0..HISTORIES {
         let mut path = history(&mut rng, session.material, 2);
         path.truncate(INCREMENTS / 2);
-        let mut halved = Vec::new();
-        let mut before = Matrix3::identity();
-        for f in &path {
-            halved.extend([Increment::between(&before, f).at(0.5, &before), *f]);
-            before = *f;
+        let mut of_parts = Vec::new();
+        for parts in [1, 2, 4] {
+            let found = point::history(session, &divided(&path, parts))?;
+            let ends = found.iter().skip(parts - 1).step_by(parts);
+            of_parts.push(ends.map(|found| tensor(&found.stress)).collect::<Vec<_>>());
         }
-        let [one, two] = [path, halved].map(|path| point::history(session, &path));
-        let (one, two) = (one?, two?);
         let mut largest = 0.0_f64;
-        for (one, two) in one.iter().zip(two.iter().skip(1).step_by(2)) {
-            let [a, b] = [one, two].map(|found| tensor(&found.stress));
-            largest = largest.max(a.norm());
+        for ((one, two), four) in of_parts[0].iter().zip(&of_parts[1]).zip(&of_parts[2]) {
+            largest = largest.max(one.norm());
             if largest > 0.0 {
                 compared += 1;
-                figure = figure.max((a - b).norm() / largest);
+                figure = figure.max((one - two).norm() / largest);
+                shares.add([one, two, four], one.norm());
             }
         }
     }
     if compared == 0 {
         return Ok(Finding::new(Question::Steps, Verdict::NotSure, None, "there was no stress"));
+    }
+    if let Some(line) = shares.not_added_up() {
+        return Ok(line);
+    }
+    if !session.material.traits.hyperelastic {
+        return Ok(Finding::new(Question::Steps, Verdict::NotAsked, None, "hyperelastic is not declared"));
     }
     if figure <= SAME {
         let text = "an increment in two gives the same stress";

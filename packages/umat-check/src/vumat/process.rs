@@ -140,9 +140,9 @@ pub fn outputs(session: &mut Session) -> io::Result<Finding> {
         session.unset = 0.0;
         overwritten.extend(session.overwritten(time, &given)?);
         let zero = session.call_law(time, &given)?;
-        // An output that keeps what was there, or depends on it, and has a number otherwise.
+        // An output that keeps what was there, or depends on it.
         let mut note = |name: String, before: f64, after: f64| {
-            if before.is_nan() && !after.is_nan() && !unset.contains(&name) {
+            if before.to_bits() != after.to_bits() && !after.is_nan() && !unset.contains(&name) {
                 unset.push(name);
             }
         };

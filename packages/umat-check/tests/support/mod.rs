@@ -36,3 +36,22 @@ pub fn check(law: &Path, arguments: &[String]) -> (i32, Value) {
         .unwrap_or_else(|error| panic!("{} {arguments:?}: {error}\n{stdout}\n{stderr}", law.display()));
     (output.status.code().expect("the program survives"), report)
 }
+
+/// A law with changes, each of what occurs once, and its TOML beside it, in a folder of this name.
+#[allow(dead_code, reason = "not every test has changes")]
+pub fn changed(law: &Path, changes: &[[String; 2]], folder: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(folder);
+    std::fs::create_dir_all(&folder).expect("a folder");
+    let mut text = std::fs::read_to_string(law).expect("a law");
+    for [from, to] in changes {
+        assert_eq!(text.matches(from).count(), 1, "{}: {from:?}", law.display());
+        text = text.replace(from, to);
+    }
+    let written = folder.join(law.file_name().expect("a name"));
+    let scene = law.with_extension("toml");
+    if scene.is_file() {
+        std::fs::copy(&scene, written.with_extension("toml")).expect("a copy");
+    }
+    std::fs::write(&written, text).expect("the law is written");
+    written
+}
