@@ -322,6 +322,7 @@ mod tests {
             snapshots: Vec::new(),
             end: End::Time,
             course: Default::default(),
+            decision: None,
             failed: None,
             failure: None,
             elements: 1,

@@ -21,6 +21,7 @@ use toron_explicit_host::contact::{RigidSurface, Shape};
 use toron_explicit_host::medium::Control;
 use toron_explicit_host::mutual_contact::Parameters;
 use toron_explicit_host::struck::blow::DENSITIES;
+use toron_explicit_host::struck::plan::Plan;
 use toron_materials::material::file::MaterialFile;
 use toron_materials::material::model::Material;
 use toron_materials::units;
@@ -90,7 +91,7 @@ impl Reader<'_> {
 
     fn panel_case(&self, file: &PanelKeys, cloth: Arc<Cloth>, threads: Threads, name: String) -> Result<Case, Error> {
         let keys = self.keys;
-        let plan = self.plan(&name, SAMPLES)?;
+        let plan = self.panel_plan(file, &name)?;
         let stiffness = self.needed("contact-stiffness", &keys.contact_stiffness)?;
         let [_, height] = cloth.yarn_heights();
         let pressed_at_rest = cloth.coarse_radius().is_none();
@@ -129,6 +130,17 @@ impl Reader<'_> {
             single_precision: keys.is_single_precision(),
             name,
         })
+    }
+
+    fn panel_plan(&self, file: &PanelKeys, name: &str) -> Result<Plan, Error> {
+        let plan = self.plan(name, SAMPLES)?;
+        match &file.residual {
+            Some(residual) if *residual.get_ref() && !plan.decides => {
+                let message = "residual is true; allowed: with until = \"decided\"; other runs go on to the end anyway";
+                Err(self.source.error(residual.span(), message))
+            }
+            residual => Ok(Plan { settles: residual.as_ref().is_some_and(|residual| *residual.get_ref()), ..plan }),
+        }
     }
 
     /// Where the panel is struck; a part of one is struck where its planes of symmetry meet.

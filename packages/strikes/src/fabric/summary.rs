@@ -4,10 +4,11 @@ use std::time::Duration;
 
 use super::judgement::{Measures, judge};
 use super::measure::{OfPanel, Sample};
-use super::run::{End, Outcome};
+use super::run::{Decision, End, Outcome};
 use super::scene::{Case, Zones};
 use super::strength::PanelStrength;
 use super::weights;
+use crate::residual::SpeedIs;
 use crate::strength::scatter;
 use crate::weave::model::Model;
 use toron::host::units::UnitSystem;
@@ -89,6 +90,7 @@ pub fn ending(case: &Case, outcome: &Outcome) -> String {
         End::Rebounded => format!("{strikes} flies back"),
         End::Left => format!("{strikes} went through"),
         End::Decided => format!("{strikes} goes through, decided"),
+        End::Settled => format!("{strikes} goes through, settled"),
         End::Interrupted => "interrupted".to_string(),
         End::Failed => "an error".to_string(),
     }
@@ -98,9 +100,14 @@ pub fn ending(case: &Case, outcome: &Outcome) -> String {
 pub fn residual_speed(outcome: &Outcome, figures: &Figures) -> Option<f64> {
     match outcome.end {
         End::Stopped => Some(0.0),
-        End::Left | End::Decided => Some(figures.last.speed),
+        End::Left | End::Decided | End::Settled => Some(figures.last.speed.max(0.0)),
         End::Time | End::Failed | End::Interrupted | End::Rebounded => None,
     }
+}
+
+/// Which speed of a sphere that goes through that one is.
+pub fn speed_is(case: &Case, outcome: &Outcome) -> Option<SpeedIs> {
+    SpeedIs::of(outcome.end, case.plan.settles)
 }
 
 fn law(case: &Case) -> String {
@@ -124,6 +131,7 @@ pub fn line(units: &UnitSystem, case: &Case, outcome: &Outcome, figures: &Figure
     row.add("ending", ending(case, outcome));
     row.quantity("end", TIME, last.time);
     row.quantity("residual_speed", SPEED, residual_speed(outcome, figures));
+    row.add("residual_speed_is", speed_is(case, outcome).map_or(NONE, SpeedIs::name));
     row.quantity("speed_at_end", SPEED, last.speed);
     row.add("verdict", verdict(&figures.findings));
     row.add("material", case.material_names());
@@ -161,6 +169,12 @@ pub fn line(units: &UnitSystem, case: &Case, outcome: &Outcome, figures: &Figure
     row.decimals("law_time_share", seconds(outcome.cost.law) / total, 2);
     row.decimals("seconds", seconds(outcome.cost.processor), 2);
     row.decimals("wall_seconds", seconds(outcome.cost.total()), 2);
+    let decision = outcome.decision;
+    row.quantity("decided_at", TIME, decision.map(|decision| decision.time));
+    row.quantity("speed_at_decision", SPEED, decision.map(|decision| decision.speed));
+    let of_decision = |text: &dyn Fn(Decision) -> String| decision.map_or(NONE.to_string(), text);
+    row.add("steps_to_decision", of_decision(&|decision| decision.steps.to_string()));
+    row.add("seconds_to_decision", of_decision(&|decision| format!("{:.2}", seconds(decision.processor))));
     row.cells
 }
 
