@@ -16,6 +16,7 @@ use crate::judgement::MEASURED_EVERY;
 use crate::lanes::Number;
 use crate::snapshot::Snapshot;
 use crate::solver::{Solver, SolverState};
+use crate::step_limit::Histogram;
 use crate::vtu;
 use toron_shared::error::Error;
 use toron_shared::numbers::number;
@@ -138,6 +139,12 @@ pub struct Outcome<E, C> {
     pub elements: usize,
     pub cost: Cost,
     pub searches: u64,
+    /// For how long each of [`Limiter::ALL`](crate::step_limit::Limiter::ALL) has limited the step, and how long the
+    /// elements' own steps were.
+    pub limited: [f64; 5],
+    pub histogram: Histogram,
+    /// Mass that torn ends were lent.
+    pub lent: f64,
     pub wall: Duration,
 }
 
@@ -369,6 +376,9 @@ impl<'a, S: Struck, T: Number> Run<'a, S, T> {
             elements: solver.bodies.iter().map(|body| body.mesh.elements.len()).sum(),
             cost: solver.state.cost,
             searches: solver.mutual.as_ref().map_or(0, |contact| contact.state.searches),
+            limited: solver.state.limited,
+            histogram: solver.state.histogram,
+            lent: solver.state.lent,
             wall: begun.elapsed(),
         })
     }

@@ -46,6 +46,7 @@ pub struct PanelKeys {
     pub rim: Option<Rim>,
     pub yarn_friction: Option<NotNegative>,
     pub residual: Option<Spanned<bool>>,
+    pub shred_mass: Option<Spanned<NotNegative>>,
 }
 
 /// How the yarns' ends at the panel's outline are held.

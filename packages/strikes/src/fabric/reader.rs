@@ -38,6 +38,9 @@ const FRICTION: [f64; 2] = [0.23, 0.18];
 /// Over a yarn's height: how near nodes are to faces that are looked at in every step, and how deep they may be.
 const MARGIN: f64 = 0.8;
 const DEEPEST: f64 = 0.5;
+/// The part of the yarns' mass that torn ends may be lent, if the file gives none, and at most.
+const SHRED_MASS: f64 = 0.0;
+const MOST_SHRED_MASS: f64 = 1e-3;
 /// A mass and a density that differ by less than this part are the same.
 const SAME_MASS: f64 = 0.02;
 
@@ -126,10 +129,21 @@ impl Reader<'_> {
                 pressed_at_rest,
             },
             control: Control { by_direction: true, ..self.control() },
+            shred_mass: self.shred_mass(file)?,
             plan,
             single_precision: keys.is_single_precision(),
             name,
         })
+    }
+
+    fn shred_mass(&self, file: &PanelKeys) -> Result<f64, Error> {
+        let Some(given) = &file.shred_mass else { return Ok(SHRED_MASS) };
+        let part = given.value();
+        if part <= MOST_SHRED_MASS {
+            return Ok(part);
+        }
+        let message = format!("shred-mass is {part}; allowed: 0 to {MOST_SHRED_MASS}, a part of the yarns' mass");
+        Err(self.source.error(given.span(), &message))
     }
 
     fn panel_plan(&self, file: &PanelKeys, name: &str) -> Result<Plan, Error> {

@@ -85,6 +85,7 @@ fn list_files(results: &Results, output: &Path) -> String {
     let written = [
         (true, "summary.csv", "a line for every case, with all that is known of it"),
         (true, "NAME.csv", "the history of case NAME"),
+        (true, "NAME-steps.csv", "how long the steps of its elements were"),
         (true, "NAME.svg, .png", "plots of it"),
         (pictures, "NAME-panel-1.svg, .png, …", "the panel at those times of pictures that the run came to"),
         (frames, "NAME.pvd, NAME-0000.vtu, …", "a series for ParaView"),

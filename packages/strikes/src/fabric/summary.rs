@@ -1,5 +1,6 @@
 //! The figures of a scene: a line for every case, how it ended, with what speed, deflection, damage and cost.
 
+use std::path::Path;
 use std::time::Duration;
 
 use super::judgement::{Measures, judge};
@@ -15,11 +16,13 @@ use toron::host::units::UnitSystem;
 use toron::law::parameters::{Dimension, ENERGY_DENSITY, NUMBER};
 use toron_explicit_host::judgement::{Finding, verdict};
 use toron_explicit_host::lanes::{largest, smallest};
+use toron_explicit_host::step_limit::{BINS, Histogram, Limiter};
 use toron_explicit_host::struck::history::{Column, title};
 use toron_explicit_host::struck::summary::{Cells, Row};
-use toron_materials::units::{LENGTH, SPEED, TIME};
+use toron_materials::units::{LENGTH, MASS, SPEED, TIME};
+use toron_shared::error::Error;
 use toron_shared::numbers::number;
-use toron_shared::text_table::NONE;
+use toron_shared::text_table::{NONE, write_csv};
 
 /// Of angles.
 const DEGREES: Dimension = Dimension { mass: 0, length: 0, time: 0, name: "°" };
@@ -164,6 +167,11 @@ pub fn line(units: &UnitSystem, case: &Case, outcome: &Outcome, figures: &Figure
     }
     row.add("steps", outcome.cost.steps);
     row.add("searches", outcome.searches);
+    row.quantity("shred_mass", MASS, outcome.lent);
+    let limited: f64 = outcome.limited.iter().sum();
+    for (limiter, time) in Limiter::ALL.into_iter().zip(outcome.limited) {
+        row.decimals(&format!("limited_by_{}", limiter.name()), time / limited.max(f64::MIN_POSITIVE), 4);
+    }
     row.decimals("ns_per_zone_cycle", outcome.ns_per_zone_cycle(), 1);
     row.decimals("contact_time_share", seconds(outcome.cost.contact) / total, 2);
     row.decimals("law_time_share", seconds(outcome.cost.law) / total, 2);
@@ -176,6 +184,21 @@ pub fn line(units: &UnitSystem, case: &Case, outcome: &Outcome, figures: &Figure
     row.add("steps_to_decision", of_decision(&|decision| decision.steps.to_string()));
     row.add("seconds_to_decision", of_decision(&|decision| format!("{:.2}", seconds(decision.processor))));
     row.cells
+}
+
+/// Writes how many elements have which step of their own, in the mean over the looks, and at which part of these the
+/// step itself was there.
+///
+/// # Errors
+/// The file cannot be written.
+pub fn write_steps(file: &Path, histogram: &Histogram) -> Result<(), Error> {
+    let mean = |of: &[u64], bin: usize| of.get(bin).copied().unwrap_or(0) as f64 / histogram.looks.max(1) as f64;
+    let line = |bin: usize| {
+        let [whole, torn] = &histogram.elements;
+        let entries = [Histogram::low(bin), mean(whole, bin), mean(torn, bin), mean(&histogram.steps, bin)];
+        ["over_first", "whole", "torn", "steps"].into_iter().zip(entries.map(number)).collect()
+    };
+    write_csv(file, &(0..BINS).map(line).collect::<Vec<_>>())
 }
 
 /// The columns of the history that a panel has besides those of all scenes.
