@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::element::{Measures, Shapes};
 use super::instructions::{Loops, run_widest};
-use super::lanes::{LANES, Lanes, Number, largest};
+use super::lanes::{LANES, Lanes, Number};
 use super::medium::{Entry, Medium};
 use super::solid::{self, SOLID_VON_MISES, SOLID_WORK};
 use super::stress::{Points, nominal_stress};
@@ -65,6 +65,8 @@ pub struct StepOptions {
     /// Length of the last step, and the stable step below which an element that may fail has collapsed.
     pub step: f64,
     pub shortest: f64,
+    /// The stable step at which damping is taken for a stiffness: the last one.
+    pub reference: f64,
 }
 
 /// Sums over the blocks in a step.
@@ -75,10 +77,6 @@ pub struct Sums {
     /// Energy in hourglass modes, and the part of it that elements deleted in this step release.
     pub hourglass: f64,
     pub released: f64,
-    /// By Irons' theorem no less than the body's: the largest square of an element's frequency, and the largest rate at
-    /// which viscosity damps one.
-    pub stiffness: f64,
-    pub damping: f64,
     /// Elements deleted in this step, and how many of them because they have collapsed or turned inside out.
     pub deleted: Vec<usize>,
     pub collapsed: usize,
@@ -118,10 +116,10 @@ impl<T: Number> Loops for Forces<'_, T> {
     fn run(self) {
         let Forces { block, medium, scratch, options, sums, forces } = self;
         block.shapes.measure(&scratch.deformation_gradient, &mut scratch.measures);
-        let StepOptions { step, shortest, .. } = options;
+        let StepOptions { step, .. } = options;
         let ElementBlock { shapes, history, .. } = &mut *block;
         sums.viscosity += history.viscosity.advance(medium, shapes, &mut scratch.measures, &history.intact, step);
-        block.bound_step(medium, scratch, shortest, sums);
+        block.bound_step(medium, scratch, options);
         let point = Points {
             deformation_gradient: &scratch.deformation_gradient,
             stress: &scratch.stress,
@@ -143,6 +141,13 @@ pub struct ElementBlock<T> {
     /// ln(1 + ε_lim), or the linear elastic law's strength, of each element where they have limits of their own; else
     /// empty.
     limit: Vec<T>,
+    /// Of this step: what limits the next one, and how much of it is viscosity's; the largest of a whole group of
+    /// [`LANES`].
+    pub rates: Vec<T>,
+    pub viscous: Vec<T>,
+    /// What a corner resists alone, at most.
+    pub corners: Vec<T>,
+    pub group_rates: Vec<T>,
 }
 
 /// What a block's elements remember from step to step.
@@ -178,6 +183,10 @@ impl<T: Number> ElementBlock<T> {
                 f_old: shapes.at_rest(),
             },
             limit: Vec::new(),
+            rates: vec![T::default(); stride],
+            viscous: vec![T::default(); stride],
+            corners: vec![T::default(); stride],
+            group_rates: vec![T::default(); stride / LANES],
             shapes,
         }
     }
@@ -294,46 +303,62 @@ impl<T: Number> ElementBlock<T> {
         code
     }
 
-    /// The largest square of a frequency, from the law's bound of the wave speed, and the largest rate of damping;
-    /// which elements have collapsed.
+    /// What limits the step, for each element: Δt² ω² + 2 Δt d ≤ 4 for all of its motions, divided by the square of the
+    /// reference step, which stands for Δt in the damping. Which elements have collapsed.
+    ///
+    /// With the law's bound A |h m|² + B |h|² of the stiffness against a gradient h, motions along and across the fibre
+    /// have the stiffnesses (A + B) m·S m and B S_t at most, S being that of [`Measures`], and each its own damping; the
+    /// largest eigenvalue of the pair is that of a 2 × 2 matrix.
     #[inline(always)]
-    fn bound_step(&self, medium: &Medium<T>, scratch: &mut Scratch<T>, shortest: f64, sums: &mut Sums) {
-        let (zero, one, four) = (Lanes::zero(), Lanes::constant(1.0), Lanes::constant(4.0));
-        // Hourglass modes and bulk share the nodes, and may add up in a skewed element.
-        let hourglass = Lanes::constant(self.shapes.hourglass_frequency / medium.density);
+    fn bound_step(&mut self, medium: &Medium<T>, scratch: &mut Scratch<T>, options: StepOptions) {
+        let (one, four) = (Lanes::constant(1.0), Lanes::constant(4.0));
+        let StepOptions { shortest, reference, .. } = options;
+        let [own, shared] = self.shapes.hourglass_frequency;
+        let [own, shared] = match self.shapes.lightest {
+            None => [own, shared],
+            // Unlike masses couple the modes with linear fields.
+            Some(lightest) => [own / lightest, (own + shared) / lightest],
+        };
+        let [own, shared] = [Lanes::constant(own / medium.density), Lanes::constant(shared / medium.density)];
         let section = Section {
             volume_ratio: &scratch.measures.volume_ratio,
             stretch_square: &scratch.measures.stretch_square,
             metric: &scratch.measures.metric,
         };
         let per_density = Lanes::constant(1.0 / medium.density);
-        let (square, twice) = (Lanes::constant(shortest * shortest), Lanes::constant(2.0 * shortest));
-        // A largest number drops what is NaN, a sum does not.
-        let (mut stiffest, mut most_damped, mut sum) = (hourglass, zero, zero);
+        let twice = Lanes::constant(2.0 / reference);
+        let corner_part = Lanes::constant(self.shapes.corner_part);
+        let [square, twice_shortest] = [Lanes::constant(shortest * shortest), Lanes::constant(2.0 * shortest)];
         for group in 0..self.shapes.stride / LANES {
             let first = group * LANES;
             let active = scratch.measures.active(&self.history.intact, first);
             let speed = Lanes::at(&scratch.wave_speed, first);
-            let spread = Lanes::at(&scratch.measures.spread, first);
             let (f, stress) = (&scratch.deformation_gradient, &scratch.stress);
-            let bulk = match bounds_at(&medium.bounds, f, stress, &section, self.shapes.stride, first) {
-                None => speed * speed * spread,
-                Some([along, across]) => {
-                    (along * Lanes::at(&scratch.measures.spread_along, first) + across * spread) * per_density
-                }
+            let [along, across] = match bounds_at(&medium.bounds, f, stress, &section, self.shapes.stride, first) {
+                None => [speed * speed, speed * speed],
+                Some([along, across]) => [(along + across) * per_density, across * per_density],
             };
-            let stiffness = (hourglass + bulk).only_where(active);
-            let damping = Lanes::at(&scratch.measures.damping, first).only_where(active);
-            (stiffest, most_damped) = (stiffest.max(stiffness), most_damped.max(damping));
-            sum = sum + stiffness + damping;
+            let measures = &scratch.measures;
+            let stiff_along = along * Lanes::at(&measures.spread_along, first);
+            let stiff_across = across * Lanes::at(&measures.spread_across, first);
+            let coupling = four * along * across * Lanes::at(&measures.slanting, first);
+            let damped_along = Lanes::at(&measures.damping_along, first);
+            let damped_across = Lanes::at(&measures.damping_across, first);
+            let [viscous_along, viscous_across] = [twice * damped_along, twice * damped_across];
+            let pair = larger_of_pair(stiff_along + viscous_along, stiff_across + viscous_across, coupling);
+            let rate = (own.max(pair) + shared).only_where(active);
+            rate.store(&mut self.rates, first);
+            viscous_along.max(viscous_across).only_where(active).store(&mut self.viscous, first);
+            let viscous_at_corners = viscous_along.max(twice * Lanes::at(&measures.damping_at_corners, first));
+            let at_corners = stiff_along + across * Lanes::at(&measures.trace_across, first) + viscous_at_corners;
+            (corner_part * at_corners + own).store(&mut self.corners, first);
+            self.group_rates[group] = T::from_f64(rate.largest());
             // As in the body's stable step.
-            let collapsed = one.only_where(square * stiffness + twice * damping - four);
+            let along = square * stiff_along + twice_shortest * damped_along;
+            let across = square * stiff_across + twice_shortest * damped_across;
+            let pair = larger_of_pair(along, across, square * square * coupling);
+            let collapsed = one.only_where(((square * own).max(pair) + square * shared).only_where(active) - four);
             collapsed.store(&mut scratch.collapsed, first);
-        }
-        sums.stiffness = largest(sums.stiffness, stiffest.largest());
-        sums.damping = largest(sums.damping, most_damped.largest());
-        if sum.sum().is_nan() {
-            sums.stiffness = f64::NAN;
         }
     }
 
@@ -373,7 +398,8 @@ impl<T: Number> ElementBlock<T> {
     pub fn stress(&self, medium: &Medium<T>, displacement: &[[T; 3]]) -> Result<Vec<[f64; 6]>, i32> {
         let mut scratch = Scratch::default();
         run_widest(Deform { shapes: &self.shapes, displacement, scratch: &mut scratch });
-        let options = StepOptions { law_outputs: false, energy_balance: false, step: 0.0, shortest: 0.0 };
+        let options =
+            StepOptions { law_outputs: false, energy_balance: false, step: 0.0, shortest: 0.0, reference: 1.0 };
         let code = self.clone().call_law(medium, &mut scratch, options);
         let Shapes { n, stride, .. } = self.shapes;
         let component = |row: usize, i: usize| -> f64 { scratch.stress[row * stride + i].into() };
@@ -449,6 +475,13 @@ impl<T: Number> ElementBlock<T> {
             Entry::Solid(_) => 0.0,
         }
     }
+}
+
+/// The larger eigenvalue of a 2 × 2 matrix, by its diagonal and four times the square of what is beside it.
+#[inline(always)]
+fn larger_of_pair<T: Number>(a: Lanes<T>, b: Lanes<T>, coupling: Lanes<T>) -> Lanes<T> {
+    let apart = a - b;
+    Lanes::constant(0.5) * (a + b + (apart * apart + coupling).sqrt())
 }
 
 /// The code of a call that the law refuses, whatever the points: bad properties, counts, arguments.

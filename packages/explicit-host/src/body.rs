@@ -7,6 +7,8 @@ use super::block::{BLOCK, ElementBlock, Scratch, StepOptions, Sums};
 use super::lanes::{Number, largest};
 use super::medium::{Entry, Medium};
 use super::mesh::Mesh;
+use super::shreds::Adjacency;
+use super::step_limit::StepLimit;
 use super::tie::{self, Tie};
 
 /// The boundary condition of a node.
@@ -26,11 +28,20 @@ pub struct Body<T> {
     pub state: BodyState<T>,
     pub forces: Vec<[T; 3]>,
     /// Reciprocal mass by direction, 0 where the direction is not free.
-    mobility: Vec<[T; 3]>,
+    pub(crate) mobility: Vec<[T; 3]>,
     pub mass: Vec<f64>,
+    /// Without what is lent to torn ends.
+    pub(crate) first_mass: Vec<f64>,
+    pub(crate) adjacency: Adjacency,
     supports: Vec<(usize, Support)>,
     /// Nodes that move with others.
     pub ties: Vec<Tie>,
+    /// Number of elements at each node at first.
+    first_elements: Vec<u16>,
+    /// Of this step: twice the stiffness of what presses each node, and what limits the step.
+    pub springs: Vec<f64>,
+    pub most_contact: f64,
+    pub limit: StepLimit,
     /// Of the last step.
     pub sums: Sums,
 }
@@ -51,6 +62,10 @@ pub struct BodyState<T> {
     pub collapsed: usize,
     /// Hourglass energy of deleted elements.
     pub released: f64,
+    /// The mass that nodes of torn ends have been lent; empty before the first.
+    pub lent: Vec<f64>,
+    /// Of each element, by how much of its nodes it is in need for its volume; empty where all are alike.
+    pub needs: Vec<f64>,
 }
 
 impl<T: Number> Body<T> {
@@ -68,12 +83,20 @@ impl<T: Number> Body<T> {
                 deleted: Vec::new(),
                 collapsed: 0,
                 released: 0.0,
+                lent: Vec::new(),
+                needs: Vec::new(),
             },
             forces: vec![[T::default(); 3]; count],
             mobility: Vec::new(),
             mass: vec![0.0; count],
+            first_mass: Vec::new(),
+            adjacency: Adjacency::default(),
             supports: Vec::new(),
             ties: Vec::new(),
+            first_elements: Vec::new(),
+            springs: vec![0.0; count],
+            most_contact: 0.0,
+            limit: StepLimit::default(),
             sums: Sums::default(),
             mesh,
         };
@@ -115,6 +138,8 @@ impl<T: Number> Body<T> {
             }
         }
         self.mobility = self.mass.iter().map(|mass| [T::from_f64(1.0 / mass); 3]).collect();
+        self.first_elements.clone_from(&self.state.intact_elements);
+        self.first_mass.clone_from(&self.mass);
     }
 
     /// Ties nodes to others, before any support.
@@ -123,14 +148,26 @@ impl<T: Number> Body<T> {
         for (mobility, &mass) in self.mobility.iter_mut().zip(&self.mass) {
             *mobility = [if mass > 0.0 { T::from_f64(1.0 / mass) } else { T::default() }; 3];
         }
+        self.first_mass.clone_from(&self.mass);
         self.ties = ties;
     }
 
     /// # Errors
     /// The archive's.
-    pub fn archive(&mut self, archive: &mut Archive<'_>) -> Result<(), postcard::Error> {
+    pub fn archive(&mut self, media: &[Medium<T>], archive: &mut Archive<'_>) -> Result<(), postcard::Error> {
         archive.keep(&mut self.state)?;
-        self.blocks.iter_mut().try_for_each(|block| archive.keep(&mut block.history))
+        self.blocks.iter_mut().try_for_each(|block| archive.keep(&mut block.history))?;
+        // The worst of all the shares that there have been, which those of now do not tell.
+        let mut extremes: Vec<_> =
+            self.blocks.iter().map(|block| (block.shapes.lightest, block.shapes.corner_part)).collect();
+        archive.keep(&mut extremes)?;
+        if matches!(archive, Archive::Reads(_)) {
+            self.weigh_all(media);
+            for (block, extreme) in self.blocks.iter_mut().zip(extremes) {
+                (block.shapes.lightest, block.shapes.corner_part) = extreme;
+            }
+        }
+        Ok(())
     }
 
     /// Fixes a node, or prescribes its velocity. Directions that another support holds stay held.
@@ -172,6 +209,7 @@ impl<T: Number> Body<T> {
     /// The elements' forces at this instant; what they sum up to is in `sums`.
     pub fn compute_forces(&mut self, media: &[Medium<T>], scratch: &mut Scratch<T>, options: StepOptions) {
         self.forces.fill([T::default(); 3]);
+        self.springs.fill(0.0);
         self.sums = Sums::default();
         for block in &mut self.blocks {
             let medium = &media[block.medium];
@@ -181,7 +219,17 @@ impl<T: Number> Body<T> {
 
     /// Releases the nodes of the elements that this step has deleted; a node without elements keeps its mass. Returns
     /// whether there are any.
-    pub fn release_nodes(&mut self) -> bool {
+    pub fn release_nodes(&mut self, media: &[Medium<T>]) -> bool {
+        self.release();
+        if self.sums.deleted.is_empty() {
+            return false;
+        }
+        let nodes: Vec<u32> = self.sums.deleted.iter().flat_map(|&element| self.mesh.elements[element]).collect();
+        self.weigh(media, nodes.into_iter());
+        true
+    }
+
+    fn release(&mut self) {
         for &element in &self.sums.deleted {
             for node in self.mesh.elements[element] {
                 self.state.intact_elements[node as usize] -= 1;
@@ -190,7 +238,6 @@ impl<T: Number> Body<T> {
         self.state.released += self.sums.released;
         self.state.deleted.extend(&self.sums.deleted);
         self.state.collapsed += self.sums.collapsed;
-        !self.sums.deleted.is_empty()
     }
 
     /// Deletes elements as if they had failed.
@@ -201,7 +248,12 @@ impl<T: Number> Body<T> {
             self.blocks[place].history.intact[element - first] = T::default();
         }
         self.sums.deleted = elements.to_vec();
-        self.release_nodes();
+        self.release();
+    }
+
+    /// Whether a node has lost an element.
+    pub fn has_lost(&self, node: usize) -> bool {
+        self.state.intact_elements[node] < self.first_elements[node]
     }
 
     /// Whether no element is left at a node.

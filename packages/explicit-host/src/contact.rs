@@ -50,6 +50,10 @@ pub struct RigidSurface {
     pub aim: [f64; 2],
 }
 
+/// Nodes that are nearer than this many times the motion of the last step, and this part of the radius, may touch soon.
+const AHEAD: f64 = 2.0;
+const SOON: f64 = 1e-3;
+
 /// A node that may be touched.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 struct Node {
@@ -86,15 +90,13 @@ pub struct Contact {
     released: f64,
     /// Nothing touches before body and striker have moved so far.
     clear: f64,
-    /// The square of the highest frequency that it adds to a node's.
-    pub frequency: f64,
     /// Sum of the stiffnesses of the nodes that are touched.
     pub touching: f64,
 }
 
 impl Contact {
     /// Nodes with a share of the surface take part.
-    pub fn new(striker: RigidSurface, surface: &[f64], mass: &[f64]) -> Self {
+    pub fn new(striker: RigidSurface, surface: &[f64]) -> Self {
         let met = (0..surface.len()).filter(|&i| surface[i] > 0.0);
         let node = |i: usize| Node {
             number: i as u32,
@@ -102,9 +104,8 @@ impl Contact {
             friction: [0.0; 3],
             stored: 0.0,
         };
-        let nodes: Vec<Node> = met.map(node).collect();
-        let frequency = nodes.iter().map(|node| node.stiffness / mass[node.number as usize]).fold(0.0, f64::max);
-        Contact { striker, nodes, stored: 0.0, dissipated: 0.0, released: 0.0, clear: 0.0, frequency, touching: 0.0 }
+        let nodes = met.map(node).collect();
+        Contact { striker, nodes, stored: 0.0, dissipated: 0.0, released: 0.0, clear: 0.0, touching: 0.0 }
     }
 
     /// Removes the nodes that belong to no element any more; the energy balance keeps what they have stored.
@@ -115,11 +116,22 @@ impl Contact {
     }
 
     /// Adds the contact's forces to the nodes' and returns the force on the striker along its direction. `centre` is
-    /// where it is on that axis, `moved` how far it has moved in the step that led here.
-    pub fn apply<T: Number>(&mut self, centre: f64, moved: f64, body: Nodes<'_, T>, forces: &mut [[T; 3]]) -> f64 {
+    /// where it is on that axis, `moved` how far it has moved in the step that led here. The stiffnesses of what
+    /// touches, or may do so soon, are added to the nodes' springs.
+    pub fn apply<T: Number>(
+        &mut self,
+        centre: f64,
+        moved: f64,
+        body: Nodes<'_, T>,
+        forces: &mut [[T; 3]],
+        springs: &mut [f64],
+    ) -> f64 {
         (self.stored, self.touching) = (self.released, 0.0);
-        self.clear -= body.farthest + moved.abs();
-        if self.clear > 0.0 {
+        let motion = body.farthest + moved.abs();
+        self.clear -= motion;
+        // What may touch in the next steps counts in their length before it does.
+        let soon = AHEAD * motion + SOON * self.striker.radius;
+        if self.clear > soon {
             return 0.0;
         }
         let (mut total, mut deepest, mut held) = (0.0, f64::NEG_INFINITY, false);
@@ -131,6 +143,9 @@ impl Contact {
             let step = times(body.step, [x.into(), y.into(), z.into()]);
             let (depth, normal) = self.striker.meet(centre, place);
             deepest = if depth > deepest { depth } else { deepest };
+            if depth > -soon {
+                springs[number] += node.stiffness;
+            }
             let (pressing, dissipated) = node.update(&self.striker, moved, depth, normal, step);
             self.dissipated += dissipated;
             held |= node.friction != [0.0; 3];
@@ -228,7 +243,7 @@ mod tests {
 
     impl Node {
         fn new(striker: RigidSurface, reference: [f64; 3]) -> Node {
-            Node { contact: Contact::new(striker, &[1.0], &[1.0]), reference, displacement: [0.0; 3] }
+            Node { contact: Contact::new(striker, &[1.0]), reference, displacement: [0.0; 3] }
         }
 
         /// The force on the node, and that on the striker.
@@ -243,7 +258,7 @@ mod tests {
                 step: 1.0,
                 farthest,
             };
-            let on_striker = self.contact.apply(axis, moved, nodes, &mut forces);
+            let on_striker = self.contact.apply(axis, moved, nodes, &mut forces, &mut [0.0]);
             self.displacement = displacement;
             (forces[0], on_striker)
         }

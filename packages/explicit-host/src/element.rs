@@ -72,6 +72,9 @@ const STIFFNESS: usize = VOLUME + 1;
 const GRADIENTS: usize = STIFFNESS + 1;
 const ROWS: usize = GRADIENTS + 6;
 
+/// The components of what has six of them.
+const PAIRS: [(usize, usize); 6] = [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (2, 0)];
+
 /// The constant data of a block of elements: nodes and reference shapes.
 #[derive(Clone, Debug)]
 pub struct Shapes<T> {
@@ -83,8 +86,14 @@ pub struct Shapes<T> {
     /// 9 components by columns, or none where they are those of the unit matrix in all elements: the axes that X refers
     /// to, the fibre's first.
     axes: Rows<T>,
-    /// The largest square of a frequency of the hourglass modes, times the density.
-    pub hourglass_frequency: f64,
+    /// The largest square of a frequency of the hourglass modes, times the density: by themselves, and what they add to
+    /// others, since in a skewed element they resist a part of linear fields.
+    pub hourglass_frequency: [f64; 2],
+    /// How much lighter than by their volume corners are at most, where masses are shared otherwise.
+    pub lightest: Option<f64>,
+    /// No corner of an element has more than this part of the sum of what all of them resist alone: an eighth in a
+    /// cuboid.
+    pub corner_part: f64,
 }
 
 /// Unit vectors at right angles, the fibre's direction first and then, as nearly as that allows, the third axis.
@@ -112,20 +121,25 @@ impl Shape {
         let inverse = jacobian.try_inverse().unwrap_or_default();
         // Σ_a ξ_ka ξ_la = 8 δ_kl, and each gradient has a factor ⅛.
         let product = inverse.transpose() * inverse / 8.0;
-        let pairs = [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (2, 0)];
         Shape {
             inverse: std::array::from_fn(|j| std::array::from_fn(|k| inverse[(k, j)] / 8.0)),
             hourglass: sums.map(|sum| HOURGLASS.map(|mode| sum[mode])),
             volume: 8.0 * jacobian.determinant(),
-            gradients: pairs.map(|pair| product[pair]),
+            gradients: PAIRS.map(|pair| product[pair]),
         }
     }
 
-    /// A bound of Σ over the corners of a hourglass mode's squares: 8, and what it sheds of linear fields.
-    fn hourglass_square(&self) -> f64 {
+    /// ∂N/∂X of a corner.
+    fn gradient(&self, corner: usize) -> [f64; 3] {
+        let sign = |k: usize| if corner >> k & 1 == 1 { 1.0 } else { -1.0 };
+        [0, 1, 2].map(|j| (0..3).map(|k| sign(k) * self.inverse[j][k]).sum())
+    }
+
+    /// Σ over the corners of the squares of what the hourglass modes shed of linear fields.
+    fn shed_square(&self) -> f64 {
         let shed =
             |mode: usize, k: usize| -> f64 { (0..3).map(|j| self.hourglass[j][mode] * self.inverse[j][k]).sum() };
-        8.0 + 8.0 * (0..4).flat_map(|mode| (0..3).map(move |k| shed(mode, k).powi(2))).sum::<f64>()
+        8.0 * (0..4).flat_map(|mode| (0..3).map(move |k| shed(mode, k).powi(2))).sum::<f64>()
     }
 }
 
@@ -144,7 +158,9 @@ impl<T: Number> Shapes<T> {
             nodes: elements.to_vec(),
             constants: Rows::new(ROWS, n),
             axes: Rows::new(9, fibre.len()),
-            hourglass_frequency: 0.0,
+            hourglass_frequency: [0.0; 2],
+            lightest: None,
+            corner_part: 0.125,
         };
         block.nodes.resize(stride, elements.first().copied().unwrap_or_default());
         for surplus in fibre.len()..block.axes.values.len() / 9 {
@@ -172,12 +188,18 @@ impl<T: Number> Shapes<T> {
                 }
             }
             let trace: f64 = shape.gradients[..3].iter().sum();
+            let parts = (0..8).map(|corner| shape.gradient(corner).iter().map(|part| part * part).sum::<f64>());
+            block.corner_part = parts.map(|square| square / trace).fold(block.corner_part, f64::max);
             block.constants.set(VOLUME, i, T::from_f64(shape.volume));
             // Half the modulus times Σ|∇N|², as theirs; the modes are not normalised, hence the eighth.
             let stiffness = 0.5 * modulus * trace * shape.volume / 8.0;
             block.constants.set(STIFFNESS, i, T::from_f64(stiffness));
-            let frequency = stiffness * shape.hourglass_square() / (shape.volume / 8.0);
-            block.hourglass_frequency = block.hourglass_frequency.max(frequency);
+            // The modes are at right angles to linear fields but for what they shed; of two parts of a matrix that is
+            // not negative, the largest eigenvalue is no larger than the larger one of theirs and what couples them.
+            let (per_corner, shed) = (stiffness / (shape.volume / 8.0), shape.shed_square());
+            let [own, shared] = [8.0 * per_corner, (shed + (8.0 * shed).sqrt()) * per_corner];
+            let [most_own, most_shared] = block.hourglass_frequency;
+            block.hourglass_frequency = [most_own.max(own), most_shared.max(shared)];
             for (c, sum) in shape.gradients.into_iter().enumerate() {
                 block.constants.set(GRADIENTS + c, i, T::from_f64(8.0 * sum));
             }
@@ -313,18 +335,62 @@ impl<T: Number> Shapes<T> {
             let (ratio, square) = (dot(u, a), dot(u, u));
             let [aa, bb, cc, ab, bc, ca] = self.constants.at(GRADIENTS, first);
             let [second, third, both] = [dot(c, c), dot(b, b), dot(b, c)];
-            let (squares, products) =
-                (aa * dot(a, a) + bb * third + cc * second, ab * dot(a, b) + bc * both + ca * dot(c, a));
-            let per_square = Lanes::constant(1.0) / square;
+            let (one, zero) = (Lanes::constant(1.0), Lanes::zero());
+            let per_square = one / square;
+            // Across the fibre: of the gradients of N that belong to the axes, a alone has a part along it.
+            let (own, with_b, with_c) = ((dot(a, a) - ratio * ratio * per_square).max(zero), dot(a, b), dot(c, a));
+            let p = [
+                aa * own + ab * with_b + ca * with_c,
+                aa * with_b + ab * third + ca * both,
+                aa * with_c + ab * both + ca * second,
+            ];
+            let q = [
+                ab * own + bb * with_b + bc * with_c,
+                ab * with_b + bb * third + bc * both,
+                ab * with_c + bb * both + bc * second,
+            ];
+            let r = [
+                ca * own + bc * with_b + cc * with_c,
+                ca * with_b + bc * third + cc * both,
+                ca * with_c + bc * both + cc * second,
+            ];
+            let per_ratio = one / (ratio * ratio);
+            let trace = (p[0] + q[1] + r[2]) * per_ratio;
+            let mixed = p[1] * q[0] + q[2] * r[1] + r[0] * p[2];
+            let squares = (p[0] * p[0] + q[1] * q[1] + r[2] * r[2] + mixed + mixed) * (per_ratio * per_ratio);
+            let half = Lanes::constant(0.5);
+            let area = half * (trace * trace - squares);
             ratio.store(&mut to.volume_ratio, first);
             square.store(&mut to.stretch_square, first);
-            ((squares + products + products) / (ratio * ratio)).store(&mut to.spread, first);
+            trace.store(&mut to.trace_across, first);
+            area.max(zero).store(&mut to.area_across, first);
+            (half * (trace + (squares + squares - trace * trace).max(zero).sqrt())).store(&mut to.spread_across, first);
             (aa * per_square).store(&mut to.spread_along, first);
+            ((p[0] * aa + p[1] * ab + p[2] * ca) * per_square * per_ratio).max(zero).store(&mut to.slanting, first);
             let metric = [second, third, Lanes::zero() - both];
             for component in 0..3 {
                 (metric[component] * per_square).store(&mut to.metric, component * self.stride + first);
             }
         }
+    }
+
+    /// Takes over how many times the corners of an element are heavier than by what they have of it.
+    pub fn weigh(&mut self, element: usize, heavier: [f64; 8]) {
+        let inverse = |j: usize, k: usize| -> f64 { self.constants.number(INVERSE + k + 3 * j, element).into() };
+        let (mut sums, mut most): ([f64; 6], f64) = ([0.0; 6], 0.0);
+        for (corner, heavier) in heavier.into_iter().enumerate() {
+            let sign = |k: usize| if corner >> k & 1 == 1 { 1.0 } else { -1.0 };
+            let gradient = [0, 1, 2].map(|j| (0..3).map(|k| sign(k) * inverse(j, k)).sum::<f64>());
+            for (sum, (i, j)) in sums.iter_mut().zip(PAIRS) {
+                *sum += gradient[i] * gradient[j] / heavier;
+            }
+            most = most.max(gradient.iter().map(|part| part * part).sum::<f64>() / heavier);
+        }
+        for (c, sum) in sums.into_iter().enumerate() {
+            self.constants.set(GRADIENTS + c, element, T::from_f64(8.0 * sum));
+        }
+        self.corner_part = self.corner_part.max(most / (sums[0] + sums[1] + sums[2]));
+        self.lightest = Some(heavier.into_iter().fold(self.lightest.unwrap_or(1.0), f64::min));
     }
 
     /// The energy in the hourglass modes of an element.
@@ -340,16 +406,22 @@ pub struct Measures<T> {
     /// J, and the square of the stretch along axis 0, where the fibres are.
     pub volume_ratio: Vec<T>,
     pub stretch_square: Vec<T>,
-    /// The square of the highest frequency over that of the wave speed: the largest eigenvalue of 8 Σ ∇N ⊗ ∇N in the
-    /// current placement is no larger than its trace; ∇N = cof F ∂N/∂X / J. And the trace's part along the fibre, where
-    /// m·∇N = ∂N/∂X over the stretch.
-    pub spread: Vec<T>,
+    /// Of S = 8 Σ ∇N ⊗ ∇N in the current placement, with ∇N = cof F ∂N/∂X / J and m·∇N = ∂N/∂X over the stretch: the
+    /// square of the highest frequency over that of the wave speed is its largest eigenvalue. Its part along the fibre
+    /// m·S m; the largest eigenvalue, trace and determinant of that across; and the square of what couples the two.
     pub spread_along: Vec<T>,
+    pub spread_across: Vec<T>,
+    pub trace_across: Vec<T>,
+    pub area_across: Vec<T>,
+    pub slanting: Vec<T>,
     /// 3: the section's metric, 22 33 23, the products of F's second and third column without their parts along the
     /// first. The cofactors of C have them, times the square of the stretch.
     pub metric: Vec<T>,
-    /// The rate at which viscosity damps the highest frequency.
-    pub damping: Vec<T>,
+    /// The largest rates at which viscosity damps motions along the fibre and across it.
+    pub damping_along: Vec<T>,
+    pub damping_across: Vec<T>,
+    /// The sum over the corners of that across, each alone.
+    pub damping_at_corners: Vec<T>,
 }
 
 impl<T: Number> Measures<T> {
@@ -359,10 +431,15 @@ impl<T: Number> Measures<T> {
         Measures {
             volume_ratio: array(1),
             stretch_square: array(1),
-            spread: array(1),
             spread_along: array(1),
+            spread_across: array(1),
+            trace_across: array(1),
+            area_across: array(1),
+            slanting: array(1),
             metric: array(3),
-            damping: array(1),
+            damping_along: array(1),
+            damping_across: array(1),
+            damping_at_corners: array(1),
         }
     }
 
@@ -458,6 +535,53 @@ mod tests {
         }
         for (c, d) in forces(&plain, &a, stress).as_flattened().iter().zip(forces(&turned, &b, stress).as_flattened()) {
             assert!((c - d).abs() < 1e-13, "{c} {d}");
+        }
+    }
+
+    /// S = 8 Σ ∇N ⊗ ∇N in the current placement, corners being so many times as heavy, and the fibre's direction there.
+    fn spread(
+        shapes: &Shapes<f64>,
+        state: &State,
+        heavier: [f64; 8],
+    ) -> (nalgebra::Matrix3<f64>, nalgebra::Vector3<f64>) {
+        let f = nalgebra::Matrix3::from_fn(|i, j| state.f[(i + 3 * j) * shapes.stride]);
+        let current = f.try_inverse().expect("it is regular").transpose();
+        let mut sum = nalgebra::Matrix3::zeros();
+        let corners = ELEMENTS[0].map(|node| NODES[node as usize]);
+        for (corner, heavier) in heavier.into_iter().enumerate() {
+            let gradient = current * nalgebra::Vector3::from(Shape::new(corners).gradient(corner));
+            sum += 8.0 / heavier * gradient * gradient.transpose();
+        }
+        (sum, f.column(0).normalize())
+    }
+
+    /// Against nalgebra, corners alike and not.
+    #[test]
+    fn the_spread_along_and_across_is_that_of_the_gradients() {
+        let mut shapes = Shapes::<f64>::new(&ELEMENTS[..1], &[], &NODES, MODULUS);
+        for heavier in [[1.0; 8], [1.0, 2.0, 0.5, 1.5, 1.0, 3.0, 1.0, 0.8]] {
+            if heavier != [1.0; 8] {
+                shapes.weigh(0, heavier);
+                assert_eq!(shapes.lightest, Some(0.5));
+            }
+            let state = deform(&shapes, &crooked());
+            let (s, m) = spread(&shapes, &state, heavier);
+            let mut measures = Measures::new(shapes.stride);
+            shapes.measure(&state.f, &mut measures);
+            let across = nalgebra::Matrix3::identity() - m * m.transpose();
+            let section = across * s * across;
+            let eigenvalues = section.symmetric_eigenvalues();
+            let largest = eigenvalues.max();
+            for (found, expected) in [
+                (measures.spread_along[0], m.dot(&(s * m))),
+                (measures.trace_across[0], section.trace()),
+                (measures.spread_across[0], largest),
+                (measures.area_across[0], largest * (section.trace() - largest)),
+                (measures.slanting[0], (across * s * m).norm_squared()),
+            ] {
+                assert!((found - expected).abs() < 1e-9 * s.norm().powi(2), "{found} {expected}");
+                assert!(expected > 1e-3, "there is something to compare: {expected}");
+            }
         }
     }
 

@@ -21,6 +21,8 @@ pub struct Energies {
     pub friction: f64,
     /// Lost by friction between the fibres of sections, deleted elements' included.
     pub fibres: f64,
+    /// Lost where torn ends were lent mass.
+    pub shreds: f64,
     /// Stored in the penalty, including that of nodes that have left the contact.
     pub contact: f64,
     /// Work done from outside, through supports that move and a striker that is held.
@@ -37,12 +39,13 @@ impl Energies {
 
     /// All energies but the striker's, the kinetic and the internal one.
     pub fn other(&self) -> f64 {
-        self.hourglass + self.viscosity + self.friction + self.fibres + self.contact
+        self.hourglass + self.viscosity + self.friction + self.fibres + self.shreds + self.contact
     }
 
     /// All of them, multiplied.
     pub fn times(&self, factor: f64) -> Energies {
-        let Energies { striker, kinetic, internal, hourglass, viscosity, friction, fibres, contact, external } = *self;
+        let Energies { striker, kinetic, internal, hourglass, viscosity, friction, fibres, shreds, contact, external } =
+            *self;
         Energies {
             striker: factor * striker,
             kinetic: factor * kinetic,
@@ -51,6 +54,7 @@ impl Energies {
             viscosity: factor * viscosity,
             friction: factor * friction,
             fibres: factor * fibres,
+            shreds: factor * shreds,
             contact: factor * contact,
             external: factor * external,
         }

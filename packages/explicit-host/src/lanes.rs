@@ -28,10 +28,22 @@ pub trait Number:
     + Serialize
     + DeserializeOwned
 {
+    fn square_root(self) -> Self;
 }
 
-impl Number for f64 {}
-impl Number for f32 {}
+impl Number for f64 {
+    #[inline(always)]
+    fn square_root(self) -> Self {
+        self.sqrt()
+    }
+}
+
+impl Number for f32 {
+    #[inline(always)]
+    fn square_root(self) -> Self {
+        self.sqrt()
+    }
+}
 
 /// Numbers of neighbouring elements, worked on together: one register where the processor's are wide enough. Plain
 /// arrays, which the compiler vectorises: registers as the law has them could only be made where their instructions are
@@ -98,6 +110,14 @@ impl<T: Number> Lanes<T> {
         self
     }
 
+    #[inline(always)]
+    pub fn sqrt(mut self) -> Self {
+        for l in 0..LANES {
+            self.0[l] = self.0[l].square_root();
+        }
+        self
+    }
+
     /// The sum over the lanes.
     #[inline(always)]
     pub fn sum(self) -> f64 {
@@ -116,16 +136,6 @@ impl<T: Number> Lanes<T> {
             result = largest(result, self.0[l].into());
         }
         result
-    }
-}
-
-impl Lanes<f64> {
-    #[inline(always)]
-    pub fn sqrt(mut self) -> Self {
-        for l in 0..LANES {
-            self.0[l] = self.0[l].sqrt();
-        }
-        self
     }
 }
 

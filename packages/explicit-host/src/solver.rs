@@ -10,9 +10,10 @@ use super::archive::Archive;
 use super::block::{Scratch, StepOptions};
 use super::body::Body;
 use super::energies::{Cost, Energies};
-use super::lanes::{Number, largest};
+use super::lanes::Number;
 use super::medium::Medium;
 use super::mutual_contact::MutualContact;
+use super::step_limit::{Histogram, Limiter, StepLimit};
 use super::striker::Striker;
 use toron::law::status;
 use toron_shared::error::Error;
@@ -23,6 +24,16 @@ const SAFETY: f64 = 0.9;
 /// of all: it is a torn shred, which no neighbours hold any more. Before the break steps fall to 0.67 of the first,
 /// shreds go down to 0.02.
 const COLLAPSED: f64 = 0.2;
+/// Torn ends may be lent mass where they take the step below this part of the first one.
+const HALF: f64 = 0.5;
+/// How often the first step is looked for: by then it stays.
+const FIRST_STEPS: usize = 12;
+/// How often the nodes' masses are shared anew among their elements, at the end of that.
+const SHARINGS: usize = 3;
+/// A step that is shorter than this part of the stable one is so since something ends with it.
+const NEARLY: f64 = 0.95;
+/// What limits the step is looked for from this part of the last rate on.
+const NEAR: f64 = 0.8;
 /// The run ends with an error when the step is this fraction of the first one: elements that do not fail have
 /// collapsed.
 const SHORTEST: f64 = 1e-4;
@@ -41,8 +52,12 @@ pub struct Solver<T> {
     pub longest: f64,
     /// Whether the laws give energies and invariants in every step, or only where they are measured.
     pub all_outputs: bool,
+    /// How much mass torn ends may be lent in all; with none nothing is.
+    pub shred_mass: f64,
     pub state: SolverState,
     scratch: Scratch<T>,
+    /// Of this step.
+    limit: StepLimit,
 }
 
 /// What a solver remembers from step to step, besides what its bodies and contacts do.
@@ -50,14 +65,22 @@ pub struct Solver<T> {
 pub struct SolverState {
     pub time: f64,
     step: f64,
-    /// The first stable step.
+    /// The last stable step, without what is kept for safety.
+    stable: Option<f64>,
+    /// The first one.
     first_step: Option<f64>,
     /// When the first element failed: one that was deleted by its law, and not since it had collapsed.
     pub failed: Option<f64>,
     viscosity: f64,
     external: f64,
+    /// Mass that torn ends have been lent, and the kinetic energy that this has taken.
+    pub lent: f64,
+    lent_energy: f64,
     pub energies: Energies,
     pub cost: Cost,
+    /// For how long each of [`Limiter::ALL`] has limited the step, and how long the elements' own steps are.
+    pub limited: [f64; 5],
+    pub histogram: Histogram,
 }
 
 /// Supports that start and end smoothly: after this time they have gone as far as at their own speed in 1.
@@ -84,13 +107,6 @@ impl Ramp {
     }
 }
 
-/// Of all bodies in a step.
-#[derive(Clone, Copy, Debug, Default)]
-struct Bounds {
-    stiffness: f64,
-    damping: f64,
-}
-
 impl<T: Number> Solver<T> {
     /// Bodies at rest, made of these media.
     pub fn new(bodies: Vec<Body<T>>, media: Vec<Medium<T>>) -> Self {
@@ -102,8 +118,10 @@ impl<T: Number> Solver<T> {
             ramp: None,
             longest: f64::INFINITY,
             all_outputs: true,
+            shred_mass: 0.0,
             state: SolverState::default(),
             scratch: Scratch::default(),
+            limit: StepLimit::default(),
         }
     }
 
@@ -128,7 +146,7 @@ impl<T: Number> Solver<T> {
     pub fn archive(&mut self, archive: &mut Archive<'_>) -> Result<(), postcard::Error> {
         archive.keep(&mut self.state)?;
         archive.keep(&mut self.striker)?;
-        self.bodies.iter_mut().try_for_each(|body| body.archive(archive))?;
+        self.bodies.iter_mut().try_for_each(|body| body.archive(&self.media, archive))?;
         self.mutual.iter_mut().try_for_each(|contact| contact.archive(archive))
     }
 
@@ -140,16 +158,23 @@ impl<T: Number> Solver<T> {
             energy_balance: measured,
             step: self.state.step,
             shortest,
+            reference: self.state.stable.unwrap_or(f64::INFINITY),
         };
-        let bounds = self.compute_forces(options)?;
+        self.compute_forces(options)?;
         let computed = Instant::now();
         self.apply_contact();
         let met = Instant::now();
         self.release_nodes();
-        let stable = self.stable_step(bounds)?;
+        match self.state.first_step {
+            None => self.find_first_step(options)?,
+            Some(_) => self.stable_step()?,
+        }
+        self.lend_to_shreds();
+        let stable = SAFETY * self.state.stable.unwrap_or(f64::INFINITY);
         let before = self.state.step;
         // Equal steps to the end, rather than a very short last one.
         self.state.step = left / (left / stable.min(self.longest)).ceil();
+        self.count_step(stable, measured);
         if let Some(ramp) = self.ramp {
             let speed = (ramp.share(self.state.time + self.state.step) - ramp.share(self.state.time)) / self.state.step;
             self.bodies.iter_mut().for_each(|body| body.set_speed(speed));
@@ -168,23 +193,92 @@ impl<T: Number> Solver<T> {
         Ok(())
     }
 
-    /// Central differences with a damping force that lags by half a step are stable for Δt² ω² + 2 Δt d ≤ 4, that is
-    /// Δt ≤ 2/ω (√(1 + ξ²) − ξ) with d = 2 ξ ω.
-    fn stable_step(&mut self, bounds: Bounds) -> Result<f64, Error> {
-        let striker = self.striker.as_ref().map_or(0.0, Striker::frequency);
-        let mutual = self.mutual.as_ref().map_or(0.0, |contact| contact.state.frequency);
-        let (k, d) = (bounds.stiffness + striker + mutual, bounds.damping);
-        let step = SAFETY * 4.0 / (d + (d * d + 4.0 * k).sqrt());
-        let first = *self.state.first_step.get_or_insert(step);
-        if step.is_finite() && step > SHORTEST * first {
-            return Ok(step);
+    /// The stable step from what limits the elements, in whose rates damping is held against the last stable step: a
+    /// longer one is damped less than that says, and a shorter one more, at most as the ratio of the two.
+    fn stable_step(&mut self) -> Result<(), Error> {
+        let expected = self.state.stable.map_or(0.0, |stable| NEAR * 4.0 / (stable * stable));
+        let look = |body: &mut Body<T>| {
+            body.rate_contact();
+            body.limit_step(expected);
+        };
+        match &mut self.bodies[..] {
+            [body] => look(body),
+            bodies => bodies.par_iter_mut().for_each(look),
         }
-        Err(Error::Evaluation(format!(
-            "the stable step is {step:.1e}, from {first:.1e} at first: elements have collapsed"
-        )))
+        let worst =
+            |bodies: &[Body<T>]| bodies.iter().fold(StepLimit::default(), |worst, body| worst.worse(body.limit));
+        let mut limit = worst(&self.bodies);
+        if limit.rate == 0.0 {
+            self.bodies.iter_mut().for_each(|body| body.limit_step(0.0));
+            limit = worst(&self.bodies);
+        }
+        self.limit = limit;
+        let rate = limit.rate + self.striker.as_ref().map_or(0.0, Striker::own_rate);
+        let (mut longer, last) = (2.0 / rate.sqrt(), self.state.stable);
+        if let (true, Some(first)) = (rate == 0.0, self.state.first_step) {
+            // Nothing is left that limits it.
+            longer = 2.0 * first / SAFETY;
+        }
+        let stable = last.filter(|&last| longer < last).map_or(longer, |last| longer * longer / last);
+        let first = self.state.first_step.unwrap_or(SAFETY * stable);
+        self.state.stable = Some(stable);
+        if rate.is_nan() || SAFETY * stable <= SHORTEST * first {
+            let step = SAFETY * stable;
+            return Err(Error::Evaluation(format!(
+                "the stable step is {step:.1e}, from {first:.1e} at first: elements have collapsed"
+            )));
+        }
+        Ok(())
     }
 
-    fn compute_forces(&mut self, options: StepOptions) -> Result<Bounds, Error> {
+    /// At first there is no step that damping could be held against: it is found by repeating what limits the elements.
+    fn find_first_step(&mut self, options: StepOptions) -> Result<(), Error> {
+        let met: Vec<_> = self.bodies.iter().map(|body| (body.forces.clone(), body.springs.clone())).collect();
+        self.stable_step()?;
+        for trial in 0..FIRST_STEPS {
+            if trial >= FIRST_STEPS - 2 * SHARINGS && trial % 2 == 0 {
+                let media = &self.media;
+                self.bodies.par_iter_mut().for_each(|body| body.share_masses(media));
+            }
+            let reference = self.state.stable.unwrap_or(f64::INFINITY);
+            self.compute_forces(StepOptions { reference, ..options })?;
+            for (body, (forces, springs)) in self.bodies.iter_mut().zip(&met) {
+                body.forces.clone_from(forces);
+                body.springs.clone_from(springs);
+            }
+            self.stable_step()?;
+        }
+        self.state.first_step = self.state.stable.map(|stable| SAFETY * stable);
+        Ok(())
+    }
+
+    /// Lends mass to what is torn and takes the step below half of the first, up to the part of all mass that may be.
+    fn lend_to_shreds(&mut self) {
+        let (Some(first), Some(stable)) = (self.state.first_step, self.state.stable) else { return };
+        let half = HALF * first / SAFETY;
+        if self.shred_mass <= 0.0 || self.state.failed.is_none() || stable >= half {
+            return;
+        }
+        let rate = 4.0 / (half * half);
+        for body in self.bodies.iter_mut().filter(|body| body.limit.rate > rate && !body.state.deleted.is_empty()) {
+            let lent = body.lend(&self.media, rate, self.shred_mass - self.state.lent);
+            self.state.lent += lent.mass;
+            self.state.lent_energy += lent.energy;
+        }
+    }
+
+    /// Counts what limits the step that is coming, and now and then what the elements' own steps are.
+    fn count_step(&mut self, stable: f64, measured: bool) {
+        let limiter = if self.state.step < NEARLY * stable { Limiter::Other } else { self.limit.limiter() };
+        self.state.limited[limiter as usize] += self.state.step;
+        let Some(first) = self.state.first_step.filter(|_| measured) else { return };
+        self.state.histogram.look(stable / first);
+        for body in &self.bodies {
+            self.state.histogram.add(body, first / SAFETY);
+        }
+    }
+
+    fn compute_forces(&mut self, options: StepOptions) -> Result<(), Error> {
         let media = &self.media;
         match &mut self.bodies[..] {
             [body] => body.compute_forces(media, &mut self.scratch, options),
@@ -193,7 +287,6 @@ impl<T: Number> Solver<T> {
                 bodies.par_iter_mut().for_each_init(Scratch::default, work);
             }
         }
-        let mut bounds = Bounds::default();
         for sums in self.bodies.iter().map(|body| &body.sums) {
             if let Some(code) = sums.refused {
                 return Err(Error::Evaluation(format!(
@@ -202,10 +295,8 @@ impl<T: Number> Solver<T> {
                 )));
             }
             self.state.viscosity += sums.viscosity;
-            bounds.stiffness = largest(bounds.stiffness, sums.stiffness);
-            bounds.damping = largest(bounds.damping, sums.damping);
         }
-        Ok(bounds)
+        Ok(())
     }
 
     fn apply_contact(&mut self) {
@@ -220,7 +311,7 @@ impl<T: Number> Solver<T> {
     /// Nodes without elements leave the contact.
     fn release_nodes(&mut self) {
         for (number, body) in self.bodies.iter_mut().enumerate() {
-            if !body.release_nodes() {
+            if !body.release_nodes(&self.media) {
                 continue;
             }
             if let Some(striker) = &mut self.striker {
@@ -277,6 +368,7 @@ impl<T: Number> Solver<T> {
             friction: striker.map_or(0.0, Striker::dissipated) + mutual.map_or(0.0, |contact| contact.state.dissipated),
             fibres: self.bodies.iter().map(|body| body.lost_energy(&self.media)).sum(),
             viscosity: self.state.viscosity,
+            shreds: self.state.lent_energy,
             contact: striker.map_or(0.0, Striker::stored) + mutual.map_or(0.0, |contact| contact.state.stored),
             ..Energies::default()
         }

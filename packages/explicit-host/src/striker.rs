@@ -32,10 +32,10 @@ impl Striker {
     pub fn meet<T: Number>(&mut self, bodies: &mut [Body<T>], step: f64) {
         let (position, moved) = (self.position, self.moved);
         let meet = |(contact, body): (&mut Contact, &mut Body<T>)| {
-            let Body { mesh, state, forces, .. } = body;
+            let Body { mesh, state, forces, springs, .. } = body;
             let BodyState { displacement, velocity, farthest, .. } = &*state;
             let nodes = Nodes { reference: &mesh.nodes, displacement, velocity, step, farthest: *farthest };
-            contact.apply(position, moved, nodes, forces)
+            contact.apply(position, moved, nodes, forces, springs)
         };
         self.force = match (&mut self.contacts[..], bodies) {
             ([contact], [body]) => meet((contact, body)),
@@ -47,12 +47,11 @@ impl Striker {
         };
     }
 
-    /// A bound of the square of the frequency that the penalty adds: every spring has a node at one end and at the
-    /// other a share of the striker, in proportion to its stiffness.
-    pub fn frequency(&self) -> f64 {
+    /// What the penalty's springs have at this end: each has a node at one and at the other a share of the striker, in
+    /// proportion to its stiffness.
+    pub fn own_rate(&self) -> f64 {
         let touching: f64 = self.contacts.iter().map(|contact| contact.touching).sum();
-        let own = if self.held { 0.0 } else { touching / self.mass };
-        self.contacts.iter().map(|contact| contact.frequency).fold(0.0, f64::max) + own
+        if self.held { 0.0 } else { touching / self.mass }
     }
 
     /// Energy in the contact, and what its friction has dissipated.

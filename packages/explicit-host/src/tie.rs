@@ -37,19 +37,6 @@ pub fn hand_over(ties: &[Tie], numbers: &mut [f64]) {
     }
 }
 
-/// The masses that springs in these proportions act against, each on a node, so that no node has a higher frequency
-/// than its spring over its mass: corners have those of the nodes tied to them as well.
-pub fn masses_of_springs(ties: &[Tie], masses: &[f64], springs: &[f64]) -> Vec<f64> {
-    let mut carried = springs.to_vec();
-    hand_over(ties, &mut carried);
-    let of_node = |((&mass, &own), &all): ((&f64, &f64), &f64)| match (own > 0.0, all > 0.0) {
-        (true, true) => mass * own / all,
-        (true, false) => f64::INFINITY,
-        _ => mass,
-    };
-    masses.iter().zip(springs).zip(&carried).map(of_node).collect()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -63,13 +50,6 @@ mod tests {
         let mut masses = [1.0, 2.0, 3.0, 4.0, 0.4, 0.8];
         hand_over(&ties, &mut masses);
         assert_eq!(masses, [1.1, 2.5, 3.1, 4.5, 0.0, 0.0]);
-        // No node has a higher frequency than all springs together give a corner.
-        let springs = [1.0, 1.0, 0.0, 1.0, 2.0, 0.0];
-        let found = masses_of_springs(&ties, &masses, &springs);
-        let expected = [1.1 / 1.5, 2.5 / 1.5, 3.1, 4.5 / 1.5, f64::INFINITY, 0.0];
-        for (found, expected) in found.into_iter().zip(expected) {
-            assert!(found == expected || (found - expected).abs() < 1e-15, "{found} {expected}");
-        }
         assert_eq!(ties[1].rests_on().collect::<Vec<_>>(), [1, 3]);
     }
 }

@@ -129,10 +129,16 @@ impl<T: Number> Viscosity<T> {
                 - (r33 + old_r33) * d33
                 - two * (r23 + old_r23) * d23;
             dissipated = dissipated + half * half * work * shapes.volumes(first);
-            let spread = Lanes::at(&measures.spread, first);
-            let spread_along = Lanes::at(&measures.spread_along, first);
-            let damping = damping_along * spread_along + (damping_across + eta) * (spread - spread_along);
-            damping.store(&mut measures.damping, first);
+            // The two act on motions at right angles. Across, of a gradient g of the velocity the form is ν (tr g)² + 2 η
+            // |dev sym g|²; with the section's spread, its largest eigenvalue is one of a 2 × 2 matrix, or η times the
+            // trace of a shear.
+            let [trace, area] = [Lanes::at(&measures.trace_across, first), Lanes::at(&measures.area_across, first)];
+            let sum = (damping_across + eta) * trace;
+            let product = Lanes::constant(16.0) * damping_across * eta * area;
+            let across = half * (sum + (sum * sum - product).max(zero).sqrt());
+            across.max(eta * trace).store(&mut measures.damping_across, first);
+            sum.store(&mut measures.damping_at_corners, first);
+            (damping_along * Lanes::at(&measures.spread_along, first)).store(&mut measures.damping_along, first);
             self.history.store(STRESS, first, [t, r22, r33, r23, square, c22, c33, c23]);
         }
         dissipated.sum()
@@ -269,6 +275,54 @@ mod tests {
             let work = 0.5 * nominal.dot(&(to - from));
             assert!(work > 0.0, "{work}");
             assert_close(dissipated, work, work);
+        }
+    }
+
+    /// The section's form ν (tr g)² + 2 η |dev sym g|² for gradients g of the velocity, spread by S: its largest eigenvalue
+    /// from its 4 × 4 matrix.
+    #[test]
+    fn no_motion_across_the_fibre_is_damped_more_than_the_bound() {
+        let nodes: Vec<[f64; 3]> = (0..8)
+            .map(|i| [LENGTH * f64::from(i & 1), 0.4e-3 * f64::from(i >> 1 & 1), 0.9e-3 * f64::from(i >> 2)])
+            .collect();
+        let shapes = Shapes::<f64>::new(&[std::array::from_fn(|i| i as u32)], &[], &nodes, 0.0);
+        let mut medium = medium();
+        for [linear, shape] in [[0.06, 0.3], [0.3, 0.05], [0.0, 0.3], [0.3, 0.0]] {
+            medium.control = Control { linear, shape, ..CONTROL };
+            for f in placements() {
+                let columns: Vec<f64> = f.iter().flat_map(|&entry| vec![entry; shapes.stride]).collect();
+                let (mut viscosity, mut measures) = (Viscosity::new(&shapes), Measures::new(shapes.stride));
+                shapes.measure(&columns, &mut measures);
+                viscosity.advance(&medium, &shapes, &mut measures, &vec![1.0; shapes.stride], 0.0);
+                let [nu, eta] =
+                    [linear * medium.compaction_speed, shape * medium.distortion_speed].map(|speed| BREADTH * speed);
+                let (trace, area) = (measures.trace_across[0], measures.area_across[0]);
+                let apart = (trace * trace - 4.0 * area).max(0.0).sqrt();
+                let roots = [0.5 * (trace + apart), 0.5 * (trace - apart)].map(f64::sqrt);
+                // Entries 11 22 12 21, each times the root of the eigenvalue of S that its direction has.
+                let form = nalgebra::Matrix4::new(
+                    nu + eta,
+                    nu - eta,
+                    0.0,
+                    0.0,
+                    nu - eta,
+                    nu + eta,
+                    0.0,
+                    0.0,
+                    0.0,
+                    0.0,
+                    eta,
+                    eta,
+                    0.0,
+                    0.0,
+                    eta,
+                    eta,
+                );
+                let scale = nalgebra::Matrix4::from_diagonal(&[roots[0], roots[1], roots[1], roots[0]].into());
+                let expected = (scale * form * scale).symmetric_eigenvalues().max();
+                assert_close(measures.damping_across[0], expected, 1e-3 * expected);
+                assert!(measures.damping_at_corners[0] >= expected);
+            }
         }
     }
 

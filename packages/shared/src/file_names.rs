@@ -9,6 +9,8 @@ pub const FIBRES: &str = "-fibres-";
 /// of the plot of all of them.
 pub const STRAINS: &str = "-strain-";
 pub const STRAIN: &str = "-strain";
+/// Behind a case's name, that of the table of what steps its elements have.
+pub const STEPS: &str = "-steps";
 const NUMBERED: [&str; 4] = [PANEL, YARN, FIBRES, STRAINS];
 /// A case of `toron fibres` has a folder of its name beside the files of all cases.
 const ENDINGS: [&str; 3] = [".csv", ".svg", ".png"];
@@ -20,7 +22,7 @@ pub fn collide(one: &str, other: &str) -> bool {
     let extends = |name: &str, by: &str| {
         name.strip_prefix(by).is_some_and(|rest| {
             let numbered = NUMBERED.iter().any(|between| number_behind(rest, between).is_some());
-            numbered || rest == STRAIN || ENDINGS.contains(&rest)
+            numbered || rest == STRAIN || rest == STEPS || ENDINGS.contains(&rest)
         })
     };
     one == other || extends(&one, &other) || extends(&other, &one)
@@ -32,7 +34,7 @@ pub fn is_of(name: &str, case: &str, frames: usize) -> bool {
     let Some((stem, ending)) = name.strip_prefix(case).and_then(|rest| rest.rsplit_once('.')) else { return false };
     let picture = || [PANEL, YARN, FIBRES].iter().any(|between| number_behind(stem, between).is_some());
     match ending {
-        "csv" => stem.is_empty() || number_behind(stem, STRAINS).is_some(),
+        "csv" => stem.is_empty() || stem == STEPS || number_behind(stem, STRAINS).is_some(),
         "pvd" => stem.is_empty() && frames == 0,
         "svg" | "png" => stem.is_empty() || stem == STRAIN || picture(),
         "vtu" => number_behind(stem, "-").is_some_and(|number| number >= frames),
@@ -55,6 +57,7 @@ mod tests {
         let of = |name: &str| is_of(name, "one", 2);
         for name in [
             "one.csv",
+            "one-steps.csv",
             "one.svg",
             "one.png",
             "one-panel-3.png",

@@ -20,6 +20,7 @@ pub mod fabric;
 pub mod impact;
 pub mod layers;
 mod losses;
+pub mod residual;
 pub mod root;
 pub mod scene_deck;
 pub mod scene_keys;

@@ -25,7 +25,6 @@ use serde::{Deserialize, Serialize};
 use super::archive::Archive;
 use super::body::Body;
 use super::lanes::Number;
-use super::tie;
 use face::{Finder, Place, Query};
 use motion::{Due, Motion};
 use pair::{OnFace, Pair};
@@ -81,8 +80,6 @@ struct Side {
     touched: Vec<u32>,
     /// Which touched pairs have it as their master: body and number.
     incoming: Vec<(u32, u32)>,
-    /// Of each node, the stiffnesses that act on it.
-    touching: Vec<f64>,
 }
 
 /// What a body's contact remembers from step to step.
@@ -92,7 +89,6 @@ struct SideState {
     pairs: Vec<Pair>,
     stored: f64,
     dissipated: f64,
-    frequency: f64,
 }
 
 /// The contact of all bodies, and what it has done so far.
@@ -119,23 +115,29 @@ impl Scope {
     }
 }
 
-/// Puts new pairs in the place of those that are due; where one of these touches it goes on as it was.
-fn merge(old: Vec<Pair>, mut found: Vec<Pair>, due: impl Fn(&Pair) -> bool) -> Vec<Pair> {
-    let (old, others): (Vec<Pair>, Vec<Pair>) = old.into_iter().partition(due);
+/// Puts new pairs in the place of those that are due; where one of these touches it goes on as it was. Both are in the
+/// order of their keys.
+fn merge(old: Vec<Pair>, found: Vec<Pair>, due: impl Fn(&Pair) -> bool) -> Vec<Pair> {
+    let mut merged = Vec::with_capacity(old.len().max(found.len()));
+    let mut found = found.into_iter().peekable();
     for pair in old {
-        let place = found.binary_search_by_key(&pair.key(), Pair::key);
-        let touching = pair.on_face.stiffness > 0.0;
-        match place {
-            Ok(place) if touching => found[place] = Pair { free_until: 0.0, ..pair },
-            Err(place) if touching => found.insert(place, Pair { free_until: 0.0, ..pair }),
+        while let Some(new) = found.next_if(|new| new.key() < pair.key()) {
+            merged.push(new);
+        }
+        if !due(&pair) {
+            merged.push(pair);
+            continue;
+        }
+        let new = found.next_if(|new| new.key() == pair.key());
+        match new {
+            _ if pair.on_face.stiffness > 0.0 => merged.push(Pair { free_until: 0.0, ..pair }),
             // What was outside one face has not come through another one.
-            Ok(place) => found[place].known |= pair.known && pair.face == found[place].face,
-            Err(_) => {}
+            Some(new) => merged.push(Pair { known: new.known || pair.known && pair.face == new.face, ..new }),
+            None => {}
         }
     }
-    found.extend(others);
-    found.sort_by_key(Pair::key);
-    found
+    merged.extend(found);
+    merged
 }
 
 /// What the contact remembers from step to step, besides what its sides do.
@@ -151,19 +153,13 @@ pub struct ContactState {
     released: f64,
     /// The bodies that have lost faces since the last step.
     torn: Vec<u32>,
-    /// A bound of the square of the frequency that it adds to the bodies'.
-    pub frequency: f64,
 }
 
 impl MutualContact {
     /// Of as many surfaces as there are bodies.
     pub fn new(parameters: Parameters, surfaces: Vec<Surface>) -> Self {
         let motion = Motion::new(&surfaces.iter().collect::<Vec<_>>());
-        let sides = surfaces.into_iter().map(|surface| Side {
-            touching: vec![0.0; surface.area.len()],
-            surface,
-            ..Side::default()
-        });
+        let sides = surfaces.into_iter().map(|surface| Side { surface, ..Side::default() });
         MutualContact { parameters, sides: sides.collect(), state: ContactState { motion, ..ContactState::default() } }
     }
 
@@ -197,7 +193,6 @@ impl MutualContact {
         let sum = |value: fn(&Side) -> f64| self.sides.iter().map(value).sum::<f64>();
         self.state.stored = self.state.released + sum(|side| side.state.stored);
         self.state.dissipated = sum(|side| side.state.dissipated);
-        self.state.frequency = self.sides.iter().map(|side| side.state.frequency).fold(0.0, f64::max);
     }
 
     /// What is to be looked for where these slabs have moved against each other and bodies are torn.
@@ -225,24 +220,24 @@ impl MutualContact {
 
     /// Finds the nodes of the scope that are near faces of its bodies; pairs that go on keep their friction.
     fn search(&mut self, scope: &Scope) {
+        let mut pairs: Vec<Vec<Pair>> =
+            self.sides.iter_mut().map(|side| std::mem::take(&mut side.state.pairs)).collect();
         let surfaces: Vec<&Surface> = self.sides.iter().map(|side| &side.surface).collect();
         let grid = Grid::new(&surfaces, |body| scope.bodies[body], self.parameters.margin);
         let motion = &self.state.motion;
-        let search = |(number, side): (usize, &Side)| {
+        let search = |(number, (side, old)): (usize, (&Side, &mut Vec<Pair>))| {
             if side.surface.wall || !scope.slabs[motion.slabs_of(number)].contains(&true) {
-                return None;
+                return;
             }
             let is_due = |node: &u32| scope.slabs[motion.slab(number, side.surface.slab_of_node(*node))];
             let nodes: Vec<u32> = side.surface.state.nodes.iter().copied().filter(is_due).collect();
             let found = self.pairs_of(number, &nodes, &grid, &surfaces);
             let is_due = |pair: &Pair| is_due(&pair.node) && scope.bodies[pair.master as usize];
-            Some(merge(side.state.pairs.clone(), found, is_due))
+            *old = merge(std::mem::take(old), found, is_due);
         };
-        let pairs: Vec<Option<Vec<Pair>>> = self.sides.par_iter().enumerate().map(search).collect();
+        self.sides.par_iter().zip(&mut pairs).enumerate().for_each(search);
         for (side, pairs) in self.sides.iter_mut().zip(pairs) {
-            if let Some(pairs) = pairs {
-                side.state.pairs = pairs;
-            }
+            side.state.pairs = pairs;
         }
     }
 
@@ -295,21 +290,19 @@ impl MutualContact {
             near: Vec<u32>,
             finder: Finder,
             touched: Vec<u32>,
-            touching: Vec<f64>,
         }
         let taken = self.sides.iter_mut().map(|side| Work {
             pairs: std::mem::take(&mut side.state.pairs),
             near: std::mem::take(&mut side.near),
             finder: std::mem::take(&mut side.finder),
             touched: std::mem::take(&mut side.touched),
-            touching: std::mem::take(&mut side.touching),
         });
         let mut taken: Vec<Work> = taken.collect();
+        let masses: Vec<Vec<f64>> = bodies.iter_mut().map(|body| std::mem::take(&mut body.mass)).collect();
         let (parameters, motion) = (self.parameters, &self.state.motion);
         let surfaces: Vec<&Surface> = self.sides.iter().map(|side| &side.surface).collect();
         let press = |(number, (work, body)): (usize, (&mut Work, &mut Body<T>))| {
-            let Work { pairs, near, finder, touched, touching } = work;
-            touching.fill(0.0);
+            let Work { pairs, near, finder, touched } = work;
             touched.clear();
             near.clear();
             finder.queries.clear();
@@ -326,25 +319,31 @@ impl MutualContact {
                 let (force, loss) = pair.update(found, number, &surfaces, parameters, motion);
                 dissipated += loss;
                 stored += pair.stored;
-                let Some(force) = force else { continue };
+                if !pair.counts() {
+                    continue;
+                }
                 touched.push(place);
                 let node = pair.node as usize;
-                touching[node] += pair.stiffness;
+                let corners = surfaces[pair.master as usize].faces[pair.face as usize];
+                let of_face = &masses[pair.master as usize];
+                let mut on_corners = [0.0; 4];
+                for k in 0..4 {
+                    on_corners[k] = of_face[corners[k] as usize];
+                }
+                body.springs[node] += pair.divide_spring(masses[number][node], on_corners);
+                let Some(force) = force else { continue };
                 for i in 0..3 {
                     body.forces[node][i] += T::from_f64(force[i]);
                 }
             }
             (stored, dissipated)
         };
-        let energies: Vec<(f64, f64)> = taken.par_iter_mut().zip(bodies).enumerate().map(press).collect();
+        let energies: Vec<(f64, f64)> = taken.par_iter_mut().zip(&mut *bodies).enumerate().map(press).collect();
+        for (body, mass) in bodies.iter_mut().zip(masses) {
+            body.mass = mass;
+        }
         for ((side, work), (stored, dissipated)) in self.sides.iter_mut().zip(taken).zip(energies) {
-            Work {
-                pairs: side.state.pairs,
-                near: side.near,
-                finder: side.finder,
-                touched: side.touched,
-                touching: side.touching,
-            } = work;
+            Work { pairs: side.state.pairs, near: side.near, finder: side.finder, touched: side.touched } = work;
             side.incoming.clear();
             side.state.stored = stored;
             side.state.dissipated += dissipated;
@@ -358,39 +357,25 @@ impl MutualContact {
         }
     }
 
-    /// Gives every body what others' nodes exert on its faces, and bounds the frequency: no eigenvalue of M⁻¹K is
-    /// larger than the largest sum over a row of sizes. A spring between a node and a face has the sizes 1 and, over
-    /// the corners, again 1.
+    /// Gives every body what others' nodes exert on its faces, and the springs of it: no eigenvalue of M⁻¹K is larger than
+    /// the largest sum over a row of sizes. A spring between a node and a face has the sizes 1 and, over the corners,
+    /// again 1.
     fn collect<T: Number>(&mut self, bodies: &mut [Body<T>]) {
-        let mut taken: Vec<Vec<f64>> = self.sides.iter_mut().map(|side| std::mem::take(&mut side.touching)).collect();
         let sides = &self.sides;
-        let collect = |(number, (touching, body)): (usize, (&mut Vec<f64>, &mut Body<T>))| {
+        bodies.par_iter_mut().enumerate().for_each(|(number, body)| {
             let side = &sides[number];
             for &(other, pair) in &side.incoming {
                 let pair = &sides[other as usize].state.pairs[pair as usize];
-                let OnFace { force, weights, stiffness } = pair.on_face;
+                let OnFace { force, weights, spring, .. } = pair.on_face;
                 for (weight, corner) in weights.into_iter().zip(side.surface.faces[pair.face as usize]) {
                     let corner = corner as usize;
-                    touching[corner] += weight.abs() * stiffness;
+                    body.springs[corner] += weight.abs() * spring;
                     for i in 0..3 {
                         body.forces[corner][i] -= T::from_f64(weight * force[i]);
                     }
                 }
             }
-            tie::hand_over(&body.ties, touching);
-            let mut frequency: f64 = 0.0;
-            for &node in &side.surface.state.nodes {
-                let node = node as usize;
-                if touching[node] > 0.0 {
-                    frequency = frequency.max(2.0 * touching[node] / body.mass[node]);
-                }
-            }
-            frequency
-        };
-        let frequencies: Vec<f64> = taken.par_iter_mut().zip(bodies).enumerate().map(collect).collect();
-        for ((side, touching), frequency) in self.sides.iter_mut().zip(taken).zip(frequencies) {
-            (side.touching, side.state.frequency) = (touching, frequency);
-        }
+        });
     }
 
     /// Takes the faces of a body's deleted elements and its loose nodes out; the balance keeps what was stored in them.

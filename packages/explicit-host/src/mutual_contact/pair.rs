@@ -9,6 +9,12 @@ use super::surface::Surface;
 use crate::friction::coulomb_return;
 use crate::vector::{Vector, add, dot};
 
+/// A node that is no farther from a face's surface than this many times its motion against it in the last step may touch
+/// it, or let it go, soon. It counts so many times in the length of steps: springs that come and go within a step would
+/// make energy.
+const AHEAD: f64 = 4.0;
+const COMING_AND_GOING: f64 = 2.0;
+
 /// A node near a face of another body.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct Pair {
@@ -44,6 +50,10 @@ pub struct OnFace {
     pub force: Vector,
     pub weights: [f64; 4],
     pub stiffness: f64,
+    /// How many times it counts in the length of steps.
+    pub count: f64,
+    /// The stiffness over the part that the face has of what bounds the spring's frequency.
+    pub spring: f64,
 }
 
 impl Pair {
@@ -67,8 +77,14 @@ impl Pair {
             self.free_until = 0.0;
             let slabs = [own.slab_of_node(self.node), master.slab_of_face(self.face)];
             let between = motion.between([number, self.master as usize], slabs);
-            if let (Some(met), Some(between)) = (met, between) {
-                (self.slabs, self.free_until) = (between, motion.moved(between) - met.depth);
+            let soon = met.filter(|met| met.depth <= 0.0).map(|met| {
+                let slip = self.slip(own, master, met.weights);
+                AHEAD * dot(slip, slip).sqrt()
+            });
+            if let (Some(met), Some(between), Some(soon)) = (met, between, soon)
+                && -met.depth > soon
+            {
+                (self.slabs, self.free_until) = (between, motion.moved(between) - met.depth - soon);
             }
             // What friction held, and did in the step, is lost; what the depth held has been given back, unless the
             // face is lost as well.
@@ -80,20 +96,34 @@ impl Pair {
                 None => self.stored,
             };
             (self.friction, self.stored, self.on_face) = ([0.0; 3], 0.0, OnFace::default());
+            // It may touch in the next steps, and counts in their length before it does.
+            if let (Some(met), Some(soon)) = (met, soon)
+                && -met.depth <= soon
+            {
+                (self.on_face.weights, self.on_face.count) = (met.weights, COMING_AND_GOING);
+            }
             (self.depth, self.uncounted) = (0.0, 0.0);
             self.known = met.is_some_and(|met| met.depth <= 0.0);
             return (None, lost);
         };
         let slip = self.slip(own, master, met.weights);
-        let lost = self.update_penetration(met.depth, dot(slip, slip).sqrt(), pressed, dot(met.normal, slip));
+        let way = dot(slip, slip).sqrt();
+        let lost = self.update_penetration(met.depth, way, pressed, dot(met.normal, slip));
         let force = self.stiffness * self.depth;
         let rough = if master.wall { 0.0 } else { friction };
         let friction = coulomb_return(old, self.stiffness, slip, met.normal, rough * force);
         self.friction = friction.force;
         self.stored = 0.5 * force * self.depth + friction.stored;
         let total = add(self.friction, force, met.normal);
-        self.on_face = OnFace { force: total, weights: met.weights, stiffness: self.stiffness };
+        let count = if self.depth <= AHEAD * way { COMING_AND_GOING } else { 1.0 };
+        self.on_face = OnFace { force: total, weights: met.weights, stiffness: self.stiffness, count, spring: 0.0 };
         (Some(total), lost + friction.dissipated)
+    }
+
+    /// Whether it touches, or may do so soon.
+    #[inline(always)]
+    pub fn counts(&self) -> bool {
+        self.on_face.count > 0.0
     }
 
     /// Pairs are in this order.
@@ -155,6 +185,21 @@ impl Pair {
         corners.fold(own.state.moved[self.node as usize], |slip, (weight, corner)| {
             add(slip, -weight, master.state.moved[corner as usize])
         })
+    }
+
+    /// Divides what bounds the spring's frequency between node and face, by their masses: with the part α of the node a
+    /// spring has the sizes 1/α there and, over the corners, 1/(1 − α). Returns the node's.
+    #[inline(always)]
+    pub fn divide_spring(&mut self, node: f64, corners: [f64; 4]) -> f64 {
+        let mut per_mass = 0.0;
+        for i in 0..4 {
+            per_mass += self.on_face.weights[i].abs() / corners[i];
+        }
+        // Tied nodes have no mass of their own.
+        let ratio = if node > 0.0 && per_mass.is_finite() { (node * per_mass).clamp(0.1, 10.0) } else { 1.0 };
+        let stiffness = self.on_face.count * self.stiffness;
+        self.on_face.spring = stiffness * (1.0 + 1.0 / ratio);
+        stiffness * (1.0 + ratio)
     }
 
     /// Lets go for good; returns what was stored.

@@ -107,7 +107,7 @@ fn press(longest: f64) -> f64 {
     let free = Support { free: [true; 3], velocity: [0.0; 3] };
     let mut solver = cube(|[_, y, _]| if y > 0.0 { free } else { driven([0.0; 3]) });
     let cylinder = RigidSurface { shape: Shape::Cylinder, radius: 0.01, stiffness: 1e13, friction: 0.0, aim: [0.0; 2] };
-    let contact = Contact::new(cylinder, &solver.bodies[0].mesh.surface, &solver.bodies[0].mass);
+    let contact = Contact::new(cylinder, &solver.bodies[0].mesh.surface);
     solver.striker = Some(Striker::new(1e-5, 0.5e-3 + cylinder.radius, -10.0, true, vec![contact]));
     let start = short_step(&mut solver, longest).total();
     let (mut force, mut work, mut now) = (0.0, 0.0, Energies::default());

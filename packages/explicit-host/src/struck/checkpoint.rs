@@ -34,7 +34,8 @@ impl Head {
         match self.ended {
             None | Some(End::Left | End::Failed | End::Interrupted) => false,
             Some(End::Stopped) => plan.rebounds,
-            Some(End::Decided) => !plan.decides,
+            Some(End::Decided) => !plan.decides || plan.settles,
+            Some(End::Settled) => !plan.decides,
             Some(End::Time | End::Rebounded) => plan.end > self.plan.end * (1.0 + ROUNDING),
         }
     }

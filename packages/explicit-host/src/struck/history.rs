@@ -49,6 +49,7 @@ pub fn columns<E>(own: Vec<Column<E>>) -> Vec<Column<E>> {
         Column::new("friction_energy", ENERGY, |sample| sample.energies.friction),
         Column::new("contact_energy", ENERGY, |sample| sample.energies.contact),
         Column::new("fibre_friction_energy", ENERGY, |sample| sample.energies.fibres),
+        Column::new("shred_energy", ENERGY, |sample| sample.energies.shreds),
         Column::new("external_work", ENERGY, |sample| sample.energies.external),
         Column::new("total_energy", ENERGY, |sample| sample.energies.total()),
     ];

@@ -15,6 +15,8 @@ pub struct Plan {
     pub rebounds: bool,
     /// Whether the run ends as soon as it is certain that what strikes goes through.
     pub decides: bool,
+    /// Whether it goes on after that, until what still acts on it takes little of its speed.
+    pub settles: bool,
     /// Time between two samples of the history.
     pub sample: f64,
     /// When what is struck is drawn.

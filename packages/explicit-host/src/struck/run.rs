@@ -15,11 +15,12 @@ use crate::energies::{Balance, Cost};
 use crate::judgement::MEASURED_EVERY;
 use crate::lanes::Number;
 use crate::snapshot::Snapshot;
-use crate::solver::Solver;
+use crate::solver::{Solver, SolverState};
+use crate::step_limit::Histogram;
 use crate::vtu;
 use toron_shared::error::Error;
 use toron_shared::numbers::number;
-use toron_shared::processor_time::processor_time;
+use toron_shared::processor_time::thread_time;
 
 /// Times closer than this part of a case's time are the same.
 pub const ROUNDING: f64 = 1e-9;
@@ -76,6 +77,11 @@ pub trait Struck: Sync {
         false
     }
 
+    /// Whether what still acts on it once that is certain takes little of its speed.
+    fn has_settled(&self, _course: &Self::Course) -> bool {
+        false
+    }
+
     /// Whether what strikes has left behind what is struck; nothing has touched it for this time.
     fn has_left<T: Number>(&self, _solver: &Solver<T>, _course: &Self::Course, _free: f64) -> bool {
         false
@@ -94,10 +100,23 @@ pub enum End {
     Left,
     /// It is certain that it goes through, though it is still touched.
     Decided,
+    /// That was certain, and what still acts on it now takes little of its speed.
+    Settled,
     /// Somebody has asked the program to end.
     Interrupted,
     /// The run could not go on.
     Failed,
+}
+
+/// The instant at which it was certain that what strikes goes through.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Decision {
+    pub time: f64,
+    /// Of what strikes, in the direction of the blow.
+    pub speed: f64,
+    /// What it had cost until then.
+    pub steps: u64,
+    pub processor: Duration,
 }
 
 /// What came of a case.
@@ -111,6 +130,8 @@ pub struct Outcome<E, C> {
     pub snapshots: Vec<Snapshot>,
     pub course: C,
     pub end: End,
+    /// When it was decided, where that was looked for and came.
+    pub decision: Option<Decision>,
     /// When the first element failed.
     pub failed: Option<f64>,
     /// Why it could not go on.
@@ -118,6 +139,12 @@ pub struct Outcome<E, C> {
     pub elements: usize,
     pub cost: Cost,
     pub searches: u64,
+    /// For how long each of [`Limiter::ALL`](crate::step_limit::Limiter::ALL) has limited the step, and how long the
+    /// elements' own steps were.
+    pub limited: [f64; 5],
+    pub histogram: Histogram,
+    /// Mass that torn ends were lent.
+    pub lent: f64,
     pub wall: Duration,
 }
 
@@ -219,7 +246,7 @@ struct Run<'a, S: Struck, T> {
     plan: Plan,
     solver: Solver<T>,
     record: Record<S::Own, S::Course>,
-    /// The process's processor time up to which the run's own is counted.
+    /// Its threads' processor time up to which the run's own is counted.
     counted: Duration,
 }
 
@@ -231,6 +258,7 @@ struct Record<E, C> {
     history: Vec<Sample<E>>,
     snapshots: Vec<Snapshot>,
     course: C,
+    decision: Option<Decision>,
     /// When the frames were written.
     frames: Vec<f64>,
     /// Where what strikes was at first.
@@ -253,14 +281,23 @@ impl<'a, S: Struck, T: Number> Run<'a, S, T> {
         pictures.sort_by(f64::total_cmp);
         let next_checkpoint = plan.between_checkpoints();
         let record = Record { start, pictures, next_checkpoint, ..Record::default() };
-        Run { struck, plan, solver, record, counted: processor_time() }
+        Run { struck, plan, solver, record, counted: Duration::ZERO }
     }
 
     /// Counts the processor time that has passed.
     fn count(&mut self) {
-        let now = processor_time();
+        let now = self.threads_time();
         self.solver.state.cost.processor += now.saturating_sub(self.counted);
         self.counted = now;
+    }
+
+    /// The processor time of the threads that the run is computed in: those of the pool that it is in, or, of a single
+    /// body, this one alone, beside which others may have cases of their own.
+    fn threads_time(&self) -> Duration {
+        match self.solver.bodies.len() {
+            ..2 => thread_time(),
+            _ => rayon::broadcast(|_| thread_time()).into_iter().sum(),
+        }
     }
 
     fn checkpoint(&mut self) -> Result<Vec<u8>, Error> {
@@ -316,8 +353,12 @@ impl<'a, S: Struck, T: Number> Run<'a, S, T> {
         }
         let begun = Instant::now();
         // Inside rayon's threads: entering them in every step would cost as much as a small panel's contact.
-        let end = rayon::scope(|_| self.steps(observer));
-        self.count();
+        let end = rayon::scope(|_| {
+            self.counted = self.threads_time();
+            let end = self.steps(observer);
+            self.count();
+            end
+        });
         let Run { struck, solver, mut record, .. } = self;
         if S::DRAWN_AT_END {
             record.snapshots.push(Snapshot::of(&solver, struck.radius()));
@@ -328,12 +369,16 @@ impl<'a, S: Struck, T: Number> Run<'a, S, T> {
             history: record.history,
             snapshots: record.snapshots,
             course: record.course,
+            decision: record.decision,
             failed: solver.state.failed,
             end: *end.as_ref().unwrap_or(&End::Failed),
             failure: end.err().map(|error| error.to_string()),
             elements: solver.bodies.iter().map(|body| body.mesh.elements.len()).sum(),
             cost: solver.state.cost,
             searches: solver.mutual.as_ref().map_or(0, |contact| contact.state.searches),
+            limited: solver.state.limited,
+            histogram: solver.state.histogram,
+            lent: solver.state.lent,
             wall: begun.elapsed(),
         })
     }
@@ -375,6 +420,7 @@ impl<'a, S: Struck, T: Number> Run<'a, S, T> {
             self.struck
                 .follow(&self.solver, &mut self.record.course)
                 .map_err(|error| self.error(&error.to_string()))?;
+            self.decide();
             if measured || sampled {
                 let sample = self.struck.sample(&self.solver, self.record.start);
                 self.record(sample, [measured, sampled], observer)?;
@@ -434,20 +480,41 @@ impl<'a, S: Struck, T: Number> Run<'a, S, T> {
         })
     }
 
+    /// Keeps the instant at which it is certain that what strikes goes through.
+    fn decide(&mut self) {
+        if !self.plan.decides || self.record.decision.is_some() || !self.struck.is_decided(&self.record.course) {
+            return;
+        }
+        self.count();
+        let SolverState { time, cost, .. } = &self.solver.state;
+        let speed = self.solver.striker.as_ref().map_or(0.0, |striker| -striker.velocity);
+        self.record.decision = Some(Decision { time: *time, speed, steps: cost.steps, processor: cost.processor });
+    }
+
     /// Whether the run is over.
     fn end(&self, at_end: bool) -> Option<End> {
         let time = self.solver.state.time;
-        if self.solver.striker.as_ref().is_some_and(|striker| striker.velocity >= 0.0) {
+        let stands = self.solver.striker.as_ref().is_some_and(|striker| striker.velocity >= 0.0);
+        let decision = self.record.decision.filter(|_| self.plan.decides);
+        if stands && decision.is_some() {
+            return Some(End::Settled);
+        }
+        if stands {
             let end = if self.plan.rebounds { End::Rebounded } else { End::Stopped };
             return (at_end || !self.plan.rebounds).then_some(end);
         }
         if self.struck.has_left(&self.solver, &self.record.course, time - self.record.last_contact) {
             return Some(End::Left);
         }
-        if self.plan.decides && self.struck.is_decided(&self.record.course) {
-            return Some(End::Decided);
+        match decision {
+            Some(_) if self.plan.settles => {
+                let settled = self.struck.has_settled(&self.record.course).then_some(End::Settled);
+                // Fate comes first: the time that is over has not undone it.
+                settled.or(at_end.then_some(End::Decided))
+            }
+            Some(_) => Some(End::Decided),
+            None => at_end.then_some(End::Time),
         }
-        at_end.then_some(End::Time)
     }
 
     fn error(&self, reason: &str) -> Error {

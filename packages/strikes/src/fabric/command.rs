@@ -17,7 +17,7 @@ use toron_explicit_host::struck::history::Column;
 use toron_explicit_host::struck::summary::Cells;
 use toron_shared::console::print_error;
 use toron_shared::error::Error;
-use toron_shared::file_names::PANEL;
+use toron_shared::file_names::{PANEL, STEPS};
 
 /// Runs the cases of a scene, one after another, and writes what came of them to the directory `output`. With
 /// `restart`, cases go on from their checkpoints there.
@@ -82,6 +82,7 @@ impl command::Scene for Scene {
         let file = |ending: &str| output.join(format!("{}{ending}", case.name));
         let figures = Figures::of(&self.units, case, &panel, &outcome);
         let verdict = verdict(&figures.findings);
+        summary::write_steps(&file(&format!("{STEPS}.csv")), &outcome.histogram)?;
         plot::write(&file(".svg"), &file(".png"), self, case, &outcome, &verdict)?;
         for (number, snapshot) in outcome.snapshots.iter().enumerate() {
             let [svg, png] = ["svg", "png"].map(|ending| file(&format!("{PANEL}{}.{ending}", number + 1)));

@@ -45,6 +45,8 @@ pub struct PanelKeys {
     pub hyperelastic_radius: Option<Spanned<Positive>>,
     pub rim: Option<Rim>,
     pub yarn_friction: Option<NotNegative>,
+    pub residual: Option<Spanned<bool>>,
+    pub shred_mass: Option<Spanned<NotNegative>>,
 }
 
 /// How the yarns' ends at the panel's outline are held.

@@ -14,7 +14,6 @@ use toron_explicit_host::mesh::Mesh;
 use toron_explicit_host::mutual_contact::{MutualContact, Surface};
 use toron_explicit_host::solver::Solver;
 use toron_explicit_host::striker::Striker;
-use toron_explicit_host::tie::masses_of_springs;
 use toron_materials::material::model::Material;
 use toron_shared::error::Error;
 use toron_shared::numbers::number;
@@ -94,13 +93,13 @@ pub fn solver<T: Number>(case: &Case, panel: &Model) -> Result<Solver<T>, Error>
             body.limit(&limits);
         }
         body.tie(yarn.ties.clone());
-        let masses = masses_of_springs(&yarn.ties, &body.mass, &body.mesh.surface);
-        contacts.push(Contact::new(case.striker, &body.mesh.surface, &masses));
+        contacts.push(Contact::new(case.striker, &body.mesh.surface));
         surfaces.push(surface);
         bodies.push(body);
     }
     hold(panel, case.held, &mut bodies);
     let mut solver = Solver::new(bodies, media);
+    solver.shred_mass = case.shred_mass * solver.bodies.iter().flat_map(|body| &body.mass).sum::<f64>();
     let mass = case.mass * share(case);
     let start = start(case, panel)?;
     solver.striker = Some(Striker::new(mass, start, -case.speed, false, contacts));

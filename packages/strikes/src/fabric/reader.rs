@@ -21,6 +21,7 @@ use toron_explicit_host::contact::{RigidSurface, Shape};
 use toron_explicit_host::medium::Control;
 use toron_explicit_host::mutual_contact::Parameters;
 use toron_explicit_host::struck::blow::DENSITIES;
+use toron_explicit_host::struck::plan::Plan;
 use toron_materials::material::file::MaterialFile;
 use toron_materials::material::model::Material;
 use toron_materials::units;
@@ -37,6 +38,9 @@ const FRICTION: [f64; 2] = [0.23, 0.18];
 /// Over a yarn's height: how near nodes are to faces that are looked at in every step, and how deep they may be.
 const MARGIN: f64 = 0.8;
 const DEEPEST: f64 = 0.5;
+/// The part of the yarns' mass that torn ends may be lent, if the file gives none, and at most.
+const SHRED_MASS: f64 = 0.0;
+const MOST_SHRED_MASS: f64 = 1e-3;
 /// A mass and a density that differ by less than this part are the same.
 const SAME_MASS: f64 = 0.02;
 
@@ -90,7 +94,7 @@ impl Reader<'_> {
 
     fn panel_case(&self, file: &PanelKeys, cloth: Arc<Cloth>, threads: Threads, name: String) -> Result<Case, Error> {
         let keys = self.keys;
-        let plan = self.plan(&name, SAMPLES)?;
+        let plan = self.panel_plan(file, &name)?;
         let stiffness = self.needed("contact-stiffness", &keys.contact_stiffness)?;
         let [_, height] = cloth.yarn_heights();
         let pressed_at_rest = cloth.coarse_radius().is_none();
@@ -125,10 +129,32 @@ impl Reader<'_> {
                 pressed_at_rest,
             },
             control: Control { by_direction: true, ..self.control() },
+            shred_mass: self.shred_mass(file)?,
             plan,
             single_precision: keys.is_single_precision(),
             name,
         })
+    }
+
+    fn shred_mass(&self, file: &PanelKeys) -> Result<f64, Error> {
+        let Some(given) = &file.shred_mass else { return Ok(SHRED_MASS) };
+        let part = given.value();
+        if part <= MOST_SHRED_MASS {
+            return Ok(part);
+        }
+        let message = format!("shred-mass is {part}; allowed: 0 to {MOST_SHRED_MASS}, a part of the yarns' mass");
+        Err(self.source.error(given.span(), &message))
+    }
+
+    fn panel_plan(&self, file: &PanelKeys, name: &str) -> Result<Plan, Error> {
+        let plan = self.plan(name, SAMPLES)?;
+        match &file.residual {
+            Some(residual) if *residual.get_ref() && !plan.decides => {
+                let message = "residual is true; allowed: with until = \"decided\"; other runs go on to the end anyway";
+                Err(self.source.error(residual.span(), message))
+            }
+            residual => Ok(Plan { settles: residual.as_ref().is_some_and(|residual| *residual.get_ref()), ..plan }),
+        }
     }
 
     /// Where the panel is struck; a part of one is struck where its planes of symmetry meet.

@@ -4,8 +4,9 @@ use std::path::Path;
 
 use super::run::Outcome;
 use super::scene::{Case, Scene};
-use super::summary::{Figures, ending, residual_speed};
+use super::summary::{Figures, ending, residual_speed, speed_is};
 use crate::losses::lost_between_fibres;
+use crate::residual::SpeedIs;
 use crate::strength::scatter;
 use toron_explicit_host::judgement::{verdict, warnings};
 use toron_materials::units::{LENGTH, SPEED, TIME, unit};
@@ -52,7 +53,7 @@ fn columns(scene: &Scene, results: &Results) -> Vec<Column> {
     let at_end = |outcome: &Outcome, figures: &Figures| {
         if residual_speed(outcome, figures).is_some() { NONE.to_string() } else { number(figures.last.speed) }
     };
-    vec![
+    let mut columns = vec![
         column("case", "", &|case, _, _| shortened(&case.name, LONGEST_NAME)),
         column("how it ended", "", &|case, outcome, _| ending(case, outcome)),
         column("verdict", "", &|_, _, figures| verdict(&figures.findings)),
@@ -69,7 +70,12 @@ fn columns(scene: &Scene, results: &Results) -> Vec<Column> {
         column("torn", "yarns", &|_, _, figures| figures.last.own.torn.to_string()),
         column("elements", "deleted", &|_, _, figures| figures.last.deleted.to_string()),
         column("run", "s", &|_, outcome, _| format!("{:.1}", outcome.wall.as_secs_f64())),
-    ]
+    ];
+    if results.iter().any(|(_, outcome, _)| outcome.decision.is_some()) {
+        let speed_is = |case: &Case, outcome: &Outcome| speed_is(case, outcome).map_or(NONE, SpeedIs::name);
+        columns.insert(6, column("the residual", "speed is", &|case, outcome, _| speed_is(case, outcome).to_string()));
+    }
+    columns
 }
 
 /// The names of what was written, with `NAME` for the cases.
@@ -79,6 +85,7 @@ fn list_files(results: &Results, output: &Path) -> String {
     let written = [
         (true, "summary.csv", "a line for every case, with all that is known of it"),
         (true, "NAME.csv", "the history of case NAME"),
+        (true, "NAME-steps.csv", "how long the steps of its elements were"),
         (true, "NAME.svg, .png", "plots of it"),
         (pictures, "NAME-panel-1.svg, .png, …", "the panel at those times of pictures that the run came to"),
         (frames, "NAME.pvd, NAME-0000.vtu, …", "a series for ParaView"),

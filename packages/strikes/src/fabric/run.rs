@@ -8,8 +8,8 @@ use crate::weave::model::Model;
 use toron_explicit_host::lanes::Number;
 use toron_explicit_host::solver::Solver;
 use toron_explicit_host::struck::plan::Plan;
-pub use toron_explicit_host::struck::run::End;
 use toron_explicit_host::struck::run::{self, Struck};
+pub use toron_explicit_host::struck::run::{Decision, End};
 use toron_shared::error::Error;
 
 /// What came of a case.
@@ -77,6 +77,10 @@ impl Struck for StruckPanel<'_> {
 
     fn is_decided(&self, course: &Fate) -> bool {
         course.is_decided()
+    }
+
+    fn has_settled(&self, course: &Fate) -> bool {
+        course.has_settled(&self.case.striker)
     }
 
     /// The sphere has gone its own radius since something touched it last, or since the beginning, where it stands at

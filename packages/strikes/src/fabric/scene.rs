@@ -46,6 +46,8 @@ pub struct Case {
     /// Of yarns with one another.
     pub mutual: Parameters,
     pub control: Control,
+    /// The part of the yarns' mass that torn ends may be lent in all.
+    pub shred_mass: f64,
     pub plan: Plan,
     pub single_precision: bool,
 }

@@ -1,24 +1,28 @@
 //! The figures of a scene: a line for every case, how it ended, with what speed, deflection, damage and cost.
 
+use std::path::Path;
 use std::time::Duration;
 
 use super::judgement::{Measures, judge};
 use super::measure::{OfPanel, Sample};
-use super::run::{End, Outcome};
+use super::run::{Decision, End, Outcome};
 use super::scene::{Case, Zones};
 use super::strength::PanelStrength;
 use super::weights;
+use crate::residual::SpeedIs;
 use crate::strength::scatter;
 use crate::weave::model::Model;
 use toron::host::units::UnitSystem;
 use toron::law::parameters::{Dimension, ENERGY_DENSITY, NUMBER};
 use toron_explicit_host::judgement::{Finding, verdict};
 use toron_explicit_host::lanes::{largest, smallest};
+use toron_explicit_host::step_limit::{BINS, Histogram, Limiter};
 use toron_explicit_host::struck::history::{Column, title};
 use toron_explicit_host::struck::summary::{Cells, Row};
-use toron_materials::units::{LENGTH, SPEED, TIME};
+use toron_materials::units::{LENGTH, MASS, SPEED, TIME};
+use toron_shared::error::Error;
 use toron_shared::numbers::number;
-use toron_shared::text_table::NONE;
+use toron_shared::text_table::{NONE, write_csv};
 
 /// Of angles.
 const DEGREES: Dimension = Dimension { mass: 0, length: 0, time: 0, name: "°" };
@@ -89,6 +93,7 @@ pub fn ending(case: &Case, outcome: &Outcome) -> String {
         End::Rebounded => format!("{strikes} flies back"),
         End::Left => format!("{strikes} went through"),
         End::Decided => format!("{strikes} goes through, decided"),
+        End::Settled => format!("{strikes} goes through, settled"),
         End::Interrupted => "interrupted".to_string(),
         End::Failed => "an error".to_string(),
     }
@@ -98,9 +103,14 @@ pub fn ending(case: &Case, outcome: &Outcome) -> String {
 pub fn residual_speed(outcome: &Outcome, figures: &Figures) -> Option<f64> {
     match outcome.end {
         End::Stopped => Some(0.0),
-        End::Left | End::Decided => Some(figures.last.speed),
+        End::Left | End::Decided | End::Settled => Some(figures.last.speed.max(0.0)),
         End::Time | End::Failed | End::Interrupted | End::Rebounded => None,
     }
+}
+
+/// Which speed of a sphere that goes through that one is.
+pub fn speed_is(case: &Case, outcome: &Outcome) -> Option<SpeedIs> {
+    SpeedIs::of(outcome.end, case.plan.settles)
 }
 
 fn law(case: &Case) -> String {
@@ -124,6 +134,7 @@ pub fn line(units: &UnitSystem, case: &Case, outcome: &Outcome, figures: &Figure
     row.add("ending", ending(case, outcome));
     row.quantity("end", TIME, last.time);
     row.quantity("residual_speed", SPEED, residual_speed(outcome, figures));
+    row.add("residual_speed_is", speed_is(case, outcome).map_or(NONE, SpeedIs::name));
     row.quantity("speed_at_end", SPEED, last.speed);
     row.add("verdict", verdict(&figures.findings));
     row.add("material", case.material_names());
@@ -156,12 +167,38 @@ pub fn line(units: &UnitSystem, case: &Case, outcome: &Outcome, figures: &Figure
     }
     row.add("steps", outcome.cost.steps);
     row.add("searches", outcome.searches);
+    row.quantity("shred_mass", MASS, outcome.lent);
+    let limited: f64 = outcome.limited.iter().sum();
+    for (limiter, time) in Limiter::ALL.into_iter().zip(outcome.limited) {
+        row.decimals(&format!("limited_by_{}", limiter.name()), time / limited.max(f64::MIN_POSITIVE), 4);
+    }
     row.decimals("ns_per_zone_cycle", outcome.ns_per_zone_cycle(), 1);
     row.decimals("contact_time_share", seconds(outcome.cost.contact) / total, 2);
     row.decimals("law_time_share", seconds(outcome.cost.law) / total, 2);
     row.decimals("seconds", seconds(outcome.cost.processor), 2);
     row.decimals("wall_seconds", seconds(outcome.cost.total()), 2);
+    let decision = outcome.decision;
+    row.quantity("decided_at", TIME, decision.map(|decision| decision.time));
+    row.quantity("speed_at_decision", SPEED, decision.map(|decision| decision.speed));
+    let of_decision = |text: &dyn Fn(Decision) -> String| decision.map_or(NONE.to_string(), text);
+    row.add("steps_to_decision", of_decision(&|decision| decision.steps.to_string()));
+    row.add("seconds_to_decision", of_decision(&|decision| format!("{:.2}", seconds(decision.processor))));
     row.cells
+}
+
+/// Writes how many elements have which step of their own, in the mean over the looks, and at which part of these the
+/// step itself was there.
+///
+/// # Errors
+/// The file cannot be written.
+pub fn write_steps(file: &Path, histogram: &Histogram) -> Result<(), Error> {
+    let mean = |of: &[u64], bin: usize| of.get(bin).copied().unwrap_or(0) as f64 / histogram.looks.max(1) as f64;
+    let line = |bin: usize| {
+        let [whole, torn] = &histogram.elements;
+        let entries = [Histogram::low(bin), mean(whole, bin), mean(torn, bin), mean(&histogram.steps, bin)];
+        ["over_first", "whole", "torn", "steps"].into_iter().zip(entries.map(number)).collect()
+    };
+    write_csv(file, &(0..BINS).map(line).collect::<Vec<_>>())
 }
 
 /// The columns of the history that a panel has besides those of all scenes.

@@ -109,7 +109,7 @@ impl Outcome {
     pub fn residual_speed(&self) -> Option<f64> {
         match self.end {
             End::Stopped if self.own_speed => Some(0.0),
-            End::Left | End::Decided if self.own_speed => Some(self.last().speed),
+            End::Left | End::Decided | End::Settled if self.own_speed => Some(self.last().speed),
             _ => None,
         }
     }

@@ -253,7 +253,7 @@ fn set_up<T: Number>(case: &Case, solver: &mut Solver<T>) {
     let Striker::Cylinder { cylinder, mass, held } = case.striker else { return };
     let top = yarn.mesh.nodes.iter().map(|node| node[1]).fold(0.0, f64::max);
     let start = top + cylinder.radius;
-    let contact = Contact::new(cylinder, &yarn.mesh.surface, &yarn.mass);
+    let contact = Contact::new(cylinder, &yarn.mesh.surface);
     // Half of it strikes the half model.
     solver.striker = Some(striker::Striker::new(0.5 * mass, start, -case.speed, held, vec![contact]));
 }

@@ -37,7 +37,7 @@ pub fn outcome(result: &Outcome) -> &'static str {
         (End::Rebounded, Some(_)) => "broken, flies back",
         (End::Stopped, None) => "not penetrated",
         (End::Stopped, Some(_)) => "broken, stopped",
-        (End::Left | End::Decided, _) => "penetrated",
+        (End::Left | End::Decided | End::Settled, _) => "penetrated",
         (End::Time, Some(_)) => "broken, not over",
         (End::Time, None) => "unbroken, not over",
     }

@@ -197,6 +197,7 @@ impl Reader<'_> {
             steps_to: None,
             rebounds: keys.until == Some(Until::End),
             decides: keys.until == Some(Until::Decided),
+            settles: false,
             sample,
             pictures: self.source.pictures(&keys.pictures, name, end)?,
             frames: value(&keys.frames).unwrap_or(0),

@@ -172,7 +172,7 @@ mod tests {
                 let shot = scene.plain_shot(number, 12.0 + 8.0 * number as f64);
                 let ending = if through(shot.speed) { Ending::Through } else { Ending::Stopped };
                 let verdict = "sound".to_string();
-                (number, Ended { shot, ending, speed_at_end: 1.0, time: 0.1, verdict, seconds: 1.0 })
+                (number, Ended { ending, speed_at_end: 1.0, time: 0.1, verdict, seconds: 1.0, ..Ended::of(shot) })
             })
             .collect();
         let range = FiringRange::new(&scene, 1, 0, Interrupt::default());

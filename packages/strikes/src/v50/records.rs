@@ -10,6 +10,7 @@ use csv::{Position, ReaderBuilder, StringRecord, WriterBuilder};
 use super::difference;
 use super::scene::{Scene, Shot};
 use super::shot::{Ended, Ending};
+use crate::residual::SpeedIs;
 use toron_explicit_host::struck::history::title;
 use toron_materials::units::{LENGTH, SPEED, TIME};
 use toron_shared::build;
@@ -22,6 +23,8 @@ use toron_shared::toml_error::shortened;
 const SCENE: &str = "scene.toml";
 /// The words of endings.
 const ENDINGS: [&str; 4] = ["stopped", "through", "undecided", "error"];
+/// Where the scene stands in a line; the build and the error are behind it.
+const SCENE_COLUMN: usize = 16;
 
 /// Shots that have ended, by their numbers, and their file.
 pub struct Records {
@@ -53,6 +56,10 @@ impl Records {
             quantity("end", TIME),
             "verdict".to_string(),
             "seconds".to_string(),
+            "wall_seconds".to_string(),
+            "residual_speed_is".to_string(),
+            quantity("speed_at_decision", SPEED),
+            "seconds_to_decision".to_string(),
             "scene".to_string(),
             "build".to_string(),
             "error".to_string(),
@@ -101,13 +108,16 @@ impl Records {
     /// # Errors
     /// What else it is of, and what is allowed.
     fn check_origin(&self, record: &StringRecord, place: &Path) -> Result<(), String> {
-        for (column, own, what) in [(12, &self.of[0], "scene"), (13, &self.of[1], "build of the program")] {
+        for (column, own, what) in
+            [(SCENE_COLUMN, &self.of[0], "scene"), (SCENE_COLUMN + 1, &self.of[1], "build of the program")]
+        {
             let found = record.get(column).unwrap_or_default();
             if found == own {
                 continue;
             }
             let scene = std::fs::read_to_string(place.with_extension(SCENE)).ok();
-            let difference = scene.filter(|_| column == 12).and_then(|scene| difference::first(&self.scene, &scene));
+            let difference =
+                scene.filter(|_| column == SCENE_COLUMN).and_then(|scene| difference::first(&self.scene, &scene));
             let difference = difference.map_or(String::new(), |difference| format!(": {difference}"));
             return Err(format!(
                 "a shot of another {what} ({found}, not {own}){difference}; allowed: shots of this scene, but for {}, and of this build",
@@ -154,7 +164,7 @@ impl Records {
     }
 
     fn cells(&self, ended: &Ended) -> Vec<String> {
-        let Ended { shot, ending, speed_at_end, time, verdict, seconds } = ended;
+        let Ended { shot, ending, speed_at_end, time, verdict, .. } = ended;
         let (place, error) = match ending {
             Ending::Stopped => (0, NONE),
             Ending::Through => (1, NONE),
@@ -173,7 +183,11 @@ impl Records {
             speed_at_end.to_string(),
             time.to_string(),
             verdict.clone(),
-            format!("{seconds:.2}"),
+            format!("{:.2}", ended.seconds),
+            format!("{:.2}", ended.wall_seconds),
+            ended.speed_is.map_or(NONE, SpeedIs::name).to_string(),
+            or_dash(ended.decision.map(|[speed, _]| speed), |speed| speed.to_string()),
+            or_dash(ended.decision.map(|[_, seconds]| seconds), |seconds| format!("{seconds:.2}")),
             self.of[0].clone(),
             self.of[1].clone(),
             // On one line, whatever the message.
@@ -227,11 +241,22 @@ fn parsed(record: &StringRecord, titles: &[String]) -> Result<Ended, String> {
         Some(0) => Ending::Stopped,
         Some(1) => Ending::Through,
         Some(2) => Ending::Undecided,
-        Some(_) => Ending::Error(record[14].to_string()),
+        Some(_) => Ending::Error(record[SCENE_COLUMN + 2].to_string()),
         None => return Err(wrong(6, &ENDINGS.join(", "))),
     };
-    let verdict = record[10].to_string();
-    Ok(Ended { shot, ending, speed_at_end: number(8)?, time: number(9)?, verdict, seconds: number(11)? })
+    let optional = |column: usize| if &record[column] == NONE { Ok(None) } else { number(column).map(Some) };
+    let speed_is = SpeedIs::ALL.into_iter().find(|is| is.name() == &record[13]);
+    Ok(Ended {
+        shot,
+        ending,
+        speed_at_end: number(8)?,
+        time: number(9)?,
+        verdict: record[10].to_string(),
+        speed_is,
+        decision: optional(14)?.zip(optional(15)?).map(<[f64; 2]>::from),
+        seconds: number(11)?,
+        wall_seconds: number(12)?,
+    })
 }
 
 /// Which of two lines of one shot tells more: a fate before none, and without one the later end before an earlier one
@@ -266,7 +291,18 @@ mod tests {
 
     fn ended(number: usize, ending: Ending) -> Ended {
         let shot = Shot { number, nominal: 100.0, speed: 100.0 / 3.0, aim: [0.1, -1e-7], seed: Some(7) };
-        Ended { shot, ending, speed_at_end: 1.0 / 3.0, time: 0.1, verdict: "mesh; contact".to_string(), seconds: 1.25 }
+        let through = ending == Ending::Through;
+        Ended {
+            ending,
+            speed_at_end: 1.0 / 3.0,
+            time: 0.1,
+            verdict: "mesh; contact".to_string(),
+            speed_is: through.then_some(SpeedIs::AtDecision),
+            decision: through.then_some([0.5, 0.75]),
+            seconds: 1.25,
+            wall_seconds: 1.5,
+            ..Ended::of(shot)
+        }
     }
 
     /// What is written is read again to the bit; a line that is not whole is no shot, and one of a number takes the
@@ -308,7 +344,7 @@ mod tests {
         for (from, to, message) in [
             ("through", "over", "shots.csv:2: ending is \"over\"; allowed: stopped, through, undecided, error"),
             ("2,100,", "2,fast,", "shots.csv:3: nominal_speed (mm/ms) is \"fast\"; allowed: a number"),
-            ("2,100,", "2\n100,", "shots.csv:3: a line of 1 cells; allowed: 15, those of toron v50"),
+            ("2,100,", "2\n100,", "shots.csv:3: a line of 1 cells; allowed: 19, those of toron v50"),
             ("mm/ms", "m/s", "shots.csv: its columns are not those of shots in these units"),
         ] {
             let error = refused(&|text| text.replacen(from, to, 1), &scene);

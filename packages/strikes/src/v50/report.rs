@@ -9,6 +9,7 @@ use super::series::Series;
 use super::shot::{self, Ending};
 use super::simulation::Coverage;
 use super::test_houses::Mean;
+use crate::residual::SpeedIs;
 use crate::strength::scatter::{self, Strength};
 use toron_explicit_host::judgement::SOUND;
 use toron_explicit_host::struck::history::title;
@@ -74,6 +75,7 @@ pub fn report(scene: &Scene, series: &Series, [missing, beside]: [usize; 2], out
         said(scene, series),
         means(scene, series),
         residual(scene, series),
+        speeds_and_costs(series),
         unsound(series),
         errors_of_shots(series),
         list_files(series, output),
@@ -239,6 +241,27 @@ fn residual(scene: &Scene, series: &Series) -> String {
             )
         }
     };
+    folded(&text, WIDTH) + "\n"
+}
+
+/// Which speeds the residual ones are, and what the shots have cost, where some were decided.
+fn speeds_and_costs(series: &Series) -> String {
+    let decided = series.shots.iter().filter_map(|ended| ended.decision);
+    let (count, to_decisions) = decided.fold((0, 0.0), |(count, sum), [_, seconds]| (count + 1, sum + seconds));
+    if count == 0 {
+        return String::new();
+    }
+    let of = |is: SpeedIs| {
+        let shots =
+            series.shots.iter().filter(|ended| ended.residual().is_some() && ended.speed_is == Some(is)).count();
+        (shots > 0).then(|| format!("{shots} {}", is.name()))
+    };
+    let speeds: Vec<String> = SpeedIs::ALL.into_iter().filter_map(of).collect();
+    let all: f64 = series.shots.iter().map(|ended| ended.seconds).sum();
+    let text = format!(
+        "Speeds of the perforations: {}. Processor time {all:.1} s in all; the {count} decided shots took {to_decisions:.1} s to their decisions.",
+        speeds.join(", ")
+    );
     folded(&text, WIDTH) + "\n"
 }
 
@@ -442,7 +465,14 @@ mod tests {
     fn said_of(keys: &str, ending: Ending) -> String {
         let scene = Scene::parse("yarn.toml", &format!("{YARN}{keys}"), None).expect("a scene");
         let shot = scene.shot(1, 100.0);
-        let ended = Ended { shot, ending, speed_at_end: 1.0, time: 0.4, verdict: "sound".to_string(), seconds: 1.0 };
+        let ended = Ended {
+            ending,
+            speed_at_end: 1.0,
+            time: 0.4,
+            verdict: "sound".to_string(),
+            seconds: 1.0,
+            ..Ended::of(shot)
+        };
         let text = report(&scene, &Series::of(vec![ended], false, None), [5, 2], Path::new("there"));
         // It is folded to the terminal's width.
         text.split_whitespace().collect::<Vec<_>>().join(" ")
@@ -463,7 +493,7 @@ mod tests {
         let failed = errors.iter().map(|message| (100.0, Ending::Error(message.to_string()), 0.0));
         let shots = (1..).zip(stopped.chain(through).chain(failed)).map(|(number, (speed, ending, speed_at_end))| {
             let shot = Shot { number, nominal: speed, speed, aim: [0.0; 2], seed: None };
-            Ended { shot, ending, speed_at_end, time: 0.4, verdict: "sound".to_string(), seconds: 1.0 }
+            Ended { ending, speed_at_end, time: 0.4, verdict: "sound".to_string(), seconds: 1.0, ..Ended::of(shot) }
         });
         Series::of(shots.collect(), false, None)
     }
@@ -549,6 +579,33 @@ mod tests {
         let error = of(&series(&[120.0, 130.0], &[], &[]));
         let wanted = "allowed: more shots between 130.0 and 300, or a range that ends faster. Speeds are in mm/ms, of which one is 1 m/s";
         assert!(error.ends_with(wanted), "{error}");
+    }
+
+    /// Speeds at a decision are told from residual ones, and the cost up to it from that of the shots.
+    #[test]
+    fn speeds_at_the_decision_are_told() {
+        let scene = Scene::parse("yarn.toml", YARN, None).expect("a scene");
+        let shot = |number: usize, is: SpeedIs, decision: Option<[f64; 2]>| {
+            let (ending, speed_is) = (Ending::Through, Some(is));
+            Ended {
+                ending,
+                speed_at_end: 9.0,
+                speed_is,
+                decision,
+                seconds: 3.0,
+                ..Ended::of(scene.shot(number, 150.0))
+            }
+        };
+        let shots = vec![
+            shot(1, SpeedIs::AtDecision, Some([9.0, 3.0])),
+            shot(2, SpeedIs::Residual, Some([9.5, 2.0])),
+            shot(3, SpeedIs::Residual, None),
+        ];
+        let text = speeds_and_costs(&Series::of(shots.clone(), false, None));
+        let expected = "Speeds of the perforations: 2 residual, 1 at the decision. Processor time 9.0 s in all; the 2 decided \
+                        shots took 5.0 s to their decisions.";
+        assert_eq!(text.split_whitespace().collect::<Vec<_>>().join(" "), expected);
+        assert_eq!(speeds_and_costs(&Series::of(shots[2..].to_vec(), false, None)), "");
     }
 
     /// A curve of residual speeds that is none is told with its reason.

@@ -276,7 +276,7 @@ mod tests {
     use crate::v50::scene::YARN;
 
     fn ended(shot: Shot, ending: Ending) -> Ended {
-        Ended { shot, ending, speed_at_end: 1.0, time: 0.4, verdict: "sound".to_string(), seconds: 1.0 }
+        Ended { ending, speed_at_end: 1.0, time: 0.4, verdict: "sound".to_string(), seconds: 1.0, ..Ended::of(shot) }
     }
 
     /// A table of the shots of these numbers at these speeds, with their endings.

@@ -191,7 +191,7 @@ impl Scene {
     /// All that the outcome of a shot depends on besides what the shot itself says.
     pub fn identity(&self) -> u32 {
         let mut target = self.target.at(&self.plain_shot(0, 1.0), 1.0);
-        let &Plan { end, decides, .. } = self.target.plan();
+        let &Plan { end, decides, settles, .. } = self.target.plan();
         let shots = Shots { number: 0, extension: 0.0, tolerance: 0.0, spread: None, ..self.shots };
         let case = match &mut target {
             Target::Panel(case) => {
@@ -203,7 +203,7 @@ impl Scene {
                 format!("{case:?}")
             }
         };
-        crc32fast::hash(format!("{:?} {case} {end} {decides} {shots:?}", self.units.names()).as_bytes())
+        crc32fast::hash(format!("{:?} {case} {end} {decides} {settles} {shots:?}", self.units.names()).as_bytes())
     }
 }
 
@@ -432,6 +432,10 @@ mod tests {
         let Target::Panel(case) = &mut decided.target else { panic!("a panel") };
         case.plan.decides = true;
         assert_ne!(whole.identity(), decided.identity());
+        let mut settled = Scene { target: decided.target.clone(), ..panel("whole", "", 10.0).expect("a scene") };
+        let Target::Panel(case) = &mut settled.target else { panic!("a panel") };
+        case.plan.settles = true;
+        assert_ne!(settled.identity(), decided.identity());
         let own = of("", "");
         for (from, to) in
             [("end = 0.2", "end = 0.2\nsample = 0.01\nframes = 3"), ("number = 6", "number = 9\nspread = 3.0")]

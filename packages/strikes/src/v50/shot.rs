@@ -8,6 +8,7 @@ use super::scene::{Scene, Shot, Target};
 use crate::fabric::run::StruckPanel;
 use crate::fabric::summary::Figures;
 use crate::impact::run::StruckYarn;
+use crate::residual::SpeedIs;
 use crate::{fabric, impact};
 use toron_explicit_host::judgement::{Finding, verdict};
 use toron_explicit_host::struck::pace::Estimate;
@@ -37,11 +38,31 @@ pub struct Ended {
     pub time: f64,
     /// The run's verdict: that it is sound, or what is wrong with it.
     pub verdict: String,
-    /// How long it took.
+    /// Which speed that is, where there is a residual one.
+    pub speed_is: Option<SpeedIs>,
+    /// The speed when it was certain that it goes through, and the processor time up to then.
+    pub decision: Option<[f64; 2]>,
+    /// The processor time of its threads, and how long it took.
     pub seconds: f64,
+    pub wall_seconds: f64,
 }
 
 impl Ended {
+    /// A shot of which nothing is known.
+    pub fn of(shot: Shot) -> Ended {
+        Ended {
+            shot,
+            ending: Ending::Undecided,
+            speed_at_end: 0.0,
+            time: 0.0,
+            verdict: String::new(),
+            speed_is: None,
+            decision: None,
+            seconds: 0.0,
+            wall_seconds: 0.0,
+        }
+    }
+
     /// The fate, if it is known.
     pub fn fate(&self) -> Option<Fate> {
         let through = match self.ending {
@@ -53,7 +74,7 @@ impl Ended {
     }
 
     pub fn residual(&self) -> Option<f64> {
-        (self.ending == Ending::Through).then_some(self.speed_at_end)
+        (self.ending == Ending::Through).then_some(self.speed_at_end.max(0.0))
     }
 }
 
@@ -125,7 +146,7 @@ pub fn fire(scene: &Scene, shot: &Shot, watch: &dyn Watch) -> Option<Ended> {
         Err(panic) => format!("the program fails in this shot: {}", said(&*panic)),
     };
     let (verdict, ending) = (NONE.to_string(), Ending::Error(message));
-    Some(Ended { shot: *shot, ending, speed_at_end: shot.speed, time: 0.0, verdict, seconds: 0.0 })
+    Some(Ended { ending, speed_at_end: shot.speed, verdict, ..Ended::of(*shot) })
 }
 
 /// What a panic says.
@@ -142,21 +163,26 @@ fn strike(scene: &Scene, shot: &Shot, watcher: &mut Watcher) -> Result<Option<En
             let struck = StruckPanel::new(&case)?;
             let outcome = run::run(&struck, None, watcher)?;
             let figures = Figures::of(&scene.units, &case, &struck.panel, &outcome);
-            Ok(ended(shot, &outcome, &figures.findings))
+            Ok(ended(shot, &outcome, case.plan.settles, &figures.findings))
         }
         Target::Yarn(case) => {
             let struck = StruckYarn::new(&case)?;
             let outcome = struck.outcome(run::run(&struck, None, watcher)?);
-            Ok(ended(shot, &outcome, &impact::judgement::judge(&scene.units, &case, &outcome)))
+            Ok(ended(shot, &outcome, false, &impact::judgement::judge(&scene.units, &case, &outcome)))
         }
     }
 }
 
-fn ended<E: Copy + Default, C>(shot: &Shot, outcome: &run::Outcome<E, C>, findings: &[Finding]) -> Option<Ended> {
+fn ended<E: Copy + Default, C>(
+    shot: &Shot,
+    outcome: &run::Outcome<E, C>,
+    settles: bool,
+    findings: &[Finding],
+) -> Option<Ended> {
     let ending = match outcome.end {
         End::Interrupted => return None,
         End::Stopped | End::Rebounded => Ending::Stopped,
-        End::Left | End::Decided => Ending::Through,
+        End::Left | End::Decided | End::Settled => Ending::Through,
         End::Time => Ending::Undecided,
         End::Failed => Ending::Error(outcome.failure.clone().unwrap_or_default()),
     };
@@ -166,7 +192,10 @@ fn ended<E: Copy + Default, C>(shot: &Shot, outcome: &run::Outcome<E, C>, findin
         speed_at_end: outcome.last().speed,
         time: outcome.last_time(),
         verdict: verdict(findings),
-        seconds: outcome.wall.as_secs_f64(),
+        speed_is: SpeedIs::of(outcome.end, settles),
+        decision: outcome.decision.map(|decision| [decision.speed, decision.processor.as_secs_f64()]),
+        seconds: outcome.cost.processor.as_secs_f64(),
+        wall_seconds: outcome.wall.as_secs_f64(),
     })
 }
 
