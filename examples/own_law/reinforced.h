@@ -181,6 +181,12 @@ typedef struct REINFORCED_points_f64 {
     double *active;
     /* Out: a status code for each point. */
     int32_t *status;
+    /* In: the length of the step. Not read by this law. */
+    double time_increment;
+    /* In: the time at its end. Not read by this law. */
+    double time;
+    /* In: the temperature of each point at the end of the step. Not read by this law. */
+    const double *temperature;
 } REINFORCED_points_f64;
 
 int32_t REINFORCED_block_f64(const REINFORCED_f64 *law, const REINFORCED_points_f64 *points, char *message, size_t capacity);
@@ -231,6 +237,12 @@ typedef struct REINFORCED_points_f32 {
     float *active;
     /* Out: a status code for each point. */
     int32_t *status;
+    /* In: the length of the step. Not read by this law. */
+    double time_increment;
+    /* In: the time at its end. Not read by this law. */
+    double time;
+    /* In: the temperature of each point at the end of the step. Not read by this law. */
+    const float *temperature;
 } REINFORCED_points_f32;
 
 int32_t REINFORCED_block_f32(const REINFORCED_f32 *law, const REINFORCED_points_f32 *points, char *message, size_t capacity);
