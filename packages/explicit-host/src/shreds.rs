@@ -204,7 +204,7 @@ mod tests {
         let preset = parameters::preset("kevlar-km2-600").expect("it exists");
         let law = Law::new(preset.into(), preset.values, Rotation::Fibre, Criterion::LargestPrincipal).expect("valid");
         let (label, own, origin) = (String::new(), String::new(), Origin::default());
-        let material = Material { law, density: Some(preset.density), label, own, origin };
+        let material = Material { law, density: Some(preset.density), label, own, origin, temperature: None };
         let control = Control { hourglass: 0.1, linear: 0.06, quadratic: 1.5, shape: 0.2, by_direction: false };
         let media = vec![Medium::new(&material, preset.density, control).expect("valid")];
         let section = Section::Rectangle;

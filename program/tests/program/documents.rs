@@ -16,6 +16,7 @@ use toron::host::abaqus::{StandardLaw, Umat};
 use toron::host::constants::TORON_MESSAGE_CAPACITY;
 use toron::host::lsdyna::{self, UserRoutines};
 use toron::host::units::UnitSystem;
+use toron::law::block::Circumstances;
 use toron::law::parameters::{self, DENSITY, Dimension, FIBRE, PRESETS, Preset, Property};
 use toron::law::state::{self, ENERGIES, FAILED, HYPERELASTIC_STATE, INVARIANTS, StateVariable};
 use toron::law::status;
@@ -163,6 +164,7 @@ fn umat(properties: &[f64], state: i32, direct: i32, nlgeom: i32) -> (i32, Strin
         ndi: direct,
         nshr: 3,
         nlgeom,
+        circumstances: Circumstances::UNKNOWN,
     };
     // SAFETY: the arrays have the sizes that the structure tells.
     answer(|message, capacity| unsafe { <Hyperelastic as StandardLaw>::umat(&call, message, capacity) })

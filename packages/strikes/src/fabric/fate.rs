@@ -43,7 +43,7 @@ pub struct Fate {
 }
 
 impl Fate {
-    /// Whether the mean force over the last radius would take less than [`LITTLE`] of the energy on one more.
+    /// Whether the mean force over the last radius would take less than `LITTLE` of the energy on one more.
     pub fn has_settled(&self, rigid: &RigidSurface) -> bool {
         let (Some(&[from, before]), Some(&[place, square])) = (self.way.front(), self.way.back()) else { return false };
         let (way, radius) = (from - place, rigid.radius);

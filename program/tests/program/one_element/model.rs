@@ -54,8 +54,14 @@ impl Deck {
     /// Time, stress, energy and failure in every step.
     fn history(&self, point: &Point) -> Vec<(f64, [f64; 6], f64, bool)> {
         let law = Law::new(point.law, &point.values, Rotation::Fibre, Criterion::LargestPrincipal).expect("a material");
-        let material =
-            Material { law, density: None, label: String::new(), own: String::new(), origin: Default::default() };
+        let material = Material {
+            law,
+            density: None,
+            label: String::new(),
+            own: String::new(),
+            origin: Default::default(),
+            temperature: None,
+        };
         let mut memory = material.at_rest();
         (0..=STEPS)
             .map(|step| {
