@@ -187,8 +187,8 @@ impl<R: Real> Real for Dual<R> {
     fn powf(self, exponent: Self) -> Self {
         let (zero, one, x, q) = (R::splat(0.0), R::splat(1.0), self.value, exponent.value);
         let value = elementary::powf(x, q);
-        // At 0 it is 1 for q = 1, 0 for q > 1, and for q < 1 as for the root.
-        let steep = q.lt(one) & !self.slope.abs().le(zero);
+        // At 0 it is 1 for q = 1, 0 for q > 1 and for q = 0, and between these as for the root.
+        let steep = zero.lt(q) & q.lt(one) & !self.slope.abs().le(zero);
         let below_one = R::select(steep, R::splat(f64::INFINITY), zero);
         let at_zero = R::select(one.le(q) & q.le(one), one, below_one);
         let derivative = R::select(zero.lt(x), q * value / x, at_zero);
