@@ -48,7 +48,7 @@
         type(c_ptr) :: stress_new, state_new
         type(c_ptr) :: ener_intern_new, ener_inelas_new
       end type
-      type(arguments) :: block
+      type(arguments), target :: block
       integer(c_int32_t) :: status
 !     Room for any message of the library.
       integer(c_size_t), parameter :: capacity = 512
