@@ -288,6 +288,8 @@ macro_rules! both_precisions {
                         Vumat { size: 0, ..job },
                     ] {
                         quiet!(<Hyperelastic<$t> as ExplicitLaw<$t>>::vumat, &job, t, ROOM);
+                        let unknown = Circumstances::<$t>::UNKNOWN;
+                        quiet!(<Hyperelastic<$t> as ExplicitLaw<$t>>::vumat_at, &job, unknown, t, ROOM);
                     }
                     quiet!(<Hyperelastic<$t> as ExplicitLaw<$t>>::vumat, null(), null_mut(), 0);
 
