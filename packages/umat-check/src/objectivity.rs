@@ -32,12 +32,12 @@ pub fn objectivity(session: &mut Session, reads: Reads) -> Finding {
     if session.material.separation.is_some() {
         return Finding::new(Question::Objectivity, Verdict::NotAsked, None, "tractions turn with their element");
     }
-    if reads == Reads::Total { at_large_turns(session) } else { at_small_turns(session) }
+    if reads == Reads::Total { turned_at_once(session, reads) } else { at_small_turns(session, reads) }
 }
 
 /// A steady spin, which adds up to large turns. A law that integrates the spin itself errs with the square of the turn
 /// at least.
-fn at_small_turns(session: &mut Session) -> Finding {
+fn at_small_turns(session: &mut Session, reads: Reads) -> Finding {
     let spin = |turn_of_one: f64| {
         move |rng: &mut Rng, material: &Material, _: usize, count: usize| {
             let axis = match material.components {
@@ -51,7 +51,7 @@ fn at_small_turns(session: &mut Session) -> Finding {
     // Each increment in parts, so that the turn in all stays.
     let asked =
         |session: &mut Session, parts: usize| compared(session, parts, |f, q| q * f, spin(LARGEST_TURN / parts as f64));
-    let mut line = objective(session, &|session| asked(session, 1));
+    let mut line = objective(session, reads, &|session| asked(session, 1));
     let (Verdict::Wrong, Some(figure)) = (line.verdict, line.figure) else { return line };
     let mut in_parts = |parts: usize| asked(session, parts).map_or(f64::INFINITY, |worst| worst.figure);
     let (half, quarter) = (in_parts(2), in_parts(4));
@@ -70,8 +70,13 @@ fn at_small_turns(session: &mut Session) -> Finding {
 /// What half the turn leaves, at most, of an error that is of first order in it: a half, with some room.
 const FALLS: f64 = 0.65;
 
-/// A quarter turn, half a turn and random ones in one increment.
+/// The same of a law that reads increments and is right at small turns.
 pub fn at_large_turns(session: &mut Session) -> Finding {
+    turned_at_once(session, Reads::Mixed)
+}
+
+/// A quarter turn, half a turn and random ones in one increment.
+fn turned_at_once(session: &mut Session, reads: Reads) -> Finding {
     let rotations = |rng: &mut Rng, material: &Material, number: usize, count: usize| -> (String, Vec<Matrix3<f64>>) {
         let z = Vector3::z();
         let half = std::f64::consts::FRAC_PI_2;
@@ -83,15 +88,22 @@ pub fn at_large_turns(session: &mut Session) -> Finding {
             _ => ("a random turn in every increment".into(), (0..count).map(|_| rotation(rng, material)).collect()),
         }
     };
-    objective(session, &|session| compared(session, 1, |f, q| q * f, rotations))
+    objective(session, reads, &|session| compared(session, 1, |f, q| q * f, rotations))
 }
 
-fn objective(session: &mut Session, asked: &dyn Fn(&mut Session) -> Result<Worst, String>) -> Finding {
+fn objective(
+    session: &mut Session,
+    reads: Reads,
+    asked: &dyn Fn(&mut Session) -> Result<Worst, String>,
+) -> Finding {
     let worst = match asked(session) {
         Ok(worst) => worst,
         Err(text) => return Finding::new(Question::Objectivity, Verdict::Wrong, None, text).with(NOT_FINITE),
     };
-    let mut line = judged(Question::Objectivity, "not objective", &worst, "superposed rotations turn the stress alone");
+    let mut line = judged(Question::Objectivity, NOT_OBJECTIVE, &worst, "superposed rotations turn the stress alone");
+    if line.kinds.iter().any(|kind| kind == NOT_OBJECTIVE) && line.figure.is_some() {
+        line.text.push_str(advice(session.material, reads));
+    }
     if line.verdict == Verdict::Wrong && session.material.components == 6 {
         session.exchange(true);
         if asked(session).is_ok_and(|worst| worst.figure <= TOLERANCE) {
@@ -101,6 +113,23 @@ fn objective(session: &mut Session, asked: &dyn Fn(&mut Session) -> Result<Worst
         session.exchange(false);
     }
     line
+}
+
+const NOT_OBJECTIVE: &str = "not objective";
+
+/// What a law of this kind may lack: only states of a law of increments have to be turned, and only such a law needs axes
+/// that turn.
+fn advice(material: &Material, reads: Reads) -> &'static str {
+    match (reads == Reads::Total, material.initial.is_empty()) {
+        (true, _) => "",
+        (false, true) => {
+            "; a law with directions of its own needs orientation = true; without NLGEOM that does not matter"
+        }
+        (false, false) => {
+            "; tensors in STATEV are to be turned by DROT (ROTSIG), and a law with directions of its own needs orientation = \
+             true; without NLGEOM neither matters"
+        }
+    }
 }
 
 /// Rotations of the material before all else.
@@ -243,12 +272,6 @@ fn judged(question: Question, kind: &str, worst: &Worst, right: &str) -> Finding
             format!("{right}, {} increments", worst.compared),
         );
     }
-    let mut text = format!("the stress changes by {:.2e} of itself with {}", worst.figure, worst.text);
-    if question == Question::Objectivity {
-        text.push_str(
-            "; tensors in STATEV are to be turned by DROT (ROTSIG), and a law with directions of its own needs orientation = true; \
-             without NLGEOM neither matters",
-        );
-    }
+    let text = format!("the stress changes by {:.2e} of itself with {}", worst.figure, worst.text);
     Finding::new(question, Verdict::Wrong, Some(worst.figure), text).with(kind)
 }
