@@ -35,10 +35,7 @@ impl Law {
     /// # Errors
     /// It cannot be loaded, or has no UMAT, or nothing of the name that it should have.
     pub fn load(path: &Path, name: Option<&str>) -> Result<Law, String> {
-        use libloading::os::unix::{Library, RTLD_LAZY, RTLD_LOCAL};
-        // SAFETY: what a library does as it is loaded is its author's affair; this process is there to bear it.
-        let library = unsafe { Library::open(Some(path), RTLD_LAZY | RTLD_LOCAL) };
-        let library = libloading::Library::from(library.map_err(|error| why(&error))?);
+        let library = open(path)?;
         let umat = symbol::<Umat>(&library, name.unwrap_or("umat")).ok_or_else(|| without_umat(path, name))?;
         let (sdvini, uexternaldb) = (symbol(&library, "sdvini"), symbol(&library, "uexternaldb"));
         let sigini = symbol(&library, "sigini");
@@ -61,6 +58,29 @@ impl Law {
             }
         }
     }
+}
+
+/// Opens a law's library: its own routines are looked for before those of other libraries.
+///
+/// # Errors
+/// It cannot be loaded.
+pub fn open(path: &Path) -> Result<libloading::Library, String> {
+    opened(path, libc::RTLD_LAZY | libc::RTLD_LOCAL | libc::RTLD_DEEPBIND)
+}
+
+/// Opens the routines of Abaqus, for the law's library to find.
+///
+/// # Errors
+/// They cannot be loaded.
+pub fn open_utilities(path: &Path) -> Result<libloading::Library, String> {
+    opened(path, libc::RTLD_LAZY | libc::RTLD_GLOBAL)
+}
+
+fn opened(path: &Path, flags: libc::c_int) -> Result<libloading::Library, String> {
+    use libloading::os::unix::Library;
+    // SAFETY: what a library does as it is loaded is its author's affair; this process is there to bear it.
+    let library = unsafe { Library::open(Some(path), flags) };
+    library.map(libloading::Library::from).map_err(|error| why(&error))
 }
 
 /// Why a library is not loaded, in the loader's words.

@@ -11,7 +11,8 @@ use std::time::{Duration, Instant};
 
 use serde::{Deserialize, Serialize};
 
-use super::call::{Answer, Call, Law, Session};
+use super::call::{Answer, Call, Law, Session, open_utilities};
+use super::compile::LIBRARY_OF_UTILITIES;
 use super::finding::{Finding, Question, Verdict};
 use super::guarded::Guard;
 use super::material::{Material, Reads};
@@ -114,6 +115,8 @@ fn reply_to(request: &Path) -> Result<(), Error> {
     let Request { library, material, task, guard, shared, result } =
         serde_json::from_slice(&text).map_err(|error| Error::Input(format!("{}: {error}", request.display())))?;
     let shared = Shared::open(&shared).map_err(io_error)?;
+    let utilities = request.with_file_name(LIBRARY_OF_UTILITIES);
+    let _utilities = utilities.exists().then(|| loaded(open_utilities(&utilities)));
     if matches!(task, Task::OnlyVumat) {
         Shared::catch_signals();
         return write_reply(&result, &ChildReply::OnlyVumat(loaded(vumat::call::only_vumat(&library))));

@@ -11,7 +11,10 @@ use super::{sources, work_dir};
 use toron_shared::error::Error;
 
 /// The routines of Abaqus that subroutines call.
-const UTILITIES: &str = include_str!("utilities.c");
+pub const UTILITIES: &str = include_str!("utilities.c");
+
+/// What they are called, compiled, where the law is a library.
+pub const LIBRARY_OF_UTILITIES: &str = "utilities.so";
 
 /// Writes the counts of lines to their files: the child ends in a way in which that is not done.
 const COUNTS: &str = "void __gcov_dump(void);\nvoid toron_counts_(void) { __gcov_dump(); }\n";
@@ -76,6 +79,7 @@ pub fn compile(file: &Path, folder: &Path, options: &Options) -> Result<Built, E
         ..options.clone()
     };
     if language == Language::Library {
+        library_of_utilities(folder);
         return Ok(Built {
             library: file,
             checked: None,
@@ -110,6 +114,18 @@ pub fn compile(file: &Path, folder: &Path, options: &Options) -> Result<Built, E
     };
     let by = format!("{}{}{with}", compiler.command, form.said);
     Ok(Built { library, checked, counted, by, warnings, form, objects, options: options.clone() })
+}
+
+/// The routines of Abaqus for a law that is a library already; without a compiler of C they are not there, which is said
+/// when one is called.
+fn library_of_utilities(folder: &Path) {
+    let (source, library) = (folder.join("utilities.c"), folder.join(LIBRARY_OF_UTILITIES));
+    if std::fs::write(&source, UTILITIES).is_ok() {
+        let mut command = Command::new("gcc");
+        command.args(["-shared", "-O1", "-fPIC", "-w"]).arg(&source).arg("-o").arg(&library).args(["-lm", "-lpthread"]);
+        // Without gcc there is nothing to do about it.
+        run(&mut command, "utilities").unwrap_or_default();
+    }
 }
 
 fn canonical(path: &Path) -> Result<PathBuf, Error> {

@@ -47,7 +47,8 @@ pub fn driver(call: &Call, material: &Material, law: &str) -> Option<String> {
         format!(
             "! One call of the UMAT in {law}, and DDSDDE beside differences of its stress. ABA_PARAM.INC says\n\
          !   implicit real*8(a-h,o-z)\n\
-         ! gfortran -std=legacy -ffixed-line-length-132 -I. {law} THIS.f90 -o one && ./one\n\
+         ! gfortran -std=legacy -ffixed-line-length-132 -I. {law} THIS.f90 THIS.c -lpthread -o one && ./one\n\
+         ! THIS.c, beside it, has ROTSIG, XIT and other routines that Abaqus has.\n\
          program one\n  implicit none\n{counts}{declared}{BODY}",
         )
         .replace("h = 1d-6", &format!("h = {}", real(STEP * material.unit_of_strain())))

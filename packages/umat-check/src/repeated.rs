@@ -68,7 +68,8 @@ struct Written {
 }
 
 impl Repeated {
-    /// Writes `NAME-LINE.json` into the folder, under its lock, and if asked `NAME-LINE.f90`, the call as a program.
+    /// Writes `NAME-LINE.json` into the folder, under its lock, and if asked `NAME-LINE.f90`, the call as a program,
+    /// with the routines that Abaqus has in `NAME-LINE.c`.
     ///
     /// # Errors
     /// It cannot be written, or the files there are another law's.
@@ -88,9 +89,12 @@ impl Repeated {
         };
         let text = serde_json::to_string_pretty(&written).map_err(|reason| error(reason.to_string()))?;
         std::fs::write(&path, text).map_err(|reason| error(reason.to_string()))?;
-        let law = self.file.display().to_string();
+        let sources = self.options.with.iter().chain([&self.file]);
+        let law = sources.map(|path| path.display().to_string()).collect::<Vec<_>>().join(" ");
         if let Some(program) = driver::driver(&self.call, &self.material, &law).filter(|_| as_program) {
-            std::fs::write(path.with_extension("f90"), program).map_err(|reason| error(reason.to_string()))?;
+            for (ending, text) in [("f90", program.as_str()), ("c", compile::UTILITIES)] {
+                std::fs::write(path.with_extension(ending), text).map_err(|reason| error(reason.to_string()))?;
+            }
         }
         Ok(path)
     }

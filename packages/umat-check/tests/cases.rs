@@ -244,6 +244,32 @@ fn a_wrong_tangent_is_reproduced_by_a_program() {
     }
 }
 
+/// Routines that Abaqus has: the program of a call brings them along, and a library finds them too.
+#[test]
+fn routines_of_abaqus_are_there_for_a_program_and_for_a_library() {
+    let law = changed(
+        &corpus("laws/j2_kinematic.f90"),
+        &[["  sse = pressure**2", "  ddsdde = 2*ddsdde\n  sse = pressure**2"].map(str::to_string)],
+        "with-rotsig",
+    );
+    let folder = written("rotsig-call");
+    let only = ["--only=tangent", "--reproduce", "--output", &folder];
+    let status = std::process::Command::new(env!("CARGO_BIN_EXE_umat-check")).arg(&law).args(only).status();
+    assert_eq!(status.expect("runs").code(), Some(1));
+    let program = std::fs::read_to_string(Path::new(&folder).join("j2_kinematic-tangent.f90")).expect("a program");
+    let command = program.lines().find(|line| line.starts_with("! gfortran")).expect("a command");
+    let command = command.trim_start_matches("! ").replace("THIS", "j2_kinematic-tangent");
+    let built = std::process::Command::new("sh").current_dir(&folder).args(["-c", &command]).output().expect("sh");
+    assert!(built.status.success(), "{command}: {}", String::from_utf8_lossy(&built.stderr));
+
+    let library = written("librotsig.so");
+    let built = std::process::Command::new("gfortran").args(["-shared", "-fPIC", "-w", "-o", &library]).arg(&law).status();
+    assert!(built.expect("gfortran").success());
+    let scene = law.with_extension("toml").display().to_string();
+    let (_, report) = check(Path::new(&library), &["--scene", &scene, "--only=stress"].map(str::to_string));
+    assert_eq!(report["materials"][0]["lines"][1]["verdict"], "right", "{report:#}");
+}
+
 /// Laws of both forms, of the deformation and of strain increments, with tangents of their own that are wrong: the
 /// wrapper's is right.
 #[test]

@@ -4,7 +4,7 @@ use std::ffi::{c_char, c_void};
 use std::io;
 use std::path::Path;
 
-use super::super::call::{why, write_counts};
+use super::super::call::{open, write_counts};
 use super::super::guarded::{Guard, Guarded};
 use super::super::material::Material;
 use super::super::shared::{OF_UMAT, OF_VUMAT, Shared};
@@ -61,13 +61,6 @@ pub struct Law {
 /// The names that compilers give a subroutine.
 fn symbols(name: &str) -> [String; 3] {
     [format!("{name}_"), name.to_uppercase(), name.to_string()]
-}
-
-fn open(path: &Path) -> Result<libloading::Library, String> {
-    use libloading::os::unix::{Library, RTLD_LAZY, RTLD_LOCAL};
-    // SAFETY: what a library does as it is loaded is its author's affair; this process is there to bear it.
-    let library = unsafe { Library::open(Some(path), RTLD_LAZY | RTLD_LOCAL) };
-    library.map(libloading::Library::from).map_err(|error| why(&error))
 }
 
 /// Whether a library has a VUMAT and no UMAT.
