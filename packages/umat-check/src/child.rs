@@ -19,7 +19,7 @@ use super::material::{Material, Reads};
 use super::shared::{self, SIGNALLED, Seen, Shared};
 use super::{
     coverage, energy, expect, job, jumps, objectivity, place, process, properties, rest, steps, stress, tangent,
-    thermal, vumat, work_dir,
+    thermal, unset, vumat, work_dir,
 };
 use toron_shared::bound_child;
 use toron_shared::error::Error;
@@ -61,6 +61,8 @@ pub enum Task {
         material: Box<Material>,
         after: bool,
     },
+    /// The bits of answers along a few histories, as of [`unset`].
+    Answers,
     /// One call, as the bits of its numbers: they need not be finite.
     Call(Vec<u64>),
 }
@@ -142,6 +144,7 @@ fn reply_to(request: &Path) -> Result<(), Error> {
             ChildReply::Finding(answer_question(question, &law, &material, &mut session, reads, allowed))
         }
         Task::LargeTurns => ChildReply::Finding(objectivity::at_large_turns(&mut session)),
+        Task::Answers => ChildReply::Bits(unset::answers(&mut session)),
         Task::Other { material: other, after } => {
             if after {
                 process::stresses(&mut session);

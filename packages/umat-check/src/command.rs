@@ -24,6 +24,7 @@ use super::repeated::{self, Repeated};
 use super::report::{MaterialReport, Report};
 use super::shared;
 use super::tangent;
+use super::unset;
 use super::work_dir::WorkDir;
 use super::wrapper;
 use toron_shared::console::{print, print_note};
@@ -403,6 +404,7 @@ impl Check<'_> {
         Ok(match (question, finding.verdict) {
             (Question::Coverage, Verdict::Right) => coverage::of_counts(self.work_dir),
             (Question::Runtime, _) if has(NOT_FINITE) => self.with_unset(finding),
+            (Question::Runtime, Verdict::Right) => self.with_zeros(material, finding, longest_call)?,
             (Question::Repeat, Verdict::Right) => {
                 let mut run = |task: Task| self.run_task(material, task, guard, library, longest_call);
                 kept::properties(&mut run, material)?.unwrap_or(finding)
@@ -421,6 +423,28 @@ impl Check<'_> {
         let unset = self.built.used_unset(self.file, self.work_dir);
         let unset = if unset.is_empty() { String::new() } else { format!(": by gfortran {}", unset.join(", ")) };
         Finding { text: format!("{}{unset}", finding.text), ..finding }
+    }
+
+    /// The answers of the build that fills unset variables with NaN beside those of the same with zeros.
+    fn with_zeros(&self, material: &Material, right: Finding, longest_call: Duration) -> Result<Finding, Error> {
+        let (filled, zeroed) = (self.built.checked.as_deref(), self.built.zeroed(self.file, self.work_dir));
+        let (Some(filled), Some(zeroed)) = (filled, zeroed) else { return Ok(right) };
+        let answers = |library: &Path| {
+            let reply = self.run_task(material, Task::Answers, Guard::Padded, library, longest_call)?;
+            Ok(reply.ok().and_then(|reply| match reply {
+                ChildReply::Bits(bits) => Some(bits),
+                _ => None,
+            }))
+        };
+        let (Some(filled), Some(zeroed)) = (answers(filled)?, answers(&zeroed)?) else { return Ok(right) };
+        if filled == zeroed {
+            return Ok(right);
+        }
+        let source = std::fs::read(self.file).unwrap_or_default();
+        let saved = String::from_utf8_lossy(&source).to_uppercase().contains("SAVE");
+        let named = self.built.used_unset(self.file, self.work_dir);
+        let states = (!material.explicit.called).then_some(material.initial.len());
+        Ok(unset::line(&filled, &zeroed, states, &named, saved).unwrap_or(right))
     }
 
     /// Answers that depend on order may be those of variables that are never set.

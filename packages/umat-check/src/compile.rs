@@ -232,11 +232,21 @@ impl Built {
         let Ok(file) = file.canonicalize() else { return Vec::new() };
         let mut command = Command::new("gfortran");
         including(&mut command, &file, folder, &self.options);
-        command.args(["-c", "-O1", "-cpp", "-std=legacy", "-fallow-argument-mismatch", "-frecursive"]);
+        command.args(["-c", "-O2", "-cpp", "-std=legacy", "-fallow-argument-mismatch", "-frecursive"]);
         command.args(["-Wuninitialized", "-Wmaybe-uninitialized", "-fdiagnostics-plain-output"]).args(self.form.flags);
         command.arg("-x").arg("f95").arg(&file).arg("-o").arg(folder.join("unset.o"));
         let messages = command.output().map(|output| String::from_utf8_lossy(&output.stderr).to_string());
         unset_in(&messages.unwrap_or_default())
+    }
+
+    /// The build with checks, with zeros in the place of NaN in what is not set; none where the compiler has no such
+    /// flags.
+    pub fn zeroed(&self, file: &Path, folder: &Path) -> Option<PathBuf> {
+        self.checked.as_ref()?;
+        let (file, language) = (file.canonicalize().ok()?, language(file).ok()?);
+        let compiler = &Compiler::of(language, self.options.fortran.as_deref()).ok()?;
+        let job = Job { file: &file, language, compiler, folder, options: &self.options };
+        job.library(Variant::Zeroed, self.form, &self.objects).ok()
     }
 
     /// The same for single precision, where the source leaves it to `vaba_param.inc`; inside, why it does not compile
@@ -274,17 +284,17 @@ impl Built {
     }
 }
 
-/// `file.f:12:5: Warning: 'x' is used uninitialized` as `x (line 12)`, each variable once.
+/// `/a/file.f:12:5: Warning: 'x' is used uninitialized` as `x (file.f:12)`, each variable once.
 fn unset_in(messages: &str) -> Vec<String> {
     let mut found: Vec<(String, String)> = Vec::new();
     for message in messages.lines() {
         let Some((place, warning)) = message.split_once(": Warning: ") else { continue };
-        let line = place.rsplit(':').nth(1);
+        let line = place.rsplit_once(':').and_then(|(line, _)| line.rsplit('/').next());
         let name = warning.split(['\'', '‘', '’']).nth(1).filter(|_| warning.contains("uninitialized"));
         if let (Some(line), Some(name)) = (line, name)
             && !found.iter().any(|(known, _)| known == name)
         {
-            found.push((name.to_string(), format!("{name} (line {line})")));
+            found.push((name.to_string(), format!("{name} ({line})")));
         }
     }
     found.into_iter().map(|(_, said)| said).collect()
@@ -334,6 +344,6 @@ mod tests {
                         /x/a.f:20:9: Warning: ‘d0’ may be used uninitialized [-Wmaybe-uninitialized]\n\
                         /x/a.f:21:9: Warning: unused variable 'k' [-Wunused]\n\
                         /x/a.f:7:1: note: 'e' was declared here\n";
-        assert_eq!(unset_in(messages), ["d0 (line 12)"]);
+        assert_eq!(unset_in(messages), ["d0 (a.f:12)"]);
     }
 }

@@ -60,6 +60,8 @@ pub enum Variant {
     Plain,
     /// With checks at run time.
     Checked,
+    /// The same, with zeros in the place of what the first is filled with.
+    Zeroed,
     /// With counts of each line.
     Counted,
 }
@@ -69,6 +71,7 @@ impl Variant {
         match self {
             Variant::Plain => "law.so",
             Variant::Checked => "checked.so",
+            Variant::Zeroed => "zeroed.so",
             Variant::Counted => "counted.so",
         }
     }
@@ -149,9 +152,13 @@ impl Compiler {
             (_, Family::Gnu) => {
                 // Without -frecursive large local arrays are static, and threads would fail for no fault of the law.
                 command.args(["-std=legacy", "-fallow-argument-mismatch", "-frecursive", "-w", "-cpp", level]);
-                if variant == Variant::Checked {
-                    command.args(["-fcheck=all,no-array-temps", "-finit-real=snan", "-finit-integer=-77777777"]);
-                    command.arg("-fno-backtrace");
+                let filled: &[&str] = match variant {
+                    Variant::Checked => &["-finit-real=snan", "-finit-integer=-77777777", "-finit-logical=true"],
+                    Variant::Zeroed => &["-finit-real=zero", "-finit-integer=0", "-finit-logical=false"],
+                    Variant::Plain | Variant::Counted => &[],
+                };
+                if !filled.is_empty() {
+                    command.args(["-fcheck=all,no-array-temps", "-fno-backtrace"]).args(filled);
                 }
                 command.args(form.flags);
             }

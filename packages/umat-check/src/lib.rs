@@ -51,6 +51,7 @@ pub mod steps;
 pub mod stress;
 pub mod tangent;
 pub mod thermal;
+pub mod unset;
 pub mod vumat;
 pub mod work_dir;
 pub mod wrapper;

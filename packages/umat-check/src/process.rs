@@ -168,6 +168,12 @@ pub fn repeat(session: &mut Session) -> Finding {
     Finding::new(Question::Repeat, Verdict::Right, None, text)
 }
 
+/// The answers of so many histories, one after the other.
+pub fn answers_of(session: &mut Session, seed: u64, count: usize, longest: usize) -> Vec<Answer> {
+    let paths = paths(session.material, seed, count, longest);
+    paths.iter().flat_map(|path| answers(session, path, [1, 1])).collect()
+}
+
 /// The bits of the stresses of a few histories.
 pub fn stresses(session: &mut Session) -> Vec<u64> {
     let paths = paths(session.material, 0x2e, 3, 12);

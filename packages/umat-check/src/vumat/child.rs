@@ -35,6 +35,7 @@ pub fn reply_to(
             let mut session = Session::new(law, other, Precision::Double, guard, Some(shared));
             Some(ChildReply::Bits(blocks::stresses(&mut session)?))
         }
+        Task::Answers => Some(ChildReply::Bits(blocks::stresses(&mut session)?)),
         Task::OnlyVumat | Task::LargeTurns | Task::Call(_) => None,
     })
 }
