@@ -1,5 +1,5 @@
-C     Linear elasticity, rate law. PROPS: E, nu. Its stress takes
-C     shears as the tensor's: 2 G in the place of G. SSE is right.
+C     Linear elasticity, rate law. PROPS: E, nu, a factor of G by
+C     shears, which is 1; 2 is right for the tensor's shears alone.
       SUBROUTINE UMAT(STRESS,STATEV,DDSDDE,SSE,SPD,SCD,RPL,DDSDDT,
      1 DRPLDE,DRPLDT,STRAN,DSTRAN,TIME,DTIME,TEMP,DTEMP,PREDEF,DPRED,
      2 CMNAME,NDI,NSHR,NTENS,NSTATV,PROPS,NPROPS,COORDS,DROT,PNEWDT,
@@ -20,7 +20,7 @@ C     shears as the tensor's: 2 G in the place of G. SSE is right.
         DDSDDE(I,I)=XLAM+2.D0*G
       END DO
       DO I=NDI+1,NTENS
-        DDSDDE(I,I)=2.D0*G
+        DDSDDE(I,I)=PROPS(3)*G
       END DO
       DO I=1,NTENS
         SSE=SSE+0.5D0*STRESS(I)*DSTRAN(I)

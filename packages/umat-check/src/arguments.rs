@@ -114,8 +114,8 @@ impl Arguments {
                 1,
                 call.increment,
             ],
-            // JSTEP: the step, a static one, NLGEOM=YES, no perturbation.
-            step: [call.step, 1, 1, 0],
+            // JSTEP: the step, a static one, whether NLGEOM, no perturbation.
+            step: [call.step, 1, i32::from(!material.small_strain), 0],
         }
     }
 

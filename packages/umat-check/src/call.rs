@@ -296,6 +296,7 @@ pub struct Session<'a> {
     shared: Option<Shared>,
     records: bool,
     exchanged: bool,
+    halved: bool,
 }
 
 /// The places of 13 and 23.
@@ -321,6 +322,7 @@ impl<'a> Session<'a> {
             shared,
             records: true,
             exchanged: false,
+            halved: false,
         };
         session.call_material(&material.name);
         if let Some(shared) = shared {
@@ -415,8 +417,20 @@ impl<'a> Session<'a> {
         self.exchanged = exchanged && self.material.components == 6;
     }
 
+    /// Has strains with the tensor's shears from now on, half of those that Abaqus passes; or no longer.
+    pub fn halve_shears(&mut self, halved: bool) {
+        self.halved = halved && self.material.separation.is_none();
+    }
+
     /// Calls the UMAT.
     pub fn call_law(&mut self, call: &Call) -> Answer {
+        if self.halved {
+            let mut call = call.clone();
+            for values in [&mut call.strain, &mut call.strain_increment] {
+                values.iter_mut().skip(self.material.direct()).for_each(|shear| *shear *= 0.5);
+            }
+            return self.call_law_in_order(&call);
+        }
         if !self.exchanged {
             return self.call_law_in_order(call);
         }

@@ -292,6 +292,8 @@ impl Check<'_> {
                         // A law that never sees a strain 33 is for plane strain.
                         material.plane = material.plane.or(Some(Plane::Strain));
                     }
+                    // What follows from DFGRD1 alone is no law of small strain, whatever the job.
+                    material.small_strain &= reads != Reads::Total;
                     Some(reads)
                 }
                 Ok(_) | Err(_) => None,

@@ -50,11 +50,19 @@ fn cycle(session: &mut Session, rng: &mut Rng, parts: usize) -> Result<Option<Cy
     let size = 0.7 * size(session.material);
     let a = gradient(rng, session.material) * size;
     let b = gradient(rng, session.material) * (0.5 * size);
+    // Without NLGEOM the same of the strain.
+    let of_strain = |matrix: Matrix3<f64>| (matrix + matrix.transpose()) * 0.5;
+    let [a, b] = if session.material.small_strain { [of_strain(a), of_strain(b)] } else { [a, b] };
     let mut point = Point::virgin(session, [1, 1]);
     let (mut work, mut way, mut every_second) = (0.0, 0.0, 0.0);
     for k in 1..=parts {
         let t = TAU * k as f64 / parts as f64;
-        let f = if k == parts { Matrix3::identity() } else { Matrix3::identity() + a * t.sin() + b * (1.0 - t.cos()) };
+        let change = a * t.sin() + b * (1.0 - t.cos());
+        let f = match (k == parts, session.material.small_strain) {
+            (true, _) => Matrix3::identity(),
+            (false, true) => exp(&change),
+            (false, false) => Matrix3::identity() + change,
+        };
         let time_step = session.material.time_step;
         match point.advance_in(session, &f, time_step) {
             Ok(_) => {}
@@ -72,8 +80,11 @@ fn cycle(session: &mut Session, rng: &mut Rng, parts: usize) -> Result<Option<Cy
     Ok(Some(Cycle { work, unsure: (work - every_second).abs(), way }))
 }
 
-/// P : Ḟ = J σ : (Ḟ F⁻¹).
+/// P : Ḟ = J σ : (Ḟ F⁻¹), or without NLGEOM σ : ε̇.
 fn power(point: &Point, rate: &Matrix3<f64>, material: &Material) -> f64 {
+    if material.small_strain {
+        return point.global_stress(material).dot(rate);
+    }
     let Some(inverse) = point.f.try_inverse() else { return f64::NAN };
     point.global_stress(material).dot(&(rate * inverse)) * material.volume(&point.f)
 }

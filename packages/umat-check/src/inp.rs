@@ -304,7 +304,8 @@ impl Deck {
         material.deck = Some(file.to_string());
         material.unsymmetric = Some(user.unsymmetric);
         // Without NLGEOM nothing turns, which is as if the axes turned along.
-        material.orientation |= user.orientation || self.nonlinear == Some(false);
+        material.small_strain |= self.nonlinear == Some(false);
+        material.orientation |= user.orientation || material.small_strain;
         if !given.properties {
             let constants = user.constants.unwrap_or(0);
             material.remarks.extend(

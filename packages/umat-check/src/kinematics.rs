@@ -48,6 +48,12 @@ pub fn rotation_of(f: &Matrix3<f64>) -> Matrix3<f64> {
     rebuilt(&squared_stretches, &axes, |x| 1.0 / x.sqrt()) * f
 }
 
+/// ln V of F = V R.
+pub fn logarithm(f: &Matrix3<f64>) -> Matrix3<f64> {
+    let (squared_stretches, axes) = eigen(&(f * f.transpose()));
+    rebuilt(&squared_stretches, &axes, |x| 0.5 * x.ln())
+}
+
 /// The exponential of a symmetric matrix.
 pub fn exp(matrix: &Matrix3<f64>) -> Matrix3<f64> {
     // Closer to rounding than eigenvalues for the small strains by which tangents are found.

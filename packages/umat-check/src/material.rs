@@ -45,6 +45,9 @@ pub struct Material {
     pub plane: Option<Plane>,
     /// Corotational axes, as with `*ORIENTATION`.
     pub orientation: bool,
+    /// Without NLGEOM, on axes that turn: strains add up, and work is per volume that stays.
+    #[serde(default)]
+    pub small_strain: bool,
     /// Directions in the reference configuration, of length 1.
     pub fibres: Vec<[f64; 3]>,
     /// Of the random states.
@@ -148,9 +151,9 @@ impl Material {
         self.components > 3 || self.separation.is_some()
     }
 
-    /// J; of a separation there is none.
+    /// J; of a separation there is none, nor without NLGEOM.
     pub fn volume(&self, f: &Matrix3<f64>) -> f64 {
-        if self.separation.is_some() { 1.0 } else { f.determinant() }
+        if self.separation.is_some() || self.small_strain { 1.0 } else { f.determinant() }
     }
 
     /// PREDEF and DPRED: fields stay as they are.

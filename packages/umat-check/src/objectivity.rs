@@ -101,9 +101,6 @@ fn objective(
         Err(text) => return Finding::new(Question::Objectivity, Verdict::Wrong, None, text).with(NOT_FINITE),
     };
     let mut line = judged(Question::Objectivity, NOT_OBJECTIVE, &worst, "superposed rotations turn the stress alone");
-    if line.kinds.iter().any(|kind| kind == NOT_OBJECTIVE) && line.figure.is_some() {
-        line.text.push_str(advice(session.material, reads));
-    }
     if line.verdict == Verdict::Wrong && session.material.components == 6 {
         session.exchange(true);
         if asked(session).is_ok_and(|worst| worst.figure <= TOLERANCE) {
@@ -111,6 +108,10 @@ fn objective(
             line.text = format!("{EXCHANGED}: with 12 23 13 in the place of 12 13 23 it is right; {}", line.text);
         }
         session.exchange(false);
+    }
+    let mut line = with_halved_shears(session, line, asked);
+    if line.verdict == Verdict::Wrong && line.figure.is_some() && line.kinds == [NOT_OBJECTIVE] {
+        line.text.push_str(advice(session.material, reads));
     }
     line
 }
@@ -138,7 +139,7 @@ pub fn isotropy(session: &mut Session) -> Finding {
     if !material.traits.isotropic && material.fibres.is_empty() {
         return Finding::new(Question::Isotropy, Verdict::NotAsked, None, "neither isotropic nor fibres are declared");
     }
-    if material.orientation || material.separation.is_some() {
+    if material.is_diagonal() || material.orientation && !material.traits.isotropic {
         return Finding::new(Question::Isotropy, Verdict::NotAsked, None, "on the material's own axes");
     }
     let rotations = |rng: &mut Rng, material: &Material, number: usize, count: usize| {
@@ -154,10 +155,38 @@ pub fn isotropy(session: &mut Session) -> Finding {
         let text = "no rotation leaves the fibres where they are";
         return Finding::new(Question::Isotropy, Verdict::NotAsked, None, text);
     }
-    match compared(session, 1, |f, q| q * f * q.transpose(), rotations) {
-        Ok(worst) => judged(Question::Isotropy, "axes matter", &worst, "turning the material turns the stress alone"),
+    let asked = |session: &mut Session| compared(session, 1, |f, q| q * f * q.transpose(), rotations);
+    match asked(session) {
+        Ok(worst) => {
+            let right = "turning the material turns the stress alone";
+            with_halved_shears(session, judged(Question::Isotropy, "axes matter", &worst, right), &asked)
+        }
         Err(text) => Finding::new(Question::Isotropy, Verdict::Wrong, None, text).with(NOT_FINITE),
     }
+}
+
+/// The kind of a law that takes engineering shears for those of the tensor.
+const ENGINEERING_SHEARS: &str = "engineering shears";
+
+/// What is wrong, and whether it is right where the law gets the shears of the tensor.
+fn with_halved_shears(
+    session: &mut Session,
+    mut line: Finding,
+    asked: &dyn Fn(&mut Session) -> Result<Worst, String>,
+) -> Finding {
+    if line.verdict != Verdict::Wrong {
+        return line;
+    }
+    session.halve_shears(true);
+    if asked(session).is_ok_and(|worst| worst.figure <= TOLERANCE && worst.compared > 0) {
+        line.kinds = vec![ENGINEERING_SHEARS.to_string()];
+        line.text = format!(
+            "{ENGINEERING_SHEARS}: with half the shears of STRAN and DSTRAN, which are the tensor's, it is right; {}",
+            line.text
+        );
+    }
+    session.halve_shears(false);
+    line
 }
 
 fn about_first_fibre(material: &Material) -> bool {

@@ -4,7 +4,7 @@
 use nalgebra::Matrix3;
 
 use super::call::{Answer, Call, Session};
-use super::kinematics::{Components, Increment, of_strain, of_stress, rotation_of, strain_tensor, tensor};
+use super::kinematics::{Components, Increment, logarithm, of_strain, of_stress, rotation_of, strain_tensor, tensor};
 use super::material::Material;
 
 /// A point's state after its last increment.
@@ -101,6 +101,11 @@ impl Point {
             call.stress = self.stress;
             call.strain = self.strain;
             call.strain_increment = of_strain(&(r1.transpose() * increment.strain * r1), components);
+            if material.small_strain {
+                // Strains add up, to the logarithm of U.
+                let strain = |f: &Matrix3<f64>, r: &Matrix3<f64>| r.transpose() * logarithm(f) * r;
+                call.strain_increment = of_strain(&(strain(f1, &r1) - strain(&self.f, &r0)), components);
+            }
             call.rotation = Matrix3::identity();
             call.f0 = r0.transpose() * self.f;
             call.f1 = r1.transpose() * f1;
