@@ -212,7 +212,8 @@ fn report_to(program: &str, arguments: &Arguments, report: &mut Report) -> Resul
         let earlier = serde_json::from_str(&text).map_err(|error| Error::Input(format!("{name}: {error}")))?;
         report.mark_known(&earlier);
     }
-    let wrong = report.judge(arguments.strict).join(", ");
+    report.judge(arguments.strict);
+    let failures = report.failures(arguments.strict);
     if let Some(path) = &arguments.junit {
         write(path, &ci::junit(report, arguments.strict))?;
     }
@@ -225,7 +226,7 @@ fn report_to(program: &str, arguments: &Arguments, report: &mut Report) -> Resul
         let colours = std::io::stdout().is_terminal() && std::env::var_os("NO_COLOR").is_none();
         print(&report.as_text(program, colours));
     }
-    if wrong.is_empty() { Ok(()) } else { Err(Error::Evaluation(format!("{}: wrong: {wrong}", report.file))) }
+    if failures.is_empty() { Ok(()) } else { Err(Error::Evaluation(format!("{}: {failures}", report.file))) }
 }
 
 fn json_text(value: &impl serde::Serialize) -> Result<String, Error> {

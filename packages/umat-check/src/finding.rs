@@ -67,6 +67,9 @@ pub struct Finding {
     /// Whether an earlier report, the baseline, has it too.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub known: bool,
+    /// The baseline's figure, where it has the line and the figure has grown beyond what that one excuses.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub known_figure: Option<f64>,
 }
 
 impl Finding {
@@ -83,6 +86,7 @@ impl Finding {
             call_bits: None,
             map: Vec::new(),
             known: false,
+            known_figure: None,
         }
     }
 
@@ -254,12 +258,31 @@ impl Question {
         Question::ASKED.iter().chain(of_vumat).copied()
     }
 
-    /// Of all that may be asked, with commas.
+    /// All that the report may have: the build and the deck's numbers are nobody's answers.
+    fn lines() -> impl Iterator<Item = Question> {
+        [Question::Build, Question::Deck].into_iter().chain(Question::all())
+    }
+
+    /// Of all lines, with commas.
     pub fn names() -> String {
-        Question::all().map(Question::name).collect::<Vec<_>>().join(", ")
+        Question::lines().map(Question::name).collect::<Vec<_>>().join(", ")
     }
 
     pub fn parse(name: &str) -> Option<Question> {
-        Question::all().chain([Question::Build]).find(|question| question.name() == name)
+        Question::lines().find(|question| question.name() == name)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_line_of_a_report_is_allowed_and_listed() {
+        assert!(Question::names().starts_with("build, deck, memory"), "{}", Question::names());
+        for name in Question::names().split(", ") {
+            assert_eq!(Question::parse(name).map(Question::name), Some(name));
+        }
+        assert_eq!(Question::parse("bild"), None);
     }
 }

@@ -379,7 +379,7 @@ mod tests {
             ("traits = [\"elastic\"]", "law.toml:1: trait \"elastic\"; allowed: hyperelastic"),
             ("fibres = [[0.0, 0.0, 0.0]]", "law.toml:1: a fibre is no direction"),
             ("statev = 1\ninitial = [1.0, 2.0]", "law.toml:2: initial has 2 numbers"),
-            ("[allow]\ntangents = 1.0", "law.toml:2: allow has tangents; allowed: memory, rest"),
+            ("[allow]\ntangents = 1.0", "law.toml:2: allow has tangents; allowed: build, deck, memory, rest"),
             ("properties = [1.0, nan]", "properties: number 2 is NaN; allowed: finite numbers"),
             ("deletion = 1", "law.toml:1: deletion is 1; allowed: a state variable, 1 to 0"),
             ("defgrad = \"R\"", "law.toml:1: defgrad is \"R\"; allowed: \"RU\", \"U\""),

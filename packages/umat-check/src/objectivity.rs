@@ -91,11 +91,7 @@ fn turned_at_once(session: &mut Session, reads: Reads) -> Finding {
     objective(session, reads, &|session| compared(session, 1, |f, q| q * f, rotations))
 }
 
-fn objective(
-    session: &mut Session,
-    reads: Reads,
-    asked: &dyn Fn(&mut Session) -> Result<Worst, String>,
-) -> Finding {
+fn objective(session: &mut Session, reads: Reads, asked: &dyn Fn(&mut Session) -> Result<Worst, String>) -> Finding {
     let worst = match asked(session) {
         Ok(worst) => worst,
         Err(text) => return Finding::new(Question::Objectivity, Verdict::Wrong, None, text).with(NOT_FINITE),

@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::finding::{Finding, Verdict};
+use super::steps::NO_CONVERGENCE;
 use toron_shared::text_table::folded;
 
 /// The version of the JSON, which `report.schema.json` describes: it grows where a key goes or changes.
@@ -43,7 +44,29 @@ impl Report {
         names
     }
 
-    /// Marks what an earlier report has too: the same line of the same material, verdict and kinds.
+    /// What fails, for the error: lines that are wrong, and those that fail a strict check alone.
+    pub fn failures(&self, strict: bool) -> String {
+        let lines = || self.materials.iter().flat_map(|material| &material.lines);
+        let names = |is: &dyn Fn(&Finding) -> bool| {
+            let mut names: Vec<&str> = lines().filter(|line| is(line)).map(|line| line.check.as_str()).collect();
+            let mut seen = Vec::new();
+            names.retain(|name| {
+                !seen.contains(name) && {
+                    seen.push(*name);
+                    true
+                }
+            });
+            names.join(", ")
+        };
+        let wrong = names(&|line| line.fails(false));
+        let strictly = names(&|line| line.fails(strict) && !line.fails(false));
+        let said = [("wrong", wrong), ("not allowed with --strict", strictly)];
+        let said = said.into_iter().filter(|(_, names)| !names.is_empty());
+        said.map(|(what, names)| format!("{what}: {names}")).collect::<Vec<_>>().join("; ")
+    }
+
+    /// Marks what an earlier report has too: the same line of the same material, verdict and kinds, and no much larger
+    /// figure.
     pub fn mark_known(&mut self, earlier: &Report) {
         for material in &mut self.materials {
             let same = earlier.materials.iter().filter(|other| other.name == material.name);
@@ -52,7 +75,10 @@ impl Report {
                 let is_it = |other: &&&Finding| {
                     other.check == line.check && other.verdict == line.verdict && other.kinds == line.kinds
                 };
-                line.known = line.fails(true) && known.iter().any(|other| is_it(&other));
+                (line.known, line.known_figure) = (false, None);
+                let Some(other) = known.iter().find(is_it).filter(|_| line.fails(true)) else { continue };
+                line.known_figure = other.figure.filter(|figure| has_grown(line, *figure));
+                line.known = line.known_figure.is_none();
             }
         }
     }
@@ -80,6 +106,15 @@ impl Report {
         text.push_str(&format!("\n{}\n", counts.join(", ")));
         text
     }
+}
+
+/// By what factor a figure may grow that is known.
+const GROWN: f64 = 2.0;
+
+/// Whether the figure is much larger than this one. That of steps, an order, is the worse the smaller it is.
+fn has_grown(line: &Finding, known: f64) -> bool {
+    let is_order = line.kinds.iter().any(|kind| kind == NO_CONVERGENCE);
+    line.figure.is_some_and(|figure| !is_order && figure.abs() > GROWN * known.abs())
 }
 
 /// So many lines that are not sure for the same reason are one.
@@ -128,7 +163,7 @@ fn as_text(line: &Finding, program: &str, colours: bool) -> String {
         (true, Verdict::Warning) => format!("\x1b[33m{verdict}\x1b[0m"),
         (true, _) => format!("\x1b[2m{verdict}\x1b[0m"),
     };
-    let mut words = if line.known { format!("(known) {}", line.text) } else { line.text.clone() };
+    let mut words = words(line);
     if let Some(call) = &line.call {
         words.push_str(&format!("; {program} --again {call}"));
     }
@@ -136,6 +171,15 @@ fn as_text(line: &Finding, program: &str, colours: bool) -> String {
     let words = folded(&words, WORDS).replace("\n  ", &format!("\n{indent}"));
     let map: String = line.map.iter().map(|row| format!("{indent}{row}\n")).collect();
     format!("{:<NAME$}{figure:>FIGURE$}  {verdict}{words}\n{map}", line.check)
+}
+
+/// The text, and what the baseline says of the line.
+pub fn words(line: &Finding) -> String {
+    match line.known_figure {
+        Some(figure) => format!("(known, but worse: it was {}) {}", short(figure), line.text),
+        None if line.known => format!("(known) {}", line.text),
+        None => line.text.clone(),
+    }
 }
 
 /// Three digits.
@@ -163,12 +207,28 @@ mod tests {
         let (mut report, earlier) = (warned("one"), warned("another text"));
         assert!(report.judge(false).is_empty());
         assert_eq!((report.judge(true), report.verdict), (vec!["outputs".to_string()], Verdict::Wrong));
+        assert_eq!(report.failures(true), "not allowed with --strict: outputs");
+        assert_eq!(report.failures(false), "");
         report.mark_known(&earlier);
         assert!(report.judge(true).is_empty());
         // A further kind is news.
         report.materials[0].lines[0].kinds.push("input overwritten".to_string());
         report.mark_known(&earlier);
         assert_eq!(report.judge(true), ["outputs"]);
+    }
+
+    #[test]
+    fn a_known_fault_that_is_much_worse_fails() {
+        let wrong = |figure: f64| {
+            let line = Finding::new(Question::Tangent, Verdict::Wrong, Some(figure), "").with("unknown");
+            Report::new("umat.f", vec![MaterialReport { name: "A".to_string(), law: None, lines: vec![line] }])
+        };
+        for (figure, fails) in [(0.01, false), (0.019, false), (0.021, true)] {
+            let mut report = wrong(figure);
+            report.mark_known(&wrong(0.01));
+            assert_eq!(!report.judge(false).is_empty(), fails, "{figure}");
+            assert_eq!(report.as_text("umat-check", false).contains("(known, but worse: it was 0.010)"), fails);
+        }
     }
 
     #[test]

@@ -20,6 +20,8 @@ const MOST_PARTS: usize = 4096;
 const LONGEST: Duration = Duration::from_secs(6);
 /// Increments of a history.
 const INCREMENTS: usize = 12;
+/// The kind whose figure is an order.
+pub const NO_CONVERGENCE: &str = "no convergence";
 /// Of the stress.
 const SAME: f64 = 1e-8;
 /// A last change of the stress that is none.
@@ -131,7 +133,7 @@ pub fn steps(session: &mut Session) -> Finding {
     let text =
         format!("finer increments change the stress by {largest_change:.1e}, and order {order:.1} is no convergence");
     let verdict = if order < DIVERGES { Verdict::Wrong } else { Verdict::Warning };
-    Finding::new(Question::Steps, verdict, Some(order), text).with("no convergence")
+    Finding::new(Question::Steps, verdict, Some(order), text).with(NO_CONVERGENCE)
 }
 
 /// The stress at the end of a path in ever more parts, as far as the law does not refuse, and the largest of all on the

@@ -24,13 +24,7 @@ pub fn answers(session: &mut Session) -> Vec<u64> {
 /// The line where two builds answer otherwise that differ in what they fill unset variables with, and in nothing else:
 /// no bit may differ. `states` is NSTATV, none where the answers are stresses alone; `named` are the variables that the
 /// compiler sees unset, and `saved` whether some keep their value from call to call.
-pub fn line(
-    filled: &[u64],
-    zeroed: &[u64],
-    states: Option<usize>,
-    named: &[String],
-    saved: bool,
-) -> Option<Finding> {
+pub fn line(filled: &[u64], zeroed: &[u64], states: Option<usize>, named: &[String], saved: bool) -> Option<Finding> {
     let what = difference(filled, zeroed, states)?;
     let text = format!("another answer with unset variables of zero than of NaN, -77777777, .TRUE.: {what}");
     let line = |verdict, text: String| Finding::new(Question::Runtime, verdict, None, text).with(UNSET);

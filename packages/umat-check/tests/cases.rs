@@ -254,8 +254,8 @@ fn routines_of_abaqus_are_there_for_a_program_and_for_a_library() {
     );
     let folder = written("rotsig-call");
     let only = ["--only=tangent", "--reproduce", "--output", &folder];
-    let status = std::process::Command::new(env!("CARGO_BIN_EXE_umat-check")).arg(&law).args(only).status();
-    assert_eq!(status.expect("runs").code(), Some(1));
+    let output = std::process::Command::new(env!("CARGO_BIN_EXE_umat-check")).arg(&law).args(only).output();
+    assert_eq!(output.expect("runs").status.code(), Some(1));
     let program = std::fs::read_to_string(Path::new(&folder).join("j2_kinematic-tangent.f90")).expect("a program");
     let command = program.lines().find(|line| line.starts_with("! gfortran")).expect("a command");
     let command = command.trim_start_matches("! ").replace("THIS", "j2_kinematic-tangent");
@@ -263,7 +263,8 @@ fn routines_of_abaqus_are_there_for_a_program_and_for_a_library() {
     assert!(built.status.success(), "{command}: {}", String::from_utf8_lossy(&built.stderr));
 
     let library = written("librotsig.so");
-    let built = std::process::Command::new("gfortran").args(["-shared", "-fPIC", "-w", "-o", &library]).arg(&law).status();
+    let built =
+        std::process::Command::new("gfortran").args(["-shared", "-fPIC", "-w", "-o", &library]).arg(&law).status();
     assert!(built.expect("gfortran").success());
     let scene = law.with_extension("toml").display().to_string();
     let (_, report) = check(Path::new(&library), &["--scene", &scene, "--only=stress"].map(str::to_string));
