@@ -50,7 +50,7 @@ macro_rules! calculix {
                         // SAFETY: one value each.
                         time_increment: unsafe { *dtime },
                         // SAFETY: the same.
-                        time: unsafe { *ttime + *time },
+                        time: $crate::toron::host::calculix::sum(unsafe { [*ttime, *time] }),
                         temperature: t1l,
                     };
                     let call = $crate::toron::host::calculix::Behaviour {

@@ -9,6 +9,7 @@ use libc::{c_char, size_t};
 use super::{UMAT_COUNTS, check_counts, property_count};
 use crate::host::ByStep;
 use crate::host::entry_points::{Message, check_plane, check_pointers, entry, properties};
+use crate::host::environment::in_default_environment;
 use crate::host::limit_variable;
 use crate::law::block::{Circumstances, components, components_mut};
 use crate::law::derivative::{Derivative, JaumannModulus, Stress};
@@ -73,10 +74,12 @@ pub unsafe fn circumstances(
 ) -> Circumstances<f64> {
     // SAFETY: null, or as many values as just said.
     let known = |array: *const f64, place: usize| if array.is_null() { f64::NAN } else { unsafe { *array.add(place) } };
-    let (time_increment, start) = (known(dtime, 0), known(time, 1));
-    *temperature = known(temp, 0) + known(dtemp, 0);
+    let (time_increment, start, warm, warmer) = (known(dtime, 0), known(time, 1), known(temp, 0), known(dtemp, 0));
+    // A sum sets flags, which are the caller's.
+    let (end, sum) = in_default_environment(|| (start + time_increment, warm + warmer));
+    *temperature = sum;
     let temperature = if temp.is_null() || dtemp.is_null() { null() } else { core::ptr::from_ref(temperature) };
-    Circumstances { time_increment, time: start + time_increment, temperature }
+    Circumstances { time_increment, time: end, temperature }
 }
 
 impl Umat {
