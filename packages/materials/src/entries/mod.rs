@@ -2,7 +2,6 @@
 
 pub mod aligned;
 pub mod blocks;
-pub mod evaluation;
-pub mod frictional;
 pub mod hosts;
 pub mod precision;
+pub mod step;

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::io::{self, BufRead, Write};
+use std::marker::PhantomData;
 
 use clap::ValueEnum;
 use nalgebra::Matrix3;
@@ -10,12 +11,11 @@ use serde::{Deserialize, Serialize};
 
 use super::frictional;
 use super::lines::{self, order};
-use super::polar::polar_decomposition;
-use super::push_forward::{cauchy_of_second, truesdell_of_material};
-use crate::entries::evaluation::{self, Answer};
-use crate::entries::precision::BlockPrecision;
-use toron::law::state::{ENERGIES, FAILED, FAILURE_INDEX, INVARIANTS};
-use toron::law::{status, stress};
+use super::through::through;
+use crate::entries::step::{Step, message};
+use toron::Hyperelastic;
+use toron::law::state::{ENERGIES, FAILED, FAILURE_INDEX, HYPERELASTIC_STATE, INVARIANTS};
+use toron::law::status;
 use toron_shared::error::Error;
 use toron_shared::toml_error::shortened;
 
@@ -219,23 +219,10 @@ fn evaluate_point(entry: Entry, tangent: bool, point: &Input, line: usize) -> Ou
     let properties = [p.kel, p.ktc, p.p, p.ktd, p.kld, p.eps_lim, p.alpha, p.beta, m1, m2, m3];
     let f = Matrix3::from(point.f).transpose();
     let columns: [f64; 9] = std::array::from_fn(|c| f[c]);
-    let single = |x: f64| x as f32;
-    let answer = match entry {
-        Entry::Law => evaluation::prepared_point(&properties, &columns, tangent),
-        Entry::LawF32 => evaluation::prepared_point(&properties.map(single), &columns.map(single), tangent),
-        Entry::LawWithProperties => evaluation::point(&properties, &columns, tangent),
-        Entry::LawWithPropertiesF32 => evaluation::point(&properties.map(single), &columns.map(single), tangent),
-        Entry::Block => evaluation::block(&properties, &columns, line, tangent),
-        Entry::BlockF32 => evaluation::block(&properties.map(single), &columns.map(single), line, tangent),
-        Entry::Umat => evaluation::umat(&properties, &columns, tangent),
-        Entry::Vumat => via_vumat(&f, |stretch| evaluation::vumat(&properties, stretch, |x| x, f64::VUMAT)),
-        Entry::VumatSp => via_vumat(&f, |stretch| evaluation::vumat(&properties, stretch, |x| x as f32, f32::VUMAT)),
-        Entry::LsDyna => evaluation::lsdyna(&properties, &columns, tangent),
-        Entry::LsDynaVector => evaluation::lsdyna_vector(&properties, &columns, line, tangent),
-        Entry::Mgis => via_mgis(&f, evaluation::mgis(&properties, &columns, tangent)),
-        Entry::CalculiX => via_calculix(&f, evaluation::calculix(&properties, &columns), tangent),
-        Entry::OpenRadioss => evaluation::openradioss(&properties, &columns, line),
-    };
+    let state = [0.0; HYPERELASTIC_STATE];
+    let step =
+        Step { properties: &properties, f: &columns, state: &state, tangent, line, law: PhantomData::<Hyperelastic> };
+    let answer = through(entry, &step, &f);
     let mode = |i: usize| answer.modes.map(|modes| order(modes[i]));
     let state = answer.state;
     Output {
@@ -251,40 +238,11 @@ fn evaluate_point(entry: Entry, tangent: bool, point: &Input, line: usize) -> Ou
         failed: state[FAILED] == 1.0,
         sigma: order(answer.stress),
         status: answer.status,
-        message: (answer.status != status::OK).then(|| evaluation::message(answer.status, &properties)),
+        message: (answer.status != status::OK).then(|| message::<Hyperelastic, _>(answer.status, &properties)),
         ddsdde: answer.ddsdde.map(|rows| order(rows.map(order))),
         s_el: mode(0),
         s_tc: mode(1),
         s_td: mode(2),
         s_ld: mode(3),
     }
-}
-
-/// The answer of MGIS, with dS/dE pushed forward.
-fn via_mgis(f: &Matrix3<f64>, (answer, material): (Answer, Option<[[f64; 6]; 6]>)) -> Answer {
-    Answer { ddsdde: material.map(|material| jaumann_of_material(&material, f, &answer.stress)), ..answer }
-}
-
-/// The answer of CalculiX, with S and dS/dE pushed forward. Where there is no stress, CalculiX gets a stiffness that is
-/// none of the law's.
-fn via_calculix(f: &Matrix3<f64>, (answer, material): (Answer, [[f64; 6]; 6]), tangent: bool) -> Answer {
-    let intact = answer.status == status::OK;
-    let stress = if intact { order(cauchy_of_second(&answer.stress, f)) } else { [0.0; 6] };
-    let ddsdde = || if intact { jaumann_of_material(&material, f, &stress) } else { [[0.0; 6]; 6] };
-    Answer { stress, ddsdde: tangent.then(ddsdde), ..answer }
-}
-
-/// DDSDDE, in the library's order, of dS/dE, 11 22 33 12 13 23, and the Cauchy stress.
-pub(super) fn jaumann_of_material(material: &[[f64; 6]; 6], f: &Matrix3<f64>, stress: &[f64; 6]) -> [[f64; 6]; 6] {
-    evaluation::jaumann(&order(truesdell_of_material(material, f).map(order)), stress)
-}
-
-/// Calls a VUMAT as Abaqus/Explicit does: with U; its corotational stress is rotated by R.
-fn via_vumat(f: &Matrix3<f64>, entry: impl FnOnce([f64; 6]) -> Answer) -> Answer {
-    let (r, u) = polar_decomposition(f);
-    let answer = entry(stress::components(&u));
-    let rotated = r * (stress::matrix(&answer.stress) * r.transpose());
-    // R of an F that is not finite may not be either.
-    let stress = if answer.status == status::OK { stress::components(&rotated) } else { [0.0; 6] };
-    Answer { stress, ..answer }
 }

@@ -2,18 +2,19 @@
 
 use std::collections::BTreeMap;
 use std::io::{self, BufRead, Write};
+use std::marker::PhantomData;
 
 use nalgebra::Matrix3;
 use serde::{Deserialize, Serialize};
 
-use super::command::{Entry, jaumann_of_material};
+use super::command::Entry;
 use super::lines::{self, order};
-use super::polar::polar_decomposition;
-use super::push_forward::cauchy_of_second;
-use crate::entries::frictional::{Answer, PROPERTIES, STATE, Step, message};
-use toron::law::parameters::{FIBRE, FRICTIONAL, Property};
-use toron::law::state;
-use toron::law::{status, stress};
+use super::through::through;
+use crate::entries::step::{Answer, Step, message};
+use toron::Frictional;
+use toron::law::parameters::{FIBRE, FRICTIONAL, FRICTIONAL_PROPERTIES as PROPERTIES, Property};
+use toron::law::state::{self, FRICTIONAL_STATE as STATE};
+use toron::law::status;
 use toron_shared::error::Error;
 use toron_shared::toml_error::shortened;
 
@@ -135,7 +136,7 @@ fn evaluate_path(
     for (i, f) in path.iter().enumerate() {
         let columns: [f64; 9] = std::array::from_fn(|c| f[c]);
         let tangent = tangent && i + 1 == path.len();
-        let step = Step { properties, f: &columns, state: &old, tangent, line };
+        let step = Step { properties, f: &columns, state: &old, tangent, line, law: PhantomData::<Frictional> };
         let answer = through(entry, &step, f);
         old = answer.state;
         output.ddsdde = answer.ddsdde.map(|rows| order(rows.map(order)));
@@ -145,7 +146,7 @@ fn evaluate_path(
     output
 }
 
-fn after(answer: &Answer, properties: &[f64; PROPERTIES]) -> After {
+fn after(answer: &Answer<STATE>, properties: &[f64; PROPERTIES]) -> After {
     let numbers = state::FRICTIONAL.iter().zip(answer.state).take(state::FRICTIONAL_FAILED);
     After {
         sigma: order(answer.stress),
@@ -153,45 +154,6 @@ fn after(answer: &Answer, properties: &[f64; PROPERTIES]) -> After {
         slip: [answer.state[SLIP], answer.state[SLIP + 1]],
         failed: answer.state[state::FRICTIONAL_FAILED] == 1.0,
         status: answer.status,
-        message: (answer.status != status::OK).then(|| message(answer.status, properties)),
+        message: (answer.status != status::OK).then(|| message::<Frictional, _>(answer.status, properties)),
     }
-}
-
-/// The answer of an entry in the library's order; in single precision all that it gets is rounded.
-fn through(entry: Entry, step: &Step<'_>, f: &Matrix3<f64>) -> Answer {
-    match entry {
-        Entry::Law => step.point::<f64>(false),
-        Entry::LawF32 => step.point::<f32>(false),
-        Entry::LawWithProperties => step.point::<f64>(true),
-        Entry::LawWithPropertiesF32 => step.point::<f32>(true),
-        Entry::Block => step.block::<f64>(),
-        Entry::BlockF32 => step.block::<f32>(),
-        Entry::Umat => step.umat(),
-        Entry::Vumat => via_vumat(f, |stretch| step.vumat::<f64>(stretch)),
-        Entry::VumatSp => via_vumat(f, |stretch| step.vumat::<f32>(stretch)),
-        Entry::LsDyna => step.lsdyna(),
-        Entry::LsDynaVector => step.lsdyna_vector(),
-        Entry::Mgis => {
-            let (answer, material) = step.mgis();
-            Answer { ddsdde: material.map(|material| jaumann_of_material(&material, f, &answer.stress)), ..answer }
-        }
-        Entry::CalculiX => {
-            let (answer, material) = step.calculix();
-            let intact = answer.status == status::OK;
-            let stress = if intact { order(cauchy_of_second(&answer.stress, f)) } else { [0.0; 6] };
-            let ddsdde = || if intact { jaumann_of_material(&material, f, &stress) } else { [[0.0; 6]; 6] };
-            Answer { stress, ddsdde: step.tangent.then(ddsdde), ..answer }
-        }
-        Entry::OpenRadioss => step.openradioss(),
-    }
-}
-
-/// Calls a VUMAT as Abaqus/Explicit does: with U; its corotational stress is rotated by R.
-fn via_vumat(f: &Matrix3<f64>, entry: impl FnOnce(&[f64; 6]) -> Answer) -> Answer {
-    let (r, u) = polar_decomposition(f);
-    let answer = entry(&stress::components(&u));
-    let rotated = r * (stress::matrix(&answer.stress) * r.transpose());
-    // R of an F that is not finite may not be either.
-    let stress = if answer.status == status::OK { stress::components(&rotated) } else { [0.0; 6] };
-    Answer { stress, ..answer }
 }

@@ -6,3 +6,4 @@ mod lines;
 pub mod own_law;
 pub mod polar;
 pub mod push_forward;
+mod through;

@@ -9,7 +9,7 @@ use serde::ser::SerializeMap;
 use serde::{Deserialize, Serialize, Serializer};
 
 use super::lines::{self, order};
-use crate::entries::evaluation::{NEIGHBOURS, place};
+use crate::entries::step::{NEIGHBOURS, place};
 use crate::material::own_law::{Own, OwnLaw, PointArrays};
 use toron::Measure;
 use toron::law::status;
