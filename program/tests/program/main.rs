@@ -1,6 +1,7 @@
 //! The program and the yarn under impact; CalculiX and Akantu, whose answers are held against them.
 
 mod akantu;
+mod blow;
 mod build;
 mod calculix;
 #[allow(dead_code)] // each test uses its own part

@@ -29,6 +29,10 @@ impl<E: 'static> Column<E> {
     pub fn own(name: &'static str, dimension: Dimension, of: impl Fn(&E) -> f64 + Send + Sync + 'static) -> Self {
         Column::new(name, dimension, move |sample| of(&sample.own))
     }
+
+    pub fn value(&self, sample: &Sample<E>) -> f64 {
+        (self.of)(sample)
+    }
 }
 
 /// The columns that all scenes have, and then a scene's own.

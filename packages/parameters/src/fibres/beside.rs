@@ -3,14 +3,23 @@
 use std::collections::HashMap;
 use std::path::Path;
 
+use toron::host::units::UnitSystem;
+use toron::law::parameters::Dimension;
+use toron_materials::data_table::DataTable;
+use toron_materials::units::{ENERGY, LENGTH, SPEED, TIME};
 use toron_shared::error::Error;
 use toron_shared::file_names::STRAINS;
 use toron_shared::run_directory::{file_error, is_file};
 
-const TIME: &str = "time";
 /// The columns that are drawn.
-const COLUMNS: [&str; 6] =
-    ["speed", "kinetic_energy", "elongation_energy", "compaction_energy", "distortion_energy", "width_1"];
+const COLUMNS: [(&str, Dimension); 6] = [
+    ("speed", SPEED),
+    ("kinetic_energy", ENERGY),
+    ("elongation_energy", ENERGY),
+    ("compaction_energy", ENERGY),
+    ("distortion_energy", ENERGY),
+    ("width_1", LENGTH),
+];
 
 /// The history, column by column.
 #[derive(Clone, Debug, PartialEq)]
@@ -20,19 +29,18 @@ pub struct Beside {
 }
 
 impl Beside {
-    /// Reads the file.
+    /// Reads the file, in the scene's units.
     ///
     /// # Errors
     /// It cannot be read, or is no history of `toron impact`.
-    pub fn read(file: &Path) -> Result<Beside, Error> {
-        let text = std::fs::read_to_string(file).map_err(|error| file_error(file, &error))?;
-        Beside::parse(&text).map_err(|message| file_error(file, &message))
+    pub fn read(file: &Path, units: &UnitSystem) -> Result<Beside, Error> {
+        Beside::of(&DataTable::read(file)?, units)
     }
 
-    fn parse(text: &str) -> Result<Beside, String> {
-        let mut columns = table(text, &[&COLUMNS[..], &[TIME]].concat())?;
-        let times = columns.pop().unwrap_or_default();
-        Ok(Beside { times, columns: COLUMNS.into_iter().zip(columns).collect() })
+    fn of(table: &DataTable, units: &UnitSystem) -> Result<Beside, Error> {
+        let column = |(name, dimension)| Ok((name, table.values(name, dimension, units)?));
+        let columns = COLUMNS.into_iter().map(column).collect::<Result<_, Error>>()?;
+        Ok(Beside { times: table.values("time", TIME, units)?, columns })
     }
 
     /// The value of one of the columns at a time, between two lines by a straight line; at the ends, the last one there
@@ -43,7 +51,7 @@ impl Beside {
 }
 
 /// A value between two of an ascending abscissa by a straight line; at the ends, the last one there is.
-fn between(abscissa: &[f64], values: &[f64], place: f64) -> f64 {
+pub(crate) fn between(abscissa: &[f64], values: &[f64], place: f64) -> f64 {
     let after = abscissa.partition_point(|&known| known < place);
     let (Some(before), true) = (after.checked_sub(1), after < values.len()) else {
         return values[after.min(values.len() - 1)];
@@ -91,13 +99,31 @@ fn table(text: &str, names: &[&str]) -> Result<Vec<Vec<f64>>, String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use toron_explicit_host::struck::history;
+    use toron_explicit_host::struck::sample::Sample;
+    use toron_strikes::impact::outcome::OfYarn;
+    use toron_strikes::impact::summary;
 
+    const MM_G_MS: &str = "mm-g-ms";
+
+    fn system(name: &str) -> UnitSystem {
+        UnitSystem::parse(name).expect("units of the library")
+    }
+
+    /// As `toron impact` writes it, whatever its units.
     #[test]
-    fn a_history_is_read_between_its_lines() {
-        let head = format!("{TIME},{}\n", COLUMNS.join(","));
-        let line = |time: f64, value: f64| format!("{time},{}\n", vec![value.to_string(); COLUMNS.len()].join(","));
-        let beside = Beside::parse(&(head + &line(0.0, 10.0) + &line(2.0, 20.0))).expect("a history");
+    fn a_history_of_impact_is_read_between_its_lines() {
+        let columns = history::columns(summary::columns());
+        let sample = |time: f64, speed: f64| Sample::<OfYarn> { time, speed, ..Sample::default() };
+        let lines = [sample(0.0, 10.0), sample(2.0, 20.0)].map(|sample| history::line(&columns, &sample)).concat();
+        let text = history::titles(&columns, &system(MM_G_MS)) + &lines;
+        let table = DataTable::parse("law.csv", &text).expect("a table");
+        let beside = Beside::of(&table, &system(MM_G_MS)).expect("a history");
         assert_eq!([-1.0, 0.0, 0.5, 2.0, 3.0].map(|time| beside.at("speed", time)), [10.0, 10.0, 12.5, 20.0, 20.0]);
-        assert!(Beside::parse("time,speed\n0,1\n").expect_err("columns").contains("no column kinetic_energy"));
+        let seconds = Beside::of(&table, &system("mm-tonne-s")).expect("a history");
+        assert!((seconds.at("speed", 0.5e-3) - 12.5e3).abs() < 1e-9, "{}", seconds.at("speed", 0.5e-3));
+        let short = DataTable::parse("law.csv", "time (ms),speed (m/s)\n0,1\n").expect("a table");
+        let message = Beside::of(&short, &system(MM_G_MS)).expect_err("columns").to_string();
+        assert!(message.contains("no column \"kinetic_energy\""), "{message}");
     }
 }

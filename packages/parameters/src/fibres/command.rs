@@ -62,7 +62,11 @@ pub fn run(arguments: &Arguments) -> Result<Option<PathBuf>, Error> {
     let models: Result<Vec<Model>, Error> = scene.cases.iter().map(|case| Model::new(&scene.units, case)).collect();
     let models = models?;
     // One that cannot be read is said before hours of computation.
-    scene.cases.iter().filter_map(|case| case.law.as_deref()).try_for_each(|file| Beside::read(file).map(drop))?;
+    scene
+        .cases
+        .iter()
+        .filter_map(|case| case.law.as_deref())
+        .try_for_each(|file| Beside::read(file, &scene.units).map(drop))?;
     let output = &arguments.output;
     let names = COMMON.into_iter().chain(scene.cases.iter().map(|case| case.name.as_str())).map(String::from).collect();
     let files = vec![arguments.scene.as_path()];
@@ -226,8 +230,8 @@ fn write_pressed(scene: &Scene, case: &Case, result: &Pressed, output: &Path) ->
 
 fn write_case(scene: &Scene, case: &Case, result: &Outcome, output: &Path) -> Result<(), Error> {
     let file = |ending: &str| output.join(format!("{}{ending}", case.name));
-    summary::write_history(&file(".csv"), result)?;
-    let law = case.law.as_deref().map(Beside::read).transpose()?;
+    summary::write_history(&file(".csv"), &scene.units, result)?;
+    let law = case.law.as_deref().map(|file| Beside::read(file, &scene.units)).transpose()?;
     plot::write_history(&file(".svg"), &file(".png"), scene, case, result, law.as_ref())?;
     for (number, frame) in (1..).zip(&result.frames) {
         let [svg, png] = ["svg", "png"].map(|ending| file(&format!("{FIBRES}{number}.{ending}")));

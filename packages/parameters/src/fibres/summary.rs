@@ -7,7 +7,9 @@ use super::model::{Striking, micro};
 use super::outcome::Outcome;
 use super::scene::{Case, Scene};
 use toron::host::units::UnitSystem;
-use toron_materials::units::{LENGTH, TIME};
+use toron::law::parameters::{Dimension, NUMBER};
+use toron_explicit_host::struck::history::title;
+use toron_materials::units::{ENERGY, FORCE, LENGTH, SPEED, TIME};
 use toron_shared::error::Error;
 use toron_shared::numbers::{number, one_digit};
 use toron_shared::text_table::{or_dash, write_csv};
@@ -96,33 +98,34 @@ pub fn write(file: &Path, scene: &Scene, results: &[(&Case, Outcome)]) -> Result
 ///
 /// # Errors
 /// The file cannot be written.
-pub fn write_history(file: &Path, result: &Outcome) -> Result<(), Error> {
+pub fn write_history(file: &Path, units: &UnitSystem, result: &Outcome) -> Result<(), Error> {
     let lines: Vec<_> = result
         .samples
         .iter()
         .map(|s| {
-            let value = |title: &'static str, value: f64| (title, value.to_string());
+            let value =
+                |name: &str, dimension: Dimension, value: f64| (title(name, dimension, units), value.to_string());
             let mut cells = vec![
-                value("time", s.time),
-                value("speed", s.speed),
-                value("travel", s.travel),
-                value("force", s.force),
-                value("projectile_energy", s.projectile),
-                value("kinetic_energy", s.kinetic),
-                value("elongation_energy", s.elongation),
-                value("contact_energy", s.contact),
-                value("projectile_contact_energy", s.pressed),
-                value("broken_energy", s.broken),
-                value("friction_fibres", s.friction_fibres),
-                value("friction_projectile", s.friction_projectile),
-                value("external_work", s.external),
-                value("fastest_bead", s.fastest),
-                value("strain_max", s.strain),
-                value("breaks", s.breaks as f64),
+                value("time", TIME, s.time),
+                value("speed", SPEED, s.speed),
+                value("travel", LENGTH, s.travel),
+                value("force", FORCE, s.force),
+                value("projectile_energy", ENERGY, s.projectile),
+                value("kinetic_energy", ENERGY, s.kinetic),
+                value("elongation_energy", ENERGY, s.elongation),
+                value("contact_energy", ENERGY, s.contact),
+                value("projectile_contact_energy", ENERGY, s.pressed),
+                value("broken_energy", ENERGY, s.broken),
+                value("friction_fibres", ENERGY, s.friction_fibres),
+                value("friction_projectile", ENERGY, s.friction_projectile),
+                value("external_work", ENERGY, s.external),
+                value("fastest_bead", SPEED, s.fastest),
+                value("strain_max", NUMBER, s.strain),
+                value("breaks", NUMBER, s.breaks as f64),
             ];
             let widths = ["width_1", "width_2", "width_3", "width_4"].into_iter().zip(s.widths);
             let spreads = ["spread_1", "spread_2", "spread_3", "spread_4"].into_iter().zip(s.spreads);
-            cells.extend(widths.chain(spreads).map(|(title, width)| value(title, width)));
+            cells.extend(widths.chain(spreads).map(|(name, width)| value(name, LENGTH, width)));
             cells
         })
         .collect();

@@ -3,9 +3,10 @@
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
+use super::blow::file::BlowJob;
 use super::file::Job;
 use super::strength::file::StrengthJob;
-use super::{output, plot, region, report, sensitivity, strength};
+use super::{blow, output, plot, region, report, sensitivity, strength};
 use toron_shared::console::print;
 use toron_shared::error::Error;
 use toron_shared::kept_file;
@@ -18,6 +19,9 @@ use toron_strikes::impact::scene::Scene;
 /// # Errors
 /// The input, data that do not suffice, a file that cannot be written, or a scene that cannot be run.
 pub fn run(path: &Path, output: &Path, scene: Option<&Path>) -> Result<(), Error> {
+    if let Some(job) = BlowJob::read(path)? {
+        return blow::command::run(&job, path, output, scene);
+    }
     if let Some(strengths) = StrengthJob::read(path)? {
         return strength::command::run(&strengths, path, output, scene);
     }

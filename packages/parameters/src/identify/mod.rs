@@ -1,5 +1,6 @@
 //! `toron fit`: the parameters of the hyperelastic law, and of Weibull's, from measured data, and how sure they are.
 
+pub mod blow;
 pub mod checks;
 pub mod command;
 pub mod data;
