@@ -1,12 +1,11 @@
 //! toron: the transversely isotropic hyperelastic law of a yarn, for dry fabrics under ballistic impact (P. del Sorbo,
-//! ENSAM, 2019), and the linear elastic law that it is compared with.
+//! ENSAM, 2019), the linear elastic law that it is compared with, and a yarn law whose fibres rub on each other.
 //!
 //! [`law`] is the laws themselves: from a deformation gradient to a stress; [`law::thesis`] states the yarn's in a
 //! page. [`host`] is what solvers call: the C interface, Abaqus, LS-DYNA, CalculiX, OpenRadioss, MGIS. Neither needs a
 //! standard library, allocates or panics. What is made of them are packages of their own: `toron-c-functions` is the C
-//! interface, which `toron-c` exports as libtoron, `toron-calculix` and `toron-openradioss` are libraries that these
-//! solvers load, `toron-mgis` that of MGIS and MTest, `toron-program` the program `toron`: load paths on one element, a
-//! yarn under impact, tables, plots and decks.
+//! interface, which `toron-c` exports as libtoron; `toron-solvers` makes the libraries that Abaqus, CalculiX, MGIS and
+//! OpenRadioss load; `toron-program` is the program `toron`. `docs/architecture.md` has the picture of all of them.
 //!
 //! One point of a Kevlar KM2 yarn, in N, mm and MPa, pulled by 2 % and pressed to 80 % across:
 //!

@@ -86,7 +86,7 @@ pub const TABLE: [(i32, &str, &str); 26] = [
     (
         STATE_COUNT,
         "state_count",
-        "there are fewer state variables than the law needs (LS-DYNA: NHV is not 11; linear elastic law: 19)",
+        "there are fewer state variables than the law needs (LS-DYNA: NHV is not 11; linear elastic law: 19, law with friction: 15)",
     ),
     (INVERTED, "inverted", "the deformation gradient has a determinant <= 0 or maps the fibre to zero length"),
     (NOT_FINITE, "not_finite", "the deformation has an entry that is NaN or infinite"),

@@ -129,6 +129,8 @@ fn wrong_files_are_named() {
         ("[2e-4, 0.0044]", "[1.0, 2.0]", "toml:9: the history has no time above 0 in this range"),
         ("mm-g-ms", "mm-tonne-s", "toml:3: units is \"mm-tonne-s\", and the scene's are \"mm-g-ms\""),
         ("history.csv\"", "history.csv\"\ncase = \"none\"", "case \"none\""),
+        ("fits =", "columns = { width_2 = \"b\" }\nfits =", "toml:11: columns names \"width_2\""),
+        ("fits =", "columns = { width_1 = \"b\" }\nfits =", "no column \"b\""),
         ("history.csv", "nothing.csv", "nothing.csv"),
         ("speed = 0.02", "speed = -0.02", "toml:10: "),
     ] {

@@ -48,6 +48,9 @@ struct BlowTable {
     scene: Spanned<String>,
     case: Option<Spanned<String>>,
     history: Spanned<String>,
+    /// What the history calls a column of the scene's, where it is called otherwise.
+    #[serde(default)]
+    columns: BTreeMap<Spanned<String>, Spanned<String>>,
     range: Option<Spanned<Numbers<2>>>,
     /// The standard deviation of each column that is to be followed.
     follows: Spanned<BTreeMap<Spanned<String>, Spanned<Positive>>>,
@@ -205,6 +208,10 @@ fn history_of(
     if blow.follows.get_ref().is_empty() {
         return Err(source.error(blow.follows.span(), "follows is empty; allowed: columns, each with its deviation"));
     }
+    if let Some((name, _)) = blow.columns.iter().find(|(name, _)| !blow.follows.get_ref().contains_key(*name)) {
+        let message = format!("columns names \"{}\", which is not in follows; allowed: what is", name.get_ref());
+        return Err(source.error(name.span(), &message));
+    }
     let known = columns();
     let followed = |(name, deviation): (&Spanned<String>, &Spanned<Positive>)| {
         let column =
@@ -214,7 +221,8 @@ fn history_of(
                 source
                     .error(name.span(), &format!("follows \"{}\"{hint}; allowed: {}", name.get_ref(), names.join(", ")))
             })?;
-        let all = table.values(column.name, column.dimension, &scene.units)?;
+        let own = blow.columns.iter().find(|(name, _)| name.get_ref() == column.name).map(|(_, own)| own.get_ref());
+        let all = table.values(own.map_or(column.name, String::as_str), column.dimension, &scene.units)?;
         Ok(Followed {
             name: column.name,
             dimension: column.dimension,
