@@ -8,6 +8,7 @@
 //! | strain and waves of a driven fibre, ± 1 % | Smith's theory (`material::smith`) | the demand; the thesis's Table 3.1 is as near |
 //! | it bears 985 m/s and breaks at 1060 | 1027 m/s, Smith's theory; 1020 in the thesis | 4 %, and the ramp that is stated there |
 //! | balance without friction, 0.5 % | 0 | the demand |
+//! | q/p_t of rows without friction, 5 % | ½, of rigid discs (Rowe) | what their contacts give way at 2 MPa |
 //! | energy of rows pressed on all sides, 2 % | √3 K ((1 − e^I_tc)² + ½ I_td²), K the contact's stiffness over its length: three contacts a fibre | 1 % for terms of third order |
 //! | transverse wave at the clamp, 9 µs ± 10 % | 18 µs on twice the length, thesis section 4.6 | the width of the kink |
 
@@ -19,9 +20,9 @@ use std::time::{Duration, Instant};
 use toron_parameters::fibres::lammps::Lammps;
 use toron_parameters::fibres::model::Model;
 use toron_parameters::fibres::outcome::{Outcome, Sample};
-use toron_parameters::fibres::pressed::outcome::Pressed;
+use toron_parameters::fibres::pressed::outcome::{Pressed, Sample as PressedSample};
 use toron_parameters::fibres::run::Folder;
-use toron_parameters::fibres::scene::{Case, Scene};
+use toron_parameters::fibres::scene::{Case, Scene, Striker};
 use toron_test_support::library::{ROOT, folder};
 use toron_test_support::python::environment;
 
@@ -128,12 +129,7 @@ fn rows_of_fibres_are_pressed() {
     }
     let press = |name: &str| {
         let case = case(&scene, name);
-        let model = Model::new(&scene.units, &case).expect("a model");
-        let folder = Folder::new(fresh(&format!("fibres-press-{name}")), &model);
-        folder.write().expect("files");
-        folder.run(&Lammps::find(Some(program)).expect("LAMMPS"), 1, &mut |_| ()).expect("it runs");
-        let result = Pressed::new(&scene.units, model.clone(), &folder.read(None).expect("lines"));
-        (case.contact, result.expect("it is pressed"))
+        (case.contact, press(program, &scene, &case))
     };
     let (contact, all_sides) = press("all-sides");
     let part = all_sides.samples.iter().find(|sample| sample.stretch < 0.97).expect("a sample").middle;
@@ -149,6 +145,88 @@ fn rows_of_fibres_are_pressed() {
         // Rows between plates go apart, and bear nothing.
         assert_eq!(last.whole.energy > 1e-3, name == "all-sides");
     }
+}
+
+fn press(program: &Path, scene: &Scene, case: &Case) -> Pressed {
+    let model = Model::new(&scene.units, case).expect("a model");
+    let folder = Folder::new(fresh(&format!("fibres-press-{}", case.name)), &model);
+    folder.write().expect("files");
+    folder.run(&Lammps::find(Some(program)).expect("LAMMPS"), 1, &mut |_| ()).expect("it runs");
+    Pressed::new(&scene.units, model.clone(), &folder.read(None).expect("lines")).expect("it is pressed")
+}
+
+/// 2 (q dI_td − p_t dI_tc) up to each sample.
+fn works(samples: &[PressedSample]) -> Vec<f64> {
+    let work = |pair: &[PressedSample]| {
+        let [i_tc, i_td] = [0, 1].map(|i| pair[1].strain[i] - pair[0].strain[i]);
+        2.0 * (pair[1].q * i_td - pair[1].p_t * i_tc)
+    };
+    samples
+        .windows(2)
+        .scan(0.0, |sum, pair| {
+            *sum += work(pair);
+            Some(*sum)
+        })
+        .collect()
+}
+
+/// Rows without friction bear q = p_t/2 by dilatancy alone: discs that climb over two below them widen the section three
+/// times as fast as they lower it. Until then nothing is lost: the walls' stresses, by their strains, are what is stored.
+#[test]
+fn rows_are_tested_between_sides_that_keep_a_pressure() {
+    let scene = scene("biaxial.toml");
+    let mut case = case(&scene, "rows-0.0-1");
+    case.fibres = 100;
+    case.contact.coefficients = [case.contact.coefficients[0], 0.0, 0.0];
+    case.end = 60e-6;
+    case.sample = 0.1e-6;
+    case.pictures = Vec::new();
+    let Striker::Walls { pressure, closing, .. } = &mut case.striker else { panic!("walls") };
+    (*pressure, *closing) = (2.0, 0.05);
+    let result = press(LAMMPS.as_path(), &scene, &case);
+    let samples = &result.samples;
+    // The pressure has come in on all sides, and the sides keep it.
+    let settled = samples.iter().position(|sample| sample.time > 12e-6).expect("samples");
+    assert!(samples[settled].q.abs() < 0.01, "{:?}", samples[settled]);
+    assert_near(samples[settled].p_t, 2.0, 0.01);
+    let ratio = |sample: &PressedSample| if sample.time > 12e-6 { sample.q / sample.p_t } else { 0.0 };
+    let peak = (0..samples.len()).max_by(|&a, &b| ratio(&samples[a]).total_cmp(&ratio(&samples[b]))).expect("samples");
+    assert!(samples[settled..peak].iter().all(|sample| (sample.p_t - sample.q - 2.0).abs() < 0.06), "the sides");
+    println!("largest q/p_t {}, at {:?}", ratio(&samples[peak]), samples[peak].strain);
+    assert_near(ratio(&samples[peak]), 0.5, 0.05);
+    let stored = |sample: &PressedSample| sample.whole.energy + sample.walls;
+    let before =
+        samples.iter().rposition(|sample| sample.q < 0.9 * samples[peak].q && sample.time < samples[peak].time);
+    let before = before.expect("the way up");
+    assert_near(works(samples)[before - 1], stored(&samples[before]), 0.01);
+    assert_near(samples[before].work, stored(&samples[before]), 5e-3);
+    assert_near(samples.last().expect("samples").stretch / samples[settled].stretch, 0.95, 1e-6);
+}
+
+/// What is elastic comes back when walls open, and is there again when they close once more.
+#[test]
+fn rows_are_pressed_twice() {
+    let scene = scene("press.toml");
+    let mut case = case(&scene, "all-sides");
+    case.name = "twice".to_string();
+    case.fibres = 100;
+    case.friction = 0.0;
+    case.end = 60e-6;
+    case.pictures = Vec::new();
+    let Striker::Walls { closing, reload, .. } = &mut case.striker else { panic!("walls") };
+    (*closing, *reload) = (0.06, true);
+    let samples = press(LAMMPS.as_path(), &scene, &case).samples;
+    let at = |time: f64| {
+        *samples.iter().min_by(|a, b| (a.time - time).abs().total_cmp(&(b.time - time).abs())).expect("samples")
+    };
+    let [closed, open, again] = [20e-6, 40e-6, 60e-6].map(at);
+    for sample in [closed, again] {
+        assert!((sample.stretch - 0.94).abs() < 1e-4, "{sample:?}");
+        assert_near(sample.whole.energy, closed.whole.energy, 1e-3);
+        assert!(sample.p_t > 30.0, "{sample:?}");
+    }
+    assert!((open.stretch - 1.0).abs() < 1e-4 && open.p_t < 1e-3 * closed.p_t, "{open:?}");
+    assert!(open.work.abs() < 5e-3 * closed.work, "{open:?}");
 }
 
 /// The fit takes what was written.
@@ -261,10 +339,24 @@ fn what_is_wrong_is_said() {
         ("spacing", "spacing = 0.0508", "spacing = 5.0", "spacing is 5; allowed"),
         ("seed", "friction = 0.2", "seed = 2", "seed belongs to a random packing"),
         ("closing", "friction = 0.2", "closing = 0.1", "closing belongs to striker"),
+        ("pressure", "friction = 0.2", "pressure = 1.0", "pressure belongs to walls = \"biaxial\""),
     ] {
         let text = answer(name, old, new, "/nowhere");
         assert!(text.contains(wanted), "{name}: {text}");
     }
+}
+
+#[test]
+fn a_biaxial_test_needs_a_pressure() {
+    let text = std::fs::read_to_string(example("press.toml")).expect("a scene");
+    let biaxial = text.replacen("walls = \"top-and-bottom\"", "walls = \"biaxial\"", 1);
+    let error = Scene::parse("scene.toml", &biaxial).expect_err("it has none").to_string();
+    assert!(error.contains("pressure is missing"), "{error}");
+    let scene = Scene::parse("scene.toml", &format!("{biaxial}pressure = 1.0\n")).expect_err("plates keep none");
+    assert!(scene.to_string().contains("pressure belongs to walls = \"biaxial\""), "{scene}");
+    let scene = biaxial.replacen("walls = \"biaxial\"", "walls = \"biaxial\"\npressure = 10.0", 1);
+    let scene = Scene::parse("scene.toml", &scene).expect("it is there");
+    assert!(matches!(case(&scene, "across-rows").striker, Striker::Walls { pressure: 10.0, .. }));
 }
 
 /// Beads that are lost are said to be, with what to change.

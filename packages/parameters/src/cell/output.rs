@@ -65,10 +65,13 @@ pub fn fit_file(scene: &Scene, model: &Model, outcomes: &[Outcome]) -> String {
     let set = |outcome: &Outcome| Set {
         name: outcome.load.name().to_string(),
         loading: if outcome.load == Load::Compaction { "compaction" } else { "compression" },
-        columns: None,
+        abscissa: None,
+        columns: Vec::new(),
         range: None,
-        largest: outcome.increments.iter().fold(0.0, |largest: f64, increment| largest.max(increment.energy)),
-        deviation: if scene.arrangement.is_random() { RANDOM_DEVIATION } else { DEVIATION },
+        deviation: Some([
+            outcome.increments.iter().fold(0.0, |largest: f64, increment| largest.max(increment.energy)),
+            if scene.arrangement.is_random() { RANDOM_DEVIATION } else { DEVIATION },
+        ]),
     };
     let modulus = scene.fibre.e_1;
     let written = Written {

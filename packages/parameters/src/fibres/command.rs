@@ -23,6 +23,10 @@ use toron_shared::run_directory::{RunDirectory, Writes};
 use toron_strikes::impact::summary::write_strains;
 
 const SUMMARY: &str = "summary.csv";
+/// The same of sections that are pressed.
+const PRESSED: &str = "pressed.csv";
+/// Biaxial tests over the friction between their fibres.
+const FRICTION: [&str; 2] = ["friction.svg", "friction.png"];
 /// The file for the identification.
 const FIT: &str = "fit.toml";
 /// Ticks of the progress bar for each case.
@@ -91,6 +95,7 @@ pub fn run(arguments: &Arguments) -> Result<Option<PathBuf>, Error> {
         return Ok(None);
     }
     directory.remove(SUMMARY)?;
+    [PRESSED].into_iter().chain(FRICTION).try_for_each(|name| directory.remove(name).map(drop))?;
     let fit = output.join(FIT);
     kept_file::set_aside_if_there(&fit)?;
     for case in &scene.cases {
@@ -108,6 +113,11 @@ pub fn run(arguments: &Arguments) -> Result<Option<PathBuf>, Error> {
     );
     if !results.is_empty() {
         summary::write(&output.join(SUMMARY), &scene, &results)?;
+    }
+    if !pressed.is_empty() {
+        pressed::summary::write(&output.join(PRESSED), &scene, &pressed)?;
+        let [svg, png] = FRICTION.map(|name| output.join(name));
+        pressed::friction_plot::write(&svg, &png, &scene, &pressed)?;
     }
     if !(results.is_empty() && pressed.is_empty()) {
         print(&report::report(&scene, &results, &pressed, output));

@@ -100,6 +100,8 @@ pub struct CaseFile {
     pub walls: Option<Spanned<Walls>>,
     pub closing: Option<Spanned<Number<Share>>>,
     pub damping: Option<Spanned<NotNegative>>,
+    pub pressure: Option<Spanned<Positive>>,
+    pub reload: Option<Spanned<bool>>,
     pub preset: Option<Spanned<String>>,
     pub law: Option<Spanned<String>>,
 }
@@ -107,6 +109,11 @@ pub struct CaseFile {
 impl CaseFile {
     pub fn striker(&self) -> StrikerName {
         self.striker.unwrap_or(StrikerName::Cylinder)
+    }
+
+    pub fn is_biaxial(&self) -> bool {
+        let walls = self.walls.as_ref().is_some_and(|walls| *walls.get_ref() == Walls::Biaxial);
+        self.striker() == StrikerName::Walls && walls
     }
 
     pub fn section(&self) -> SectionName {
@@ -133,12 +140,14 @@ impl CaseTable for CaseFile {
         let drives = strikers(&[StrikerName::Driven]);
         let along = strikers(&[StrikerName::Cylinder, StrikerName::Driven]);
         let presses = strikers(&[StrikerName::Walls]);
+        let keeps_pressure = cases.iter().any(|case| case.is_biaxial());
         let sections = |allowed: &[SectionName]| cases.iter().any(|case| allowed.contains(&case.section()));
         let is_random = cases.iter().any(|case| case.packing() == PackingName::Random);
         let cylinder = "a cylinder; allowed: with striker = \"cylinder\"";
         let driven = "striker = \"driven\"; allowed: with that";
         let struck = "fibres that are struck along a yarn; allowed: with striker = \"cylinder\" or \"driven\"";
         let walls = "striker = \"walls\"; allowed: with that";
+        let biaxial = "walls = \"biaxial\"; allowed: with that";
         let round = "a circle or an ellipse; allowed: with section = \"circle\" or \"ellipse\"";
         let ellipse = "an ellipse; allowed: with section = \"ellipse\"";
         let long = "an ellipse or a box; allowed: with section = \"ellipse\" or \"box\"";
@@ -157,6 +166,8 @@ impl CaseTable for CaseFile {
             ("walls", place(&self.walls), presses, walls),
             ("closing", place(&self.closing), presses, walls),
             ("damping", place(&self.damping), presses, walls),
+            ("reload", place(&self.reload), presses, walls),
+            ("pressure", place(&self.pressure), keeps_pressure, biaxial),
             ("preset", place(&self.preset), presses, walls),
             ("width", place(&self.width), sections(&[SectionName::Circle, SectionName::Ellipse]), round),
             ("height", place(&self.height), sections(&[SectionName::Ellipse]), ellipse),

@@ -30,14 +30,15 @@ pub fn beads(model: &Model) -> String {
     let fibres = model.centres.len();
     let beads = model.all_beads();
     let bonds = fibres * (model.beads - 1);
-    let projectile = usize::from(matches!(model.striker, Striking::Cylinder { .. }));
+    let carrier = model.carrier();
+    let carriers = usize::from(carrier.is_some());
     let mut text = String::with_capacity(64 * beads);
     let _ = write!(
         text,
         "beads of {fibres} fibres\n\n{} atoms\n{} bonds\n{} atom types\n1 bond types\n2 extra special per atom\n\n",
-        beads + projectile,
+        beads + carriers,
         bonds,
-        1 + projectile
+        1 + carriers
     );
     let far =
         model.centres.iter().flatten().fold(model.diameter, |far: f64, x| far.max(x.abs())) + 4.0 * model.diameter;
@@ -54,9 +55,9 @@ pub fn beads(model: &Model) -> String {
             let _ = writeln!(text, "{id} 1 {x:e} {y:e} {z:e} {} {:e} {density:e}", fibre + 1, model.diameter);
         }
     }
-    if let Striking::Cylinder { mass, .. } = model.striker {
-        let density = mass.max(model.bead_mass) / volume;
-        let _ = writeln!(text, "{} 2 0 0 0 {} {:e} {density:e}", beads + 1, fibres + 1, model.diameter);
+    if let Some(([z, y], mass)) = carrier {
+        let density = mass / volume;
+        let _ = writeln!(text, "{} 2 0 {y} {z} {} {:e} {density:e}", beads + 1, fibres + 1, model.diameter);
     }
     if bonds > 0 {
         text.push_str("\nBonds\n\n");
@@ -120,7 +121,7 @@ fn head(text: &mut String, model: &Model) {
          neigh_modify every 1 delay 0 check yes exclude molecule/intra all binsize {:e}\n",
         model.diameter + skin
     );
-    if model.near > 0 {
+    if model.carrier().is_some() {
         text.push_str("neigh_modify exclude type 1 2\n");
     }
     let _ = write!(
@@ -312,11 +313,22 @@ fn runs(text: &mut String, model: &Model) {
         model.restart, model.restart, RESTARTS[0], RESTARTS[1]
     );
     let mut stops = model.frames.clone();
+    let consolidation = match model.striker {
+        Striking::Walls(Pressing { consolidation, .. }) if consolidation > 0 => Some(consolidation),
+        _ => None,
+    };
+    stops.extend(consolidation);
     stops.sort_unstable();
     stops.dedup();
     // A run that goes on from a restart file has some of these behind it.
     for stop in &stops {
         let _ = writeln!(text, "if \"$(step) < {stop}\" then \"run {stop} upto\"");
+        if consolidation == Some(*stop) {
+            let _ = writeln!(text, "if \"$(step) == {stop}\" then \"velocity carrier set NULL 0 NULL\"");
+        }
+        if !model.frames.contains(stop) {
+            continue;
+        }
         let last = match model.striker {
             Striking::Cylinder { .. } => "vy",
             Striking::Walls(_) => "c_each",

@@ -25,6 +25,8 @@ const CONTACTS: f64 = 12.0;
 const NEAR: f64 = 1.5;
 /// Walls are so many times as stiff as the first touch of two fibres.
 const WALL: f64 = 10.0;
+/// The part of a biaxial test in which a pressure on all sides comes in and settles.
+const CONSOLIDATION: f64 = 0.2;
 /// How many times a run writes a restart file.
 const RESTARTS: u64 = 40;
 
@@ -94,12 +96,17 @@ pub struct Pressing {
     pub walls: Walls,
     pub closing: f64,
     pub duration: f64,
+    /// That the sides keep, and how often the others close or open again.
+    pub pressure: f64,
+    pub legs: u32,
     /// Half the ways between them at rest, across the yarn and along the blow.
     pub half: [f64; 2],
     /// Of their contact with a bead: force over depth.
     pub stiffness: f64,
     /// The force against a bead's motion, over its speed.
     pub braking: f64,
+    /// The step up to which the pressure comes in, on all sides; 0 where none is kept.
+    pub consolidation: u64,
     pub middle: Middle,
 }
 
@@ -126,10 +133,13 @@ fn striking(
 ) -> Result<Striking, Error> {
     Ok(match case.striker {
         Striker::Driven { ramp } => Striking::Driven { ramp: to(ramp, TIME) },
-        Striker::Walls { walls, closing, damping, .. } => Striking::Walls(Pressing {
+        Striker::Walls { walls, closing, damping, pressure, reload, .. } => Striking::Walls(Pressing {
             walls,
             closing,
             duration: to(case.end, TIME),
+            pressure: to(pressure, STRESS),
+            legs: if reload { 3 } else { 1 },
+            consolidation: 0,
             half: section.size.map(|size| 0.5 * diameter * size),
             stiffness: WALL * contact[0],
             braking: damping * (contact[0] * bead_mass).sqrt(),
@@ -191,7 +201,7 @@ impl Model {
         let single = case.fibres == 1;
         let stiffness = if single { 0.0 } else { stiffest(contact, diameter) };
         let end = to(case.end, TIME);
-        let striker = striking(case, &section, &to, Bead { diameter, mass: bead_mass, contact, share })?;
+        let mut striker = striking(case, &section, &to, Bead { diameter, mass: bead_mass, contact, share })?;
         let struck = match striker {
             Striking::Cylinder { stiffness, .. } => stiffness,
             Striking::Driven { .. } => 0.0,
@@ -203,6 +213,11 @@ impl Model {
         let largest = if pressed { bead } else { chain.min(bead) };
         let stride = if matches!(striker, Striking::Cylinder { .. }) { STRIDE } else { 1 };
         let Times { step, steps, sample, lines } = Times::new(end, to(case.sample, TIME), case.step * largest, stride);
+        if let Striking::Walls(pressing) = &mut striker
+            && pressing.walls == Walls::Biaxial
+        {
+            pressing.consolidation = (CONSOLIDATION * lines as f64).round().max(1.0) as u64 * sample;
+        }
         let near = match striker {
             Striking::Cylinder { radius, .. } => (NEAR * radius / spacing).ceil() as usize,
             Striking::Driven { .. } | Striking::Walls(_) => 0,
@@ -235,6 +250,18 @@ impl Model {
             near: near.min(beads - 1),
             stations: STATIONS.map(|station| (station * trusses).round() as usize),
         })
+    }
+
+    /// A bead that touches nothing, at the place of walls that move by forces, and its mass: the projectile's, or that
+    /// of all fibres.
+    pub fn carrier(&self) -> Option<([f64; 2], f64)> {
+        match self.striker {
+            Striking::Cylinder { mass, .. } => Some(([0.0; 2], mass.max(self.bead_mass))),
+            Striking::Walls(Pressing { walls: Walls::Biaxial, half, .. }) => {
+                Some((half, self.bead_mass * self.all_beads() as f64))
+            }
+            _ => None,
+        }
     }
 
     /// Beads of all fibres.

@@ -30,7 +30,7 @@ const DAMPING: f64 = 0.05;
 /// Speeds of the wave along a fibre, in m/s.
 const WAVES: Range<f64> = 1e2..1e5;
 /// The files that cases have in common, by their names without the ending: the fit's too.
-pub const COMMON: [&str; 3] = ["summary", "fit", "parameters"];
+pub const COMMON: [&str; 5] = ["summary", "pressed", "friction", "fit", "parameters"];
 
 impl Scene {
     /// Reads the file.
@@ -252,6 +252,8 @@ impl Reader<'_> {
                 walls: file.walls.as_ref().map_or(Walls::AllSides, |walls| *walls.get_ref()),
                 closing: self.needed("closing", &file.closing)?,
                 damping: value(&file.damping).unwrap_or(DAMPING),
+                pressure: if file.is_biaxial() { self.needed("pressure", &file.pressure)? } else { 0.0 },
+                reload: file.reload.as_ref().is_some_and(|reload| *reload.get_ref()),
                 law: file.preset.as_ref().map(|name| self.law(name)).transpose()?,
             });
         }

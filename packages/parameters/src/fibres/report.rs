@@ -5,7 +5,7 @@ use std::path::Path;
 use super::model::{Model, Striking};
 use super::outcome::{Fronts, Outcome};
 use super::pressed;
-use super::scene::{Case, Scene};
+use super::scene::{Case, Scene, Walls};
 use super::summary::{cost, outcome};
 use toron_materials::material::linear_density::LinearDensity;
 use toron_materials::units::{ENERGY, SPEED, TIME, unit};
@@ -123,8 +123,11 @@ fn sections(scene: &Scene, models: &[(&Case, &Model)]) -> String {
 fn list_files(scene: &Scene, results: &Results, pressed: &pressed::output::Results, output: &Path) -> String {
     let strains = results.iter().any(|(_, result)| !result.frames.is_empty());
     let pictures = strains || pressed.iter().any(|(_, result)| !result.frames.is_empty());
+    let tests = pressed.iter().filter(|(_, result)| result.pressing.walls == Walls::Biaxial).count();
     let written = [
         (!results.is_empty(), "summary.csv", "a line for every case that was struck, with all that is known of it"),
+        (!pressed.is_empty(), "pressed.csv", "a line for every section that was pressed: friction and dilatancy too"),
+        (tests > 1, "friction.svg, .png", "biaxial tests over the friction between their fibres"),
         (true, "NAME.csv", "the history of case NAME"),
         (true, "NAME.svg, .png", "plots of it"),
         (pictures, "NAME-fibres-1.svg, .png, …", "the fibres at the times of pictures"),

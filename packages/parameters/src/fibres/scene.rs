@@ -110,7 +110,16 @@ pub enum Striker {
     Driven { ramp: f64 },
     /// Walls without friction press the section, from rest to rest as half a cosine, until this part of the way between
     /// two that close is gone. Beads are braked at this rate, over the frequency √(a₁/m) of a bead on a contact.
-    Walls { walls: Walls, closing: f64, damping: f64, law: Option<SectionLaw> },
+    Walls {
+        walls: Walls,
+        closing: f64,
+        damping: f64,
+        /// That the sides keep in a biaxial test, else 0.
+        pressure: f64,
+        /// Whether walls go back to where they were and close once more.
+        reload: bool,
+        law: Option<SectionLaw>,
+    },
 }
 
 /// What a yarn's law says of its section: W_tc = k_tc ⟨−I_tc⟩^p and W_td = ½ k_td I_td².
@@ -140,16 +149,38 @@ pub enum Walls {
     Sides,
     /// Top and bottom, and there are no sides.
     Plates,
+    /// Top and bottom, between sides that keep a pressure, which has pressed the section from all sides before.
+    Biaxial,
+}
+
+/// What two walls that face each other do.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Pair {
+    Close,
+    Stay,
+    KeepPressure,
 }
 
 impl Walls {
-    /// Whether the two walls across the yarn's width close, stay or are not there; and those across its height.
-    pub fn pairs(self) -> [Option<bool>; 2] {
+    /// As the scene calls it.
+    pub fn name(self) -> &'static str {
         match self {
-            Walls::AllSides => [Some(true); 2],
-            Walls::TopAndBottom => [Some(false), Some(true)],
-            Walls::Sides => [Some(true), Some(false)],
-            Walls::Plates => [None, Some(true)],
+            Walls::AllSides => "all-sides",
+            Walls::TopAndBottom => "top-and-bottom",
+            Walls::Sides => "sides",
+            Walls::Plates => "plates",
+            Walls::Biaxial => "biaxial",
+        }
+    }
+
+    /// What the two walls across the yarn's width do, if they are there; and those across its height.
+    pub fn pairs(self) -> [Option<Pair>; 2] {
+        match self {
+            Walls::AllSides => [Some(Pair::Close); 2],
+            Walls::TopAndBottom => [Some(Pair::Stay), Some(Pair::Close)],
+            Walls::Sides => [Some(Pair::Close), Some(Pair::Stay)],
+            Walls::Plates => [None, Some(Pair::Close)],
+            Walls::Biaxial => [Some(Pair::KeepPressure), Some(Pair::Close)],
         }
     }
 }

@@ -12,12 +12,15 @@ use super::data::{DataSet, Loading};
 use super::data_sheet::{DataSheet, DataSheetFile};
 use super::equivalence::{Constant, Fibre};
 use super::fit::Problem;
+use super::friction::{self, C, Friction, MU, Sliding};
 use super::parameter::{ALL, PARAMETERS, Parameter, Values};
 use super::reader::{Reader, plain_name};
+use super::sliding_data;
 use super::strength::file::SetFile;
 use toron::host::units::UnitSystem;
 use toron::law::parameters::HYPERELASTIC;
 use toron_materials::material::laws::{LawName, Laws};
+use toron_materials::material::of_law::FRICTIONAL;
 use toron_materials::material::preset::{LONGEST_NAME, Preset};
 use toron_materials::units;
 use toron_shared::checked::{Checked, Fraction, Positive, value};
@@ -109,6 +112,9 @@ pub(super) enum LoadingName {
     Compaction,
     Compression,
     Failure,
+    /// A section that slides: between sides that keep a pressure, or between plates without sides.
+    Biaxial,
+    Plates,
 }
 
 /// A standard deviation of all ordinates, or the column that has one for each.
@@ -131,6 +137,9 @@ pub struct Job {
     pub fibre: Option<Fibre>,
     pub sheet: Option<DataSheet>,
     pub problem: Problem,
+    /// Of the law with friction, from sections that slide.
+    pub friction: Friction,
+    pub sliding: Vec<Sliding>,
     /// The files that were read, none of which is to be overwritten.
     pub inputs: Vec<PathBuf>,
 }
@@ -160,7 +169,12 @@ impl Job {
         let fibre = file.fibre.as_ref().map(|fibre| known_fibre(fibre.get_ref()));
         let fibre = fibre.or_else(|| sheet.as_ref().map(|sheet| sheet.fibre(&units)));
         let base = file.yarn.preset.as_ref().map(|name| base(&source, name, folder)).transpose()?;
-        let law = base.as_ref().map_or(LawName::Hyperelastic, |base| base.law);
+        let slides = file.data.iter().any(|data| sliding_data::is_sliding(data.get_ref()));
+        let law = match &base {
+            _ if slides => frictional(),
+            Some(base) => base.law,
+            None => LawName::Hyperelastic,
+        };
         let mut preset = preset_to_be(&source, &file, law, units)?;
         if let Some(sheet) = &sheet {
             let of_sheet = sheet.density(&units);
@@ -178,7 +192,22 @@ impl Job {
         let mut known = [None; PARAMETERS];
         known.copy_from_slice(&preset.values[..PARAMETERS]);
         let reader = Reader { source: &source, units: &units, known: &known };
-        let sets = reader.sets(&file.data, fibre.is_some())?;
+        let sliding = sliding_data::sets(&reader, &file.data)?;
+        let given = [MU, C].map(|index| preset.values.get(index).copied().flatten());
+        let friction = friction::fit(&sliding, given)?;
+        let sections: Vec<&Spanned<DataFile>> =
+            file.data.iter().filter(|data| !sliding_data::is_sliding(data.get_ref())).collect();
+        let sets = reader.sets(&sections, fibre.is_some())?;
+        if let Some(set) = sliding.iter().find(|set| {
+            let of_section = sets.iter().any(|other| other.name == set.name);
+            of_section || sliding.iter().filter(|other| other.name == set.name).count() > 1
+        }) {
+            let message = format!(
+                "{}: data set \"{}\" is there twice; allowed: a name of its own for each",
+                set.declared, set.name
+            );
+            return Err(Error::Input(message));
+        }
         let fitted = |parameter: Parameter| sets.iter().any(|set| set.fits.contains(&parameter));
         let mut known_deviations = Vec::new();
         if let Some(fibre) = fibre {
@@ -202,7 +231,7 @@ impl Job {
         let data = file.data.iter().flat_map(|data| data.get_ref().files());
         let inputs = data.chain(file.yarn.preset.as_ref().map(|preset| preset.get_ref().as_str()));
         let inputs = inputs.map(|name| folder.join(name)).chain([path.to_path_buf()]).collect();
-        Ok(Job { title, units, preset, base, fibre, sheet, problem, inputs })
+        Ok(Job { title, units, preset, base, fibre, sheet, problem, friction, sliding, inputs })
     }
 }
 
@@ -220,6 +249,12 @@ fn start(known: &[Option<f64>; PARAMETERS], base: Option<&Preset>, units: &UnitS
         known[index].or(of_base).unwrap_or(of_path.unwrap_or(ANY)[index])
     };
     ALL.map(value)
+}
+
+/// The law that has µ and c.
+fn frictional() -> LawName {
+    let found = Laws::Toron.names().into_iter().find(|law| law.text() == FRICTIONAL);
+    found.unwrap_or(LawName::Hyperelastic)
 }
 
 fn known_fibre(file: &FibreFile) -> Fibre {

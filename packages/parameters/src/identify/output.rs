@@ -6,8 +6,11 @@ use std::path::Path;
 use super::data::DataSet;
 use super::file::Job;
 use super::fit::{Fit, SetFit};
+use super::friction::C;
+use super::friction_report;
 use super::parameter::ALL;
 use super::report::{base_name, interval};
+use toron::law::parameters::FRICTIONAL;
 use toron_materials::material::preset::Preset;
 use toron_materials::units::unit;
 use toron_shared::error::Error;
@@ -22,6 +25,11 @@ pub fn preset(job: &Job, fit: &Fit) -> String {
     for (index, property) in job.preset.law.table().iter().enumerate() {
         let of_base = job.base.as_ref().and_then(|base| base.value(index, &job.units));
         if preset.values[index].is_some() {
+            continue;
+        }
+        if let Some(note) = friction_report::note(job, index) {
+            preset.values[index] = Some(job.friction.values[usize::from(index == C)]);
+            comments.insert(property.name, note);
             continue;
         }
         // Behind the parameters are the fibre direction and the friction.
@@ -72,6 +80,14 @@ pub fn write_parameters(file: &Path, job: &Job, fit: &Fit) -> Result<(), Error> 
             vec![property.name.to_string(), estimate.value.to_string(), unit(&job.units, property.dimension)];
         line.extend(numbers);
         line.extend(fit.correlations.row(row).iter().map(|value| format!("{value:.6}")));
+        lines.push(line);
+    }
+    for (index, told) in friction_report::told(job) {
+        let (Some(told), property) = (told, &FRICTIONAL[index]) else { continue };
+        let mut line = vec![property.name.to_string(), told.value.to_string(), unit(&job.units, property.dimension)];
+        line.extend([told.error, told.low, told.high].map(|value| value.to_string()));
+        // They are of other data than the parameters before.
+        line.extend(names.iter().map(|_| "0".to_string()));
         lines.push(line);
     }
     write(file, &lines)

@@ -45,9 +45,9 @@ impl Reader<'_> {
     ///
     /// # Errors
     /// An input error that names file, line and, in the data, column.
-    pub(super) fn sets(&self, files: &[Spanned<DataFile>], fibre: bool) -> Result<Vec<DataSet>, Error> {
+    pub(super) fn sets(&self, files: &[&Spanned<DataFile>], fibre: bool) -> Result<Vec<DataSet>, Error> {
         let mut sets = Vec::new();
-        for (number, file) in (1..).zip(files) {
+        for (number, &file) in (1..).zip(files) {
             let set = self.set(number, file)?;
             if sets.iter().any(|other: &DataSet| other.name == set.name) {
                 let message = format!("data set \"{}\" is there twice; allowed: a name of its own for each", set.name);
@@ -85,6 +85,9 @@ impl Reader<'_> {
                 LoadingName::Compaction => self.simple(Simple::Compaction, file, &table)?,
                 LoadingName::Compression => self.simple(Simple::Compression, file, &table)?,
                 LoadingName::Failure => self.failure(file, &table)?,
+                LoadingName::Biaxial | LoadingName::Plates => {
+                    return Err(self.source.error(span.clone(), "no elastic section"));
+                }
             },
             (None, Some(path)) => path_file::set(self, path, file, &table)?,
             _ => {
@@ -468,8 +471,8 @@ impl Reader<'_> {
     }
 
     /// What each set tells: as the file says, or what its loading tells and nothing else does.
-    fn choose_fits(&self, files: &[Spanned<DataFile>], sets: &mut [DataSet]) -> Result<(), Error> {
-        let compaction = |file: &Spanned<DataFile>| {
+    fn choose_fits(&self, files: &[&Spanned<DataFile>], sets: &mut [DataSet]) -> Result<(), Error> {
+        let compaction = |file: &&Spanned<DataFile>| {
             file.get_ref().loading.as_ref().is_some_and(|loading| *loading.get_ref() == LoadingName::Compaction)
         };
         let compacted = files.iter().any(compaction);
@@ -489,6 +492,7 @@ impl Reader<'_> {
                 Some(LoadingName::Compression) if compacted => &[Parameter::KTd],
                 Some(LoadingName::Compression) => &[Parameter::KTc, Parameter::P, Parameter::KTd],
                 Some(LoadingName::Failure) => &[Parameter::EpsLim, Parameter::Alpha, Parameter::Beta],
+                Some(LoadingName::Biaxial | LoadingName::Plates) => &[],
                 None => &[Parameter::KEl, Parameter::KTc, Parameter::P, Parameter::KTd, Parameter::KLd],
             };
             // What is given is not fitted; what the data do not depend on is no claim of theirs.

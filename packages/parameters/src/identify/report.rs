@@ -3,10 +3,10 @@
 use super::data::{DataSet, Loading, Toe};
 use super::file::Job;
 use super::fit::{Fit, Problem, SetFit};
-use super::notes;
 use super::parameter::{ALL, Parameter};
 use super::ranges::{self, PARTS};
 use super::uncertainty::{self, Estimate};
+use super::{friction_report, notes};
 use toron::law::parameters::NUMBER;
 use toron_materials::units::unit;
 use toron_shared::console::{is_json, value_record};
@@ -22,7 +22,8 @@ const WIDTH: usize = 110;
 pub fn report(job: &Job, fit: &Fit) -> String {
     let mut text = format!("{}\n", job.title);
     text += &plain_table(&PARAMETER_HEAD, &parameters(job, fit), || {
-        ALL.iter().map(|&parameter| line(parameter.name(), &value(job, fit, parameter))).collect()
+        let of_law = ALL.iter().map(|&parameter| line(parameter.name(), &value(job, fit, parameter)));
+        of_law.chain([friction_report::lines(job)]).collect()
     });
     if let Some(sheet) = &job.sheet {
         text += &line("data sheet", &sheet.summary(&job.units));
@@ -36,6 +37,7 @@ pub fn report(job: &Job, fit: &Fit) -> String {
         text += &line(&set.name, &quality(set.ordinate.unit.as_str(), set.largest(), fitted));
         text += &set.toe.as_ref().map_or(String::new(), |toe| line("", &slack(set, toe)));
     }
+    text += &friction_report::sets(job);
     text += &by_range(&job.problem, fit);
     for note in notes::notes(&job.problem, fit) {
         text += &line("note", &note);
@@ -74,7 +76,7 @@ fn parameters(job: &Job, fit: &Fit) -> Vec<Vec<String>> {
         let unit = unit(&job.units, parameter.property().dimension);
         vec![parameter.name().to_string(), value, unit, low, high, self::value(job, fit, parameter)]
     };
-    ALL.into_iter().map(row).collect()
+    ALL.into_iter().map(row).chain(friction_report::rows(job)).collect()
 }
 
 /// A parameter's value, its interval or where it comes from.

@@ -33,13 +33,13 @@ pub struct Fibre {
 pub struct Set {
     pub name: String,
     pub loading: &'static str,
-    /// The columns of abscissa and energy, if they are not the first known ones.
-    pub columns: Option<[&'static str; 2]>,
+    /// The abscissa, if it is not the first known one, and the columns of quantities that are called otherwise.
+    pub abscissa: Option<&'static str>,
+    pub columns: Vec<[&'static str; 2]>,
     /// Of the abscissa, where the curve goes on beyond what is elastic.
     pub range: Option<[f64; 2]>,
     /// The largest energy, and the energies' standard deviation as a part of it.
-    pub largest: f64,
-    pub deviation: f64,
+    pub deviation: Option<[f64; 2]>,
 }
 
 impl Written<'_> {
@@ -64,20 +64,26 @@ impl Written<'_> {
                 fibre.strain_at_failure
             );
         }
-        for Set { name, loading, columns, range, largest, deviation } in &self.sets {
+        for Set { name, loading, abscissa, columns, range, deviation } in &self.sets {
             let _ = write!(text, "\n[[data]]\nname = \"{name}\"\nfile = \"{name}.csv\"\nloading = \"{loading}\"\n");
-            if let Some([abscissa, energy]) = columns {
-                let _ = writeln!(text, "abscissa = \"{abscissa}\"\ncolumns = {{ energy = \"{energy}\" }}");
+            if let Some(abscissa) = abscissa {
+                let _ = writeln!(text, "abscissa = \"{abscissa}\"");
+            }
+            if !columns.is_empty() {
+                let columns: Vec<String> = columns.iter().map(|[key, name]| format!("{key} = \"{name}\"")).collect();
+                let _ = writeln!(text, "columns = {{ {} }}", columns.join(", "));
             }
             if let Some([from, to]) = range {
                 let _ = writeln!(text, "range = [{from:?}, {to:?}]");
             }
-            let _ = writeln!(
-                text,
-                "deviation = {} # {:.0} % of the largest energy",
-                rounded(deviation * largest),
-                100.0 * deviation
-            );
+            if let Some([largest, deviation]) = deviation {
+                let _ = writeln!(
+                    text,
+                    "deviation = {} # {:.0} % of the largest energy",
+                    rounded(deviation * largest),
+                    100.0 * deviation
+                );
+            }
         }
         text
     }

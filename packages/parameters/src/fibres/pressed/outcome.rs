@@ -4,6 +4,7 @@
 use crate::fibres::frame::Frame;
 use crate::fibres::model::{Model, Pressing, Striking, micro};
 use crate::fibres::run::Raw;
+use crate::fibres::scene::Walls;
 use toron::host::units::UnitSystem;
 use toron::law::parameters::STRESS;
 use toron_materials::units::TIME;
@@ -23,6 +24,14 @@ pub struct Sample {
     pub time: f64,
     /// The way between two walls that close, over that at rest.
     pub stretch: f64,
+    /// The ways between the walls over those at rest, across the yarn and along the blow.
+    pub ways: [f64; 2],
+    /// I_tc and I_td by these ways; where there are no sides, those of the whole section. I_td rises as the walls close.
+    pub strain: [f64; 2],
+    /// Pressure and deviator: half the sum and half the difference of the section's principal Kirchhoff stresses, which
+    /// are the walls' forces times the ways between them over the area at rest, in the mean since the line before.
+    pub p_t: f64,
+    pub q: f64,
     pub middle: Part,
     pub whole: Part,
     /// In the contacts with the walls.
@@ -82,21 +91,33 @@ fn samples(units: &UnitSystem, model: &Model, pressing: &Pressing, rows: &[Vec<f
     let [whole, middle] = [area, pressing.middle.area].map(over);
     let brake = 2.0 * pressing.braking / model.bead_mass;
     let [all, inner] = [model.centres.len(), pressing.middle.fibres].map(|count| at_rest(&model.centres[..count]));
-    let mut samples = vec![Sample { stretch: 1.0, ..Sample::default() }];
+    let mut samples = vec![Sample { stretch: 1.0, ways: [1.0; 2], ..Sample::default() }];
+    let closes = usize::from(pressing.walls != Walls::Sides);
     let (mut before, mut work, mut damping) = (0.0, 0.0, 0.0);
     for row in rows {
-        let [_, now, part, power, mean_kinetic, kinetic, contacts, inside, walls, places @ ..] = row.as_slice() else {
+        let [_, now, _, power, mean_kinetic, kinetic, contacts, inside, walls, across, along, z, y, places @ ..] =
+            row.as_slice()
+        else {
             continue;
         };
+        let ways = [z / pressing.half[0], y / pressing.half[1]];
+        let stresses = [whole * across, whole * along];
         work += power * (now - before);
         damping += brake * mean_kinetic * (now - before);
         before = *now;
         let (of_all, of_inner) = places.split_at(5);
+        let whole_invariants = invariants(all, moments(of_all));
+        let [open, closed] = [ways[1 - closes], ways[closes]];
+        let strain = [0.5 * (open * closed).ln(), 0.5 * (open / closed).ln()];
         samples.push(Sample {
             time: time * now,
-            stretch: 1.0 - part,
+            stretch: closed,
+            ways,
+            strain: if open > 0.0 { strain } else { whole_invariants },
+            p_t: 0.5 * (stresses[0] + stresses[1]),
+            q: 0.5 * (stresses[closes] - stresses[1 - closes]),
             middle: Part { invariants: invariants(inner, moments(of_inner)), energy: middle * inside },
-            whole: Part { invariants: invariants(all, moments(of_all)), energy: whole * contacts },
+            whole: Part { invariants: whole_invariants, energy: whole * contacts },
             walls: whole * walls,
             work: whole * work,
             damping: whole * damping,

@@ -3,6 +3,7 @@
 use std::fmt::Write;
 use std::path::Path;
 
+use super::friction::{Friction, critical_range};
 use super::outcome::{Part, Pressed, Sample};
 use crate::fibres::report::column;
 use crate::fibres::scene::{Case, Packing, Scene, Striker, Walls};
@@ -39,7 +40,7 @@ pub fn write_history(file: &Path, scene: &Scene, result: &Pressed) -> Result<(),
     ] {
         let _ = write!(text, ",{name} ({stress})");
     }
-    text.push('\n');
+    let _ = writeln!(text, ",I_tc of the walls (-),I_td of the walls (-),p_t ({stress}),q ({stress})");
     for sample in &result.samples {
         let _ = write!(text, "{:.9e},{:.9}", sample.time, sample.stretch);
         for Part { invariants: [i_tc, i_td], energy } in [sample.middle, sample.whole] {
@@ -48,33 +49,32 @@ pub fn write_history(file: &Path, scene: &Scene, result: &Pressed) -> Result<(),
         for energy in [sample.walls, sample.work, sample.friction, sample.damping, sample.kinetic] {
             let _ = write!(text, ",{energy:.7e}");
         }
-        text.push('\n');
+        let [i_tc, i_td] = sample.strain;
+        let _ = writeln!(text, ",{i_tc:.9},{i_td:.9},{:.7e},{:.7e}", sample.p_t, sample.q);
     }
     std::fs::write(file, text).map_err(|error| file_error(file, &error))
 }
 
 /// The file that `toron fit` reads: the sections that are pressed on all sides or between sides that are held, as the
-/// walls say.
+/// walls say, and those that slide between sides that keep a pressure or, beside those, without sides.
 pub fn fit_file(scene: &Scene, results: &Results) -> Option<String> {
-    let loading = |case: &Case| match case.striker {
-        Striker::Walls { walls: Walls::AllSides, .. } => Some(COMPACTION),
-        Striker::Walls { walls: Walls::TopAndBottom | Walls::Sides, .. } => Some("compression"),
-        _ => None,
+    let closes = |case: &Case, walls: &[Walls]| match &case.striker {
+        // What goes back and closes once more is no curve from rest on.
+        Striker::Walls { walls: of_case, reload: false, .. } => walls.contains(of_case),
+        _ => false,
     };
-    let set = |case: &'_ Case, result: &Pressed| {
-        let largest = result.samples.iter().fold(0.0, |most: f64, sample| most.max(sample.whole.energy));
-        let deviation = if case.packing == Packing::Hexagonal { DEVIATION } else { RANDOM_DEVIATION };
-        Some(Set {
-            name: case.name.clone(),
-            loading: loading(case)?,
-            // The middle's own invariants come back where fibres snap.
-            columns: Some(["stretch", "energy of the section"]),
-            range: snap(&result.samples, deviation * largest).map(|stretch| [stretch, 1.0]),
-            largest,
-            deviation,
-        })
+    let is_there = |walls: Walls| results.iter().any(|(case, _)| closes(case, &[walls]));
+    let (compacted, slid) = (is_there(Walls::AllSides), is_there(Walls::Biaxial));
+    let set = |case: &Case, result: &Pressed| {
+        if closes(case, &[Walls::Biaxial, Walls::Plates]) {
+            return sliding_set(case, result).filter(|_| slid);
+        }
+        let once = closes(case, &[Walls::AllSides, Walls::TopAndBottom, Walls::Sides]);
+        elastic_set(case, result).filter(|_| compacted && once)
     };
-    let (case, result) = results.iter().find(|(case, _)| loading(case) == Some(COMPACTION))?;
+    let sets: Vec<Set> = results.iter().filter_map(|(case, result)| set(case, result)).collect();
+    let kind = if compacted { Walls::AllSides } else { Walls::Biaxial };
+    let (case, result) = results.iter().find(|(case, _)| closes(case, &[kind]))?;
     let volume_fraction = result.model.section.fraction();
     let modulus = case.fibre.modulus;
     let written = Written {
@@ -88,9 +88,47 @@ pub fn fit_file(scene: &Scene, results: &Results) -> Option<String> {
             volume_fraction,
             strain_at_failure,
         }),
-        sets: results.iter().filter_map(|(case, result)| set(case, result)).collect(),
+        sets,
     };
     Some(written.text())
+}
+
+/// The energies of a section that is elastic.
+fn elastic_set(case: &Case, result: &Pressed) -> Option<Set> {
+    let loading = match case.striker {
+        Striker::Walls { walls: Walls::AllSides, .. } => COMPACTION,
+        Striker::Walls { walls: Walls::TopAndBottom | Walls::Sides, .. } => "compression",
+        _ => return None,
+    };
+    let largest = result.samples.iter().fold(0.0, |most: f64, sample| most.max(sample.whole.energy));
+    let deviation = if case.packing == Packing::Hexagonal { DEVIATION } else { RANDOM_DEVIATION };
+    let snapped = snap(&result.samples, deviation * largest).map(|stretch| [stretch, 1.0]);
+    Some(Set {
+        name: case.name.clone(),
+        loading,
+        // The middle's own invariants come back where fibres snap.
+        abscissa: Some("stretch"),
+        columns: vec![["energy", "energy of the section"]],
+        range: snapped,
+        deviation: Some([largest, deviation]),
+    })
+}
+
+/// The stresses of a section that slides, over the last part of its way.
+fn sliding_set(case: &Case, result: &Pressed) -> Option<Set> {
+    let is_free = result.pressing.walls == Walls::Plates;
+    let mut columns = vec![["I_td", "I_td of the walls"]];
+    if !is_free {
+        columns.insert(0, ["I_tc", "I_tc of the walls"]);
+    }
+    Some(Set {
+        name: case.name.clone(),
+        loading: if is_free { "plates" } else { "biaxial" },
+        abscissa: None,
+        columns,
+        range: Some(critical_range(result)?),
+        deviation: None,
+    })
 }
 
 /// The stretch from which on the section's energy has fallen by more than this: fibres have snapped to other places,
@@ -113,6 +151,11 @@ pub fn columns(scene: &Scene, results: &Results) -> Vec<Column> {
     let results: Vec<_> = results.iter().collect();
     let stress = unit(&scene.units, STRESS);
     let share = |part: f64, whole: f64| number(100.0 * part / whole);
+    // Between plates without sides q/p_t is 1, whatever holds the section.
+    let friction = |result: &Pressed, of: fn(&Friction) -> f64| {
+        let has_sides = result.pressing.walls != Walls::Plates;
+        or_dash(Friction::of(result).filter(|_| has_sides).as_ref().map(of), |value| format!("{value:.3}"))
+    };
     vec![
         column(&results, ["case", ""], |case, _| case.name.clone()),
         column(&results, ["middle:", "I_tc"], |_, result| format!("{:.4}", result.last().middle.invariants[0])),
@@ -124,6 +167,9 @@ pub fn columns(scene: &Scene, results: &Results) -> Vec<Column> {
         column(&results, ["work,", &stress], |_, result| number(result.last().work)),
         column(&results, ["friction,", "%"], |_, result| share(result.last().friction, result.last().work)),
         column(&results, ["damping,", "%"], |_, result| share(result.last().damping, result.last().work)),
+        column(&results, ["q/p_t,", "largest"], |_, result| friction(result, |friction| friction.peak.mean.ratio())),
+        column(&results, ["q/p_t at", "last"], |_, result| friction(result, |friction| friction.critical.mean.ratio())),
+        column(&results, ["µ at", "last"], |_, result| friction(result, |friction| friction.critical.mean.mu())),
         column(&results, ["kinetic,", "% at most"], |_, result| number(100.0 * result.restlessness())),
         column(&results, ["run", "s"], |_, result| or_dash(result.seconds, |seconds| format!("{seconds:.1}"))),
     ]

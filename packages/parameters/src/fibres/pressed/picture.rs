@@ -43,10 +43,7 @@ pub fn write(svg: &Path, png: &Path, scene: &Scene, case: &Case, result: &Presse
     let largest = density * frame.values.iter().copied().fold(0.0, f64::max);
     let radius = 0.5 * model.diameter;
     let walls = result.pressing.walls.pairs();
-    let ways = [0, 1].map(|axis| {
-        let stretch = if walls[axis] == Some(true) { sample.stretch } else { 1.0 };
-        walls[axis].map(|_| stretch * result.pressing.half[axis])
-    });
+    let ways = [0, 1].map(|axis| walls[axis].map(|_| sample.ways[axis] * result.pressing.half[axis]));
     // Beads are written along the fibre, along the blow, across the yarn.
     let reach = [0, 1].map(|axis| {
         let beads = frame.positions.iter().map(|bead| bead[2 - axis].abs() + radius);
