@@ -26,7 +26,7 @@ const SUMMARY: &str = "summary.csv";
 /// The same of sections that are pressed.
 const PRESSED: &str = "pressed.csv";
 /// Biaxial tests over the friction between their fibres.
-const FRICTION: [&str; 2] = ["friction.svg", "friction.png"];
+const FRICTION: [&str; 2] = ["pressed.svg", "pressed.png"];
 /// The file for the identification.
 const FIT: &str = "fit.toml";
 /// Ticks of the progress bar for each case.

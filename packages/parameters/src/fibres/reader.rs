@@ -30,7 +30,7 @@ const DAMPING: f64 = 0.05;
 /// Speeds of the wave along a fibre, in m/s.
 const WAVES: Range<f64> = 1e2..1e5;
 /// The files that cases have in common, by their names without the ending: the fit's too.
-pub const COMMON: [&str; 5] = ["summary", "pressed", "friction", "fit", "parameters"];
+pub const COMMON: [&str; 4] = ["summary", "pressed", "fit", "parameters"];
 
 impl Scene {
     /// Reads the file.

@@ -127,7 +127,7 @@ fn list_files(scene: &Scene, results: &Results, pressed: &pressed::output::Resul
     let written = [
         (!results.is_empty(), "summary.csv", "a line for every case that was struck, with all that is known of it"),
         (!pressed.is_empty(), "pressed.csv", "a line for every section that was pressed: friction and dilatancy too"),
-        (tests > 1, "friction.svg, .png", "biaxial tests over the friction between their fibres"),
+        (tests > 1, "pressed.svg, .png", "biaxial tests over the friction between their fibres"),
         (true, "NAME.csv", "the history of case NAME"),
         (true, "NAME.svg, .png", "plots of it"),
         (pictures, "NAME-fibres-1.svg, .png, …", "the fibres at the times of pictures"),

@@ -13,6 +13,10 @@ pub const MU: usize = place(&FRICTIONAL, "mu");
 pub const C: usize = place(&FRICTIONAL, "cohesion");
 /// Pressures tell µ and c apart where the largest is so many times the least.
 const APART: f64 = 1.5;
+/// Degrees of freedom from which on the differences of sections say how sure their line is.
+const ENOUGH: f64 = 2.0;
+/// How often the line is fitted, with errors that follow from the line before.
+const ROUNDS: usize = 4;
 /// No mean is surer than this part of itself: exact data would have no noise.
 const LEAST_NOISE: f64 = 1e-9;
 
@@ -35,6 +39,14 @@ struct Point {
     q: f64,
     error: f64,
     is_free: bool,
+}
+
+impl Point {
+    /// The standard error of q less that of the line; noise of a section with free sides moves it along q = p_t, by 1 − µ
+    /// of that off the line. What slides under pressure has its error scaled.
+    fn off_line(&self, mu: f64, scale: f64) -> f64 {
+        self.error * if self.is_free { 1.0 - mu } else { scale }
+    }
 }
 
 /// A property, and its 95 % interval where the data tell it.
@@ -124,7 +136,12 @@ fn points(sets: &[Sliding]) -> Vec<Point> {
         let variances: Vec<f64> = sets.iter().filter(|set| set.is_free == free).map(|set| of(set).2).collect();
         (variances.iter().sum::<f64>() / variances.len() as f64).sqrt().max(LEAST_NOISE)
     };
-    let errors = [pooled(false), pooled(true)];
+    let mut errors = [pooled(false), pooled(true)];
+    let free: Vec<f64> = sets.iter().filter(|set| set.is_free).map(|set| of(set).0).collect();
+    if free.len() as f64 > ENOUGH {
+        let [mean, variance] = scatter(&free);
+        errors[1] = ((variance * free.len() as f64).sqrt() / mean).max(LEAST_NOISE);
+    }
     let point = |set: &Sliding| {
         let (p_t, q, _) = of(set);
         Point { p_t, q, error: errors[usize::from(set.is_free)] * p_t, is_free: set.is_free }
@@ -136,36 +153,33 @@ fn points(sets: &[Sliding]) -> Vec<Point> {
 fn line(points: &[Point], start: [f64; 2], sought: [bool; 2]) -> [Told; 2] {
     let columns: Vec<usize> = (0..2).filter(|&i| sought[i]).collect();
     let mut told = start.map(|value| Told { value, error: 0.0, low: value, high: value });
-    if columns.is_empty() {
-        return told;
-    }
-    // Noise of a section with free sides moves it along q = p_t: by 1 − µ of that off the line.
-    for _ in 0..2 {
-        let mu = told[0].value;
-        let error = |point: &Point| if point.is_free { (1.0 - mu) * point.error } else { point.error };
-        let weighted = |point: &Point, column: usize| if column == 0 { point.p_t } else { 1.0 } / error(point);
-        let matrix = DMatrix::from_fn(points.len(), columns.len(), |row, i| weighted(&points[row], columns[i]));
-        let kept = |point: &Point| {
-            let of = |column: usize| if sought[column] { 0.0 } else { start[column] * weighted(point, column) };
-            of(0) + of(1)
-        };
-        let rhs = DVector::from_iterator(points.len(), points.iter().map(|p| p.q / error(p) - kept(p)));
+    let sliding: Vec<usize> = (0..points.len()).filter(|&i| !points[i].is_free).collect();
+    // Of several sections their differences count: a section's own parts in turn store and give back what is elastic.
+    let told_by_them = if sliding.len() < points.len() { 1 } else { columns.len() };
+    let differences = sliding.len().saturating_sub(told_by_them) as f64;
+    let freedom = if differences >= ENOUGH { differences } else { 4.0 * points.len() as f64 };
+    let mut scale = 1.0;
+    for _ in 0..ROUNDS {
+        let values = told.map(|told| told.value);
+        let errors: Vec<f64> = points.iter().map(|point| point.off_line(values[0], scale)).collect();
+        let factor = |point: usize, column: usize| if column == 0 { points[point].p_t } else { 1.0 } / errors[point];
+        let kept = |point: usize| (0..2).filter(|&i| !sought[i]).map(|i| start[i] * factor(point, i)).sum::<f64>();
+        let matrix = DMatrix::from_fn(points.len(), columns.len(), |row, i| factor(row, columns[i]));
+        let rhs = DVector::from_fn(points.len(), |row, _| points[row].q / errors[row] - kept(row));
         let sizes: Vec<f64> = matrix.column_iter().map(|column| column.norm()).collect();
         let scaled = DMatrix::from_fn(points.len(), columns.len(), |row, i| matrix[(row, i)] / sizes[i]);
         let Some(inverse) = (scaled.transpose() * &scaled).try_inverse() else { return told };
         let solution = &inverse * (scaled.transpose() * &rhs);
-        let squares = (&rhs - &scaled * &solution).norm_squared();
-        // Where sections differ by more than each one's scatter says, their differences count.
-        let freedom = (points.len() - columns.len().min(points.len())) as f64;
-        let (factor, freedom) = match squares / freedom {
-            ratio if freedom > 0.0 && ratio > 1.0 => (ratio.sqrt(), freedom),
-            _ => (1.0, 4.0 * points.len() as f64),
-        };
         for (i, &column) in columns.iter().enumerate() {
             let value = solution[i] / sizes[i];
-            let error = factor * inverse[(i, i)].sqrt() / sizes[i];
+            let error = inverse[(i, i)].sqrt() / sizes[i];
             let half = quantile(freedom) * error;
             told[column] = Told { value, error, low: value - half, high: value + half };
+        }
+        if differences >= ENOUGH {
+            let residuals = rhs - scaled * solution;
+            let squares = sliding.iter().map(|&row| residuals[row].powi(2)).sum::<f64>();
+            scale *= (squares / differences).sqrt().max(LEAST_NOISE);
         }
     }
     told
@@ -178,7 +192,7 @@ fn of_free(points: &[&Point]) -> Option<Told> {
     let (variance, freedom) = match points.len() {
         0 => return None,
         1 => (own, 4.0),
-        count if variance > own => (variance, count as f64 - 1.0),
+        count if count as f64 > ENOUGH => (variance, count as f64 - 1.0),
         count => (own, 4.0 * count as f64),
     };
     let half = quantile(freedom) * variance.sqrt();
@@ -288,7 +302,7 @@ mod tests {
         // The scatter is √(0.001/4) = 0.01581, over √5, times t(4) = 2.776.
         assert!((told.value - 0.2).abs() < 1e-12 && (told.error - 0.007_071).abs() < 1e-5, "{told:?}");
         assert!((told.high - 0.2 - 2.776_445 * 0.007_071).abs() < 1e-5, "{told:?}");
-        let negative = fit(&[-0.01, 0.0].map(set), [None; 2]).expect("they suffice").mu.expect("mu");
+        let negative = fit(&[-0.02, -0.01, 0.0].map(set), [None; 2]).expect("they suffice").mu.expect("mu");
         assert_eq!((negative.value, negative.low), (0.0, 0.0));
     }
 }

@@ -64,10 +64,19 @@ pub fn fit_file(scene: &Scene, results: &Results) -> Option<String> {
         _ => false,
     };
     let is_there = |walls: Walls| results.iter().any(|(case, _)| closes(case, &[walls]));
-    let (compacted, slid) = (is_there(Walls::AllSides), is_there(Walls::Biaxial));
+    let compacted = is_there(Walls::AllSides);
+    // A yarn has one friction between its fibres, and they lie in one way: as in the first case that slides.
+    let first = results.iter().map(|(case, _)| *case).find(|case| closes(case, &[Walls::Biaxial]));
+    let is_alike = |case: &Case| {
+        let alike = |first: &Case| {
+            first.friction == case.friction
+                && (first.packing == Packing::Hexagonal) == (case.packing == Packing::Hexagonal)
+        };
+        first.is_some_and(alike)
+    };
     let set = |case: &Case, result: &Pressed| {
         if closes(case, &[Walls::Biaxial, Walls::Plates]) {
-            return sliding_set(case, result).filter(|_| slid);
+            return sliding_set(case, result).filter(|_| is_alike(case));
         }
         let once = closes(case, &[Walls::AllSides, Walls::TopAndBottom, Walls::Sides]);
         elastic_set(case, result).filter(|_| compacted && once)
