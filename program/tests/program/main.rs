@@ -28,6 +28,7 @@ mod meshes;
 mod one_element;
 mod presets;
 mod scene_decks;
+mod sliding;
 mod v50;
 mod weave;
 mod yarn_between_plates;

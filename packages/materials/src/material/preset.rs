@@ -194,7 +194,8 @@ impl Preset {
 
     /// The property's value in these units: the bits of the preset where they are its own. None if the preset has none.
     pub fn value(&self, index: usize, units: &UnitSystem) -> Option<f64> {
-        let dimension = self.law.table()[index].dimension;
+        // A law with more properties asks for those that this one has not.
+        let dimension = self.law.table().get(index)?.dimension;
         self.values[index].map(|value| self.convert(value, dimension, units))
     }
 

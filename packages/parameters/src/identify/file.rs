@@ -193,8 +193,9 @@ impl Job {
         known.copy_from_slice(&preset.values[..PARAMETERS]);
         let reader = Reader { source: &source, units: &units, known: &known };
         let sliding = sliding_data::sets(&reader, &file.data)?;
+        let untold = base.as_ref().and_then(|base| base.value(C, &units));
         let given = [MU, C].map(|index| preset.values.get(index).copied().flatten());
-        let friction = friction::fit(&sliding, given)?;
+        let friction = friction::fit(&sliding, given, untold.unwrap_or(0.0))?;
         let sections: Vec<&Spanned<DataFile>> =
             file.data.iter().filter(|data| !sliding_data::is_sliding(data.get_ref())).collect();
         let sets = reader.sets(&sections, fibre.is_some())?;

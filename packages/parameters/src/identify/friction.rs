@@ -72,11 +72,11 @@ pub struct Friction {
     pub pressures: [f64; 2],
 }
 
-/// µ and c from these sets, with what the file gives of them.
+/// µ and c from these sets, with what the file gives of them; `untold` is c where nothing tells it.
 ///
 /// # Errors
 /// The data tell neither, or do not suffice for what is not given.
-pub fn fit(sets: &[Sliding], given: [Option<f64>; 2]) -> Result<Friction, Error> {
+pub fn fit(sets: &[Sliding], given: [Option<f64>; 2], untold: f64) -> Result<Friction, Error> {
     let Some(first) = sets.first() else { return Ok(Friction::default()) };
     let refused = |message: &str| Err(Error::Input(format!("{}: {message}", first.declared)));
     if given[0].is_some() && given[1].is_some() {
@@ -97,7 +97,7 @@ pub fn fit(sets: &[Sliding], given: [Option<f64>; 2]) -> Result<Friction, Error>
     // What is sought: µ where it is not given, c where pressures tell it apart.
     let apart = range[1] > APART * range[0];
     let sought = [given[0].is_none(), given[1].is_none() && (given[0].is_some() || apart)];
-    let start = [given[0].unwrap_or(0.0), given[1].unwrap_or(0.0)];
+    let start = [given[0].unwrap_or(0.0), given[1].unwrap_or(untold)];
     let mut found = line(&points, start, sought);
     let unbounded = found;
     let mut bounded = sought;
@@ -158,6 +158,8 @@ fn line(points: &[Point], start: [f64; 2], sought: [bool; 2]) -> [Told; 2] {
     let told_by_them = if sliding.len() < points.len() { 1 } else { columns.len() };
     let differences = sliding.len().saturating_sub(told_by_them) as f64;
     let freedom = if differences >= ENOUGH { differences } else { 4.0 * points.len() as f64 };
+    let free = points.len() - sliding.len();
+    let of_free = if free as f64 > ENOUGH { free as f64 - 1.0 } else { freedom };
     let mut scale = 1.0;
     for _ in 0..ROUNDS {
         let values = told.map(|told| told.value);
@@ -173,7 +175,7 @@ fn line(points: &[Point], start: [f64; 2], sought: [bool; 2]) -> [Told; 2] {
         for (i, &column) in columns.iter().enumerate() {
             let value = solution[i] / sizes[i];
             let error = inverse[(i, i)].sqrt() / sizes[i];
-            let half = quantile(freedom) * error;
+            let half = quantile(if column == 1 { freedom.min(of_free) } else { freedom }) * error;
             told[column] = Told { value, error, low: value - half, high: value + half };
         }
         if differences >= ENOUGH {
@@ -261,7 +263,7 @@ mod tests {
         let [low, high] = [5.0, 20.0].map(|pressure| by_the_law("biaxial", law, pressure, false));
         let free = by_the_law("plates", law, 0.0, true);
         for sets in [vec![low.clone(), high], vec![low.clone(), free]] {
-            let found = fit(&sets, [None; 2]).expect("they suffice");
+            let found = fit(&sets, [None; 2], 0.0).expect("they suffice");
             assert_told(found.mu, law[0]);
             assert_told(found.c, law[1]);
             let told = sets.iter().any(|set| set.is_free).then_some(law[1] / (1.0 - law[0]));
@@ -269,23 +271,23 @@ mod tests {
             told.inspect(|&value| assert_told(found.free, value));
         }
         let without = by_the_law("biaxial", [0.25, 0.0], 10.0, false);
-        assert_told(fit(&[without], [None; 2]).expect("it suffices").mu, 0.25);
+        assert_told(fit(&[without], [None; 2], 0.0).expect("it suffices").mu, 0.25);
         // Where c is given, one pressure is enough; where µ is, free sides are.
-        assert_told(fit(&[low], [None, Some(0.4)]).expect("it suffices").mu, 0.25);
-        assert_told(fit(&[by_the_law("plates", law, 0.0, true)], [Some(0.25), None]).expect("it suffices").c, 0.4);
+        assert_told(fit(&[low], [None, Some(0.4)], 0.0).expect("it suffices").mu, 0.25);
+        assert_told(fit(&[by_the_law("plates", law, 0.0, true)], [Some(0.25), None], 0.0).expect("it suffices").c, 0.4);
     }
 
     #[test]
     fn what_is_missing_is_named() {
         let free = by_the_law("plates", [0.25, 0.4], 0.0, true);
-        let said = fit(std::slice::from_ref(&free), [None; 2]).expect_err("it tells c/(1 − µ)").to_string();
+        let said = fit(std::slice::from_ref(&free), [None; 2], 0.0).expect_err("it tells c/(1 − µ)").to_string();
         assert!(said.contains("missing: data with loading = \"biaxial\", which tell mu"), "{said}");
-        let said = fit(&[free], [Some(0.25), Some(0.4)]).expect_err("nothing is left").to_string();
+        let said = fit(&[free], [Some(0.25), Some(0.4)], 0.0).expect_err("nothing is left").to_string();
         assert!(said.contains("both given"), "{said}");
         // One pressure tells µ p_t + c; c is its default then.
         let one = by_the_law("biaxial", [0.25, 0.4], 10.0, false);
         let p_t = one.parts[0].p_t;
-        let found = fit(&[one], [None; 2]).expect("it suffices");
+        let found = fit(&[one], [None; 2], 0.0).expect("it suffices");
         assert_eq!((found.c, found.values[1]), (None, 0.0));
         assert_told(found.mu, 0.25 + 0.4 / p_t);
     }
@@ -298,11 +300,11 @@ mod tests {
             let parts = (0..5).map(part).collect();
             Sliding { name: "set".to_string(), declared: "fit.toml:1".to_string(), is_free: false, parts }
         };
-        let told = fit(&[0.18, 0.19, 0.20, 0.21, 0.22].map(set), [None; 2]).expect("they suffice").mu.expect("mu");
+        let told = fit(&[0.18, 0.19, 0.20, 0.21, 0.22].map(set), [None; 2], 0.0).expect("they suffice").mu.expect("mu");
         // The scatter is √(0.001/4) = 0.01581, over √5, times t(4) = 2.776.
         assert!((told.value - 0.2).abs() < 1e-12 && (told.error - 0.007_071).abs() < 1e-5, "{told:?}");
         assert!((told.high - 0.2 - 2.776_445 * 0.007_071).abs() < 1e-5, "{told:?}");
-        let negative = fit(&[-0.02, -0.01, 0.0].map(set), [None; 2]).expect("they suffice").mu.expect("mu");
+        let negative = fit(&[-0.02, -0.01, 0.0].map(set), [None; 2], 0.0).expect("they suffice").mu.expect("mu");
         assert_eq!((negative.value, negative.low), (0.0, 0.0));
     }
 }

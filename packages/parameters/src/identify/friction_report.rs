@@ -22,7 +22,7 @@ pub fn note(job: &Job, index: usize) -> Option<String> {
     let (_, told) = told(job).into_iter().find(|(place, _)| *place == index)?;
     match told {
         Some(told) => Some(interval(&told)),
-        None if index == C && !job.sliding.is_empty() => Some("the default: the data are of one pressure".to_string()),
+        None if index == C && !job.sliding.is_empty() => Some("not told: the data are of one pressure".to_string()),
         None => None,
     }
 }
@@ -73,7 +73,7 @@ pub fn sets(job: &Job) -> String {
     if !job.sliding.is_empty() && job.friction.c.is_none() && job.preset.values.get(C).copied().flatten().is_none() {
         text += &line(
             "note",
-            "these data are of one pressure, and tell mu p_t + cohesion there: cohesion is taken as 0. What would tell it: a press with free sides \
+            "these data are of one pressure, and tell mu p_t + cohesion there: cohesion is taken as 0, or from the preset that the file names. What would tell it: a press with free sides \
              (loading = \"plates\"), or a biaxial test at another pressure",
         );
     }
