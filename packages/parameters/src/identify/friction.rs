@@ -205,7 +205,11 @@ fn of_free(points: &[&Point]) -> Option<Told> {
 mod tests {
     use super::*;
     use crate::identify::sliding::{Line, blocks, first_beyond};
-    use toron_materials::entries::frictional::{PROPERTIES, STATE, Step};
+    use std::marker::PhantomData;
+
+    use toron::law::parameters::FRICTIONAL_PROPERTIES as PROPERTIES;
+    use toron::law::state::FRICTIONAL_STATE as STATE;
+    use toron_materials::entries::step::Step;
 
     /// The section of the law between sides that keep a pressure, in MPa, while its height falls by a fifth: the last
     /// half of the way, in five parts.
@@ -217,7 +221,9 @@ mod tests {
         // Kirchhoff stresses across and along the press.
         let respond = |state: &[f64; STATE], [across, along]: [f64; 2]| {
             let f = [1.0, 0.0, 0.0, 0.0, across, 0.0, 0.0, 0.0, along];
-            let answer = Step { properties: &properties, f: &f, state, tangent: false, line: 0 }.point::<f64>(false);
+            let law = PhantomData::<toron::Frictional>;
+            let step = Step { properties: &properties, f: &f, state, tangent: false, line: 0, law };
+            let answer = step.point::<f64>(false);
             assert_eq!(answer.status, 0, "{across} {along}");
             ([1, 2].map(|i| across * along * answer.stress[i]), answer.state)
         };
