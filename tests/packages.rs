@@ -34,7 +34,11 @@ const ARROWS: [Arrows; 26] = [
         &["reinforced-solid", "toron-test-support"],
     ),
     ("toron-explicit-host", &["toron", "toron-c-functions", "toron-materials", "toron-shared"], &[]),
-    ("toron-strikes", &["toron", "toron-explicit-host", "toron-materials", "toron-pictures", "toron-shared"], &[]),
+    (
+        "toron-strikes",
+        &["toron", "toron-build-number", "toron-explicit-host", "toron-materials", "toron-pictures", "toron-shared"],
+        &["reinforced-solid"],
+    ),
     (
         "toron-parameters",
         &["toron", "toron-explicit-host", "toron-materials", "toron-pictures", "toron-shared", "toron-strikes"],
@@ -59,7 +63,7 @@ const ARROWS: [Arrows; 26] = [
     ("reinforced-solid", &["toron"], &[]),
     ("own-law-double", &["reinforced-solid", "toron-solvers"], &[]),
     ("own-law-single", &["reinforced-solid", "toron-solvers"], &[]),
-    ("own-law-program", &["reinforced-solid", "toron-materials"], &[]),
+    ("own-law-program", &["reinforced-solid", "toron-strikes"], &[]),
 ];
 
 /// What Cargo knows of a workspace.

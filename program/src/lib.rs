@@ -3,4 +3,4 @@
 
 pub mod init;
 
-pub use toron_materials::of_law;
+pub use toron_strikes::of_law;

@@ -168,11 +168,11 @@ fn run(command: Command) -> Result<(), Error> {
         },
         Command::Fabric { scene, output, restart, deck } => match deck.host {
             Some(host) => scene_deck::command::fabric(&scene, &output, host, &deck),
-            None => fabric::command::run(&scene, &output, restart),
+            None => fabric::command::run(Laws::Toron, &scene, &output, restart),
         },
         Command::Impact { scene, output, restart, deck } => match deck.host {
             Some(host) => scene_deck::command::impact(&scene, &output, host, &deck),
-            None => impact::command::run(&scene, &output, restart),
+            None => impact::command::run(Laws::Toron, &scene, &output, restart),
         },
         Command::V50(arguments) => v50::command::run(&arguments),
         Command::Fibres(arguments) => fibres::command::run(&arguments)

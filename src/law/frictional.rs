@@ -39,6 +39,7 @@ use super::kinematics::{Section, Strain, Unimodular};
 use super::number::elementary::sinh_and_exp_of_minus;
 use super::number::real::Real;
 use super::parameters::{self, FRICTIONAL_PROPERTIES, HYPERELASTIC_PROPERTIES};
+use super::resistance::Resistance;
 use super::state::{FRICTIONAL_PARTS, FRICTIONAL_STATE};
 use super::status;
 
@@ -90,6 +91,11 @@ unsafe impl<T: Precision> Law<T> for Frictional<T> {
 
     fn bulk_and_shear(&self) -> [T; 2] {
         Hyperelastic::bulk_and_shear(&self.elastic)
+    }
+
+    /// Fibres that slide hold less.
+    fn resistance(&self) -> Resistance {
+        Hyperelastic::resistance(&self.elastic)
     }
 
     unsafe fn step(&self, points: &Points<T>) -> Result<i32, Error> {

@@ -8,6 +8,7 @@ use super::description::{self, Description};
 use super::error::Error;
 use super::hyperelastic::Hyperelastic;
 use super::linear_elastic::LinearElastic;
+use super::resistance::Resistance;
 use super::state::{HYPERELASTIC_PARTS, HYPERELASTIC_STATE, LINEAR_ELASTIC_STATE};
 
 /// A law, prepared from its properties.
@@ -46,6 +47,12 @@ pub unsafe trait Law<T: Precision>: Copy {
     /// Bulk and shear modulus of an isotropic solid in which no wave is slower than the law's fastest one at rest, or
     /// that along the fibre: for hosts that compute their time step and contact stiffness from two elastic constants.
     fn bulk_and_shear(&self) -> [T; 2];
+
+    /// What resists the motions of an element, for hosts that take viscosity and hourglass control of it; by default that
+    /// of the isotropic solid of [`bulk_and_shear`](Self::bulk_and_shear).
+    fn resistance(&self) -> Resistance {
+        Resistance::isotropic(self.bulk_and_shear())
+    }
 
     /// The worst status code of a call: as an error where there is more to say than the code does.
     ///
@@ -107,6 +114,10 @@ unsafe impl<T: Precision> Law<T> for Hyperelastic<T> {
         Hyperelastic::bulk_and_shear(self)
     }
 
+    fn resistance(&self) -> Resistance {
+        Hyperelastic::resistance(self)
+    }
+
     #[inline(always)]
     unsafe fn step(&self, points: &Points<T>) -> Result<i32, Error> {
         // SAFETY: the points are valid.
@@ -137,6 +148,10 @@ unsafe impl<T: Precision> Law<T> for LinearElastic<T> {
     #[inline(always)]
     fn bulk_and_shear(&self) -> [T; 2] {
         LinearElastic::bulk_and_shear(self)
+    }
+
+    fn resistance(&self) -> Resistance {
+        LinearElastic::resistance(self)
     }
 
     #[inline(always)]

@@ -19,6 +19,7 @@ use super::number::vector::{
     Matrix, along, cofactors, cross, difference, dot, image, is_finite, product, scale, scaled, selected, square_norm,
     sum, transposed, unit,
 };
+use super::resistance::Resistance;
 use super::state::{LINEAR_ALIVE, LINEAR_ELASTIC_STATE, LINEAR_FAILED, LINEAR_LARGEST, LINEAR_STRESS, LINEAR_WORK};
 use super::status;
 use super::stress::{largest_principal, turned};
@@ -244,6 +245,16 @@ impl<R: Real> LinearElastic<R> {
     pub fn bulk_and_shear(&self) -> [R; 2] {
         let modulus = self.modulus_at_rest();
         [R::splat(0.5) * modulus, R::splat(0.375) * modulus]
+    }
+
+    /// What resists the motions of an element.
+    pub(crate) fn resistance(&self) -> Resistance
+    where
+        R: Into<f64>,
+    {
+        let [_, e_2, _, g, ..] = self.stiffness;
+        let (e_2, g): (f64, f64) = (e_2.into(), g.into());
+        Resistance { along: self.modulus_at_rest().into(), across: e_2, shape: g, hourglass: e_2 }
     }
 
     /// With Q = G(1 + n⊗n) + diag((E_i − 2G) n_i²) no eigenvalue exceeds the largest of E_i and 2G.

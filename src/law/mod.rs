@@ -21,6 +21,7 @@ pub mod parameters;
 pub(crate) mod point;
 pub(crate) mod preparation;
 pub mod prepared;
+pub mod resistance;
 pub(crate) mod response;
 pub mod state;
 pub mod status;

@@ -20,6 +20,7 @@ use super::error::{Error, Value};
 use super::hyperelastic::{Hyperelastic, Kirchhoff, shear_components};
 use super::kinematics::{Decomposition, Kinematics};
 use super::number::real::Real;
+use super::resistance::Resistance;
 
 /// Checks a reference density that a wave speed is to be computed with.
 ///
@@ -45,6 +46,18 @@ impl<R: Real> Hyperelastic<R> {
     /// k_el. For hosts that compute their time step and contact stiffness from two elastic constants.
     pub fn bulk_and_shear(&self) -> [R; 2] {
         [R::splat(0.5) * self.k_el, R::splat(0.375) * self.k_el]
+    }
+
+    /// What resists the motions of an element. W = k_tc |I_tc|^p + ½ k_td I_td² by one transverse logarithmic strain, of
+    /// which I_tc and I_td are half: with p ≥ 2 its stiffness at |I_tc| = 1 is that across, and less before. I_td is half
+    /// of a shear, too.
+    pub(crate) fn resistance(&self) -> Resistance
+    where
+        R: Into<f64>,
+    {
+        let (k_el, k_tc, p, k_td): (f64, f64, f64, f64) =
+            (self.k_el.into(), self.k_tc.into(), self.p.into(), self.k_td.into());
+        Resistance { along: k_el, across: (p * (p - 1.0) * k_tc + k_td) / 4.0, shape: k_td / 4.0, hourglass: k_td }
     }
 
     /// ρ0 c² for an upper bound c of the speed of every wave in this state; at least k_el.

@@ -14,7 +14,9 @@ pub const OF_MATERIALS: [&str; 8] = [
     "solvers/src",
     "src",
 ];
-/// Those that the program toron has besides.
+/// Those that it has besides where it strikes yarns and panels.
+pub const OF_STRIKES: [&str; 3] = ["packages/explicit-host/src", "packages/strikes/assets", "packages/strikes/src"];
+/// Those that the program toron has besides the first ones.
 pub const OF_PROGRAM: [&str; 7] = [
     "packages/explicit-host/src",
     "packages/parameters/src",

@@ -8,13 +8,12 @@ use super::element::{Measures, Shapes};
 use super::instructions::{Loops, run_widest};
 use super::lanes::{LANES, Lanes, Number};
 use super::medium::{Entry, Medium};
+use super::own::Elements;
 use super::solid::{self, SOLID_VON_MISES, SOLID_WORK};
 use super::stress::{Points, nominal_stress};
 use super::viscosity::Viscosity;
 use super::wave_bounds::{Section, bounds_at};
-use toron::law::state::{
-    FAILURE_INDEX, FRICTIONAL_FAILED, FRICTIONAL_LOST, INVARIANTS, LINEAR_LARGEST, LINEAR_STRESS, LINEAR_WORK,
-};
+use toron::law::state::{FAILURE_INDEX, FRICTIONAL_FAILED, INVARIANTS, LINEAR_LARGEST, LINEAR_STRESS, LINEAR_WORK};
 use toron::law::status;
 use toron_c::{LinearElasticLaw, TORON_CRITERION_FIBRE};
 use toron_materials::entries::blocks::{LinearFrame, LinearSolverBlock, SolverBlock, linear_elastic_block};
@@ -62,9 +61,13 @@ pub struct StepOptions {
     pub law_outputs: bool,
     /// The hourglass energy, which only the energy balance needs.
     pub energy_balance: bool,
-    /// Length of the last step, and the stable step below which an element that may fail has collapsed.
+    /// Length of the last step, the time at its end, and the stable step below which an element that may fail has
+    /// collapsed.
     pub step: f64,
+    pub time: f64,
     pub shortest: f64,
+    /// Whether elements have failed: from then on those of a law of one's own may, of which it is not known before.
+    pub has_failed: bool,
     /// The stable step at which damping is taken for a stiffness: the last one.
     pub reference: f64,
 }
@@ -158,7 +161,7 @@ pub struct History<T> {
     /// 1, or 0 once the element is deleted.
     pub intact: Vec<T>,
     viscosity: Viscosity<T>,
-    /// The linear elastic law's deformation gradient at the start of the step.
+    /// The deformation gradient at the start of the step, of the linear elastic law and of laws of one's own.
     f_old: Vec<T>,
 }
 
@@ -223,7 +226,8 @@ impl<T: Number> ElementBlock<T> {
         });
         let failed = sums.deleted.len();
         self.delete(medium, scratch, sums, |block, scratch, i| {
-            medium.fails && scratch.collapsed[i] != T::default() && block.is_intact(i)
+            let fails = medium.fails || options.has_failed && matches!(medium.entry, Entry::Own(_));
+            fails && scratch.collapsed[i] != T::default() && block.is_intact(i)
         });
         sums.collapsed += sums.deleted.len() - failed;
         if options.energy_balance {
@@ -245,6 +249,22 @@ impl<T: Number> ElementBlock<T> {
                 let code = self.call_linear_elastic(law, *frame, *criterion, scratch);
                 scratch.wave_speed.fill(T::from_f64(medium.wave_speed));
                 code
+            }
+            Entry::Own(own) => {
+                let History { state, f_old, .. } = &mut self.history;
+                own.advance(Elements {
+                    n: self.shapes.n,
+                    stride: self.shapes.stride,
+                    f_old,
+                    f: &scratch.deformation_gradient,
+                    state,
+                    stress: &mut scratch.stress,
+                    density: T::from_f64(medium.density),
+                    wave_speed: &mut scratch.wave_speed,
+                    status: &mut scratch.status,
+                    step: options.step,
+                    time: options.time,
+                })
             }
             Entry::Solid(solid) => {
                 let Shapes { n, stride, .. } = self.shapes;
@@ -398,8 +418,15 @@ impl<T: Number> ElementBlock<T> {
     pub fn stress(&self, medium: &Medium<T>, displacement: &[[T; 3]]) -> Result<Vec<[f64; 6]>, i32> {
         let mut scratch = Scratch::default();
         run_widest(Deform { shapes: &self.shapes, displacement, scratch: &mut scratch });
-        let options =
-            StepOptions { law_outputs: false, energy_balance: false, step: 0.0, shortest: 0.0, reference: 1.0 };
+        let options = StepOptions {
+            law_outputs: false,
+            energy_balance: false,
+            step: 0.0,
+            time: 0.0,
+            shortest: 0.0,
+            has_failed: false,
+            reference: 1.0,
+        };
         let code = self.clone().call_law(medium, &mut scratch, options);
         let Shapes { n, stride, .. } = self.shapes;
         let component = |row: usize, i: usize| -> f64 { scratch.stress[row * stride + i].into() };
@@ -413,38 +440,38 @@ impl<T: Number> ElementBlock<T> {
             Entry::Hyperelastic(_) | Entry::Frictional(_) => {
                 std::array::from_fn(|mode| self.variable(INVARIANTS + mode, i))
             }
-            Entry::LinearElastic { .. } | Entry::Solid(_) => [0.0; 4],
+            Entry::LinearElastic { .. } | Entry::Own(_) | Entry::Solid(_) => [0.0; 4],
         }
     }
 
     /// Energy densities, as [`ENERGY_NAMES`](super::medium::ENERGY_NAMES) has them.
     pub fn energies(&self, medium: &Medium<T>, i: usize) -> [f64; 5] {
-        match medium.entry {
+        match &medium.entry {
             Entry::Hyperelastic(_) | Entry::Frictional(_) => {
                 let [el, tc, td, ld] = std::array::from_fn(|mode| self.variable(mode, i));
                 [el, tc, td, ld, 0.0]
             }
             Entry::LinearElastic { .. } => [0.0, 0.0, 0.0, 0.0, self.variable(LINEAR_WORK, i)],
+            Entry::Own(own) => [0.0, 0.0, 0.0, 0.0, own.energies().map(|row| self.variable(row, i)).sum()],
             Entry::Solid(_) => [0.0, 0.0, 0.0, 0.0, self.variable(SOLID_WORK, i)],
         }
     }
 
-    /// The density of the energy that friction between the fibres has taken.
+    /// The density of the energy that friction between the fibres has taken, or that a law of one's own has lost.
     pub fn lost(&self, medium: &Medium<T>, i: usize) -> f64 {
-        match medium.entry {
-            Entry::Frictional(_) => self.variable(FRICTIONAL_LOST, i),
-            Entry::Hyperelastic(_) | Entry::LinearElastic { .. } | Entry::Solid(_) => 0.0,
-        }
+        medium.lost().map_or(0.0, |row| self.variable(row, i))
     }
 
     /// 1 at the failure limit, 0 without one.
     pub fn failure_index(&self, medium: &Medium<T>, i: usize) -> f64 {
-        match medium.entry {
+        match &medium.entry {
             Entry::Hyperelastic(_) => self.variable(FAILURE_INDEX, i),
             Entry::Frictional(_) => self.variable(FRICTIONAL_FAILED - 1, i),
             Entry::LinearElastic { .. } if !medium.fails => 0.0,
+            // It tells nothing but whether it has failed.
+            Entry::Own(own) => self.variable(own.failed, i),
             Entry::Solid(_) => 0.0,
-            Entry::LinearElastic { criterion: TORON_CRITERION_FIBRE, .. } => {
+            Entry::LinearElastic { criterion, .. } if *criterion == TORON_CRITERION_FIBRE => {
                 self.variable(LINEAR_STRESS, i) / self.strength(medium, i)
             }
             Entry::LinearElastic { .. } => self.variable(LINEAR_LARGEST, i) / self.strength(medium, i),
@@ -466,12 +493,16 @@ impl<T: Number> ElementBlock<T> {
         matches!(medium.entry, Entry::Solid(_)).then(|| self.variable(SOLID_VON_MISES, i))
     }
 
-    /// Logarithmic strain along the fibre: the invariant, or the linear elastic law's stress along it over E1; a solid
-    /// does not keep it.
+    /// Logarithmic strain along the fibre, or the first axis: the invariant, the linear elastic law's stress along it over
+    /// E1, or from the deformation gradient; a solid does not keep it.
     pub fn elongation(&self, medium: &Medium<T>, i: usize) -> f64 {
         match &medium.entry {
             Entry::Hyperelastic(_) | Entry::Frictional(_) => self.variable(INVARIANTS, i),
             Entry::LinearElastic { modulus, .. } => self.variable(LINEAR_STRESS, i) / modulus,
+            Entry::Own(_) => {
+                let component = |c: usize| -> f64 { self.history.f_old[c * self.shapes.stride + i].into() };
+                0.5 * (0..3).map(|c| component(c).powi(2)).sum::<f64>().ln()
+            }
             Entry::Solid(_) => 0.0,
         }
     }

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::archive::Archive;
 use super::block::{BLOCK, ElementBlock, Scratch, StepOptions, Sums};
 use super::lanes::{Number, largest};
-use super::medium::{Entry, Medium};
+use super::medium::Medium;
 use super::mesh::Mesh;
 use super::shreds::Adjacency;
 use super::step_limit::StepLimit;
@@ -336,9 +336,9 @@ impl<T: Number> Body<T> {
         internal
     }
 
-    /// What friction between the fibres has taken.
+    /// What friction between the fibres has taken, or a law of one's own has lost.
     pub fn lost_energy(&self, media: &[Medium<T>]) -> f64 {
-        let blocks = self.blocks.iter().filter(|block| matches!(media[block.medium].entry, Entry::Frictional(_)));
+        let blocks = self.blocks.iter().filter(|block| media[block.medium].lost().is_some());
         let of = |block: &ElementBlock<T>| -> f64 {
             (0..block.shapes.n).map(|i| block.lost(&media[block.medium], i) * block.shapes.volume(i)).sum()
         };

@@ -22,6 +22,7 @@ pub mod lanes;
 pub mod medium;
 pub mod mesh;
 pub mod mutual_contact;
+pub mod own;
 pub mod rows;
 pub mod shreds;
 pub mod snapshot;

@@ -2,11 +2,12 @@
 //! hourglass control take from them.
 
 use super::lanes::Number;
+use super::own::OwnEntry;
 use super::solid::{SOLID_FAILED, SOLID_STATE, Solid};
 use super::wave_bounds::wave_bounds;
-use toron::law::parameters::LINEAR_ELASTIC_PROPERTIES;
+use toron::law::description;
+use toron::law::resistance::Resistance;
 use toron::law::wave_bounds::WaveBounds;
-use toron::law::{description, hyperelastic, linear_elastic};
 use toron::{Criterion, Rotation};
 use toron_c::{FrictionalLaw, HyperelasticLaw, LinearElasticLaw, TORON_CRITERION_FIBRE, TORON_CRITERION_PRINCIPAL};
 use toron_materials::entries::blocks::{LinearFrame, prepared, prepared_frictional, prepared_linear};
@@ -26,11 +27,11 @@ pub struct Control {
     pub by_direction: bool,
 }
 
-/// Names of the energy densities: the hyperelastic law's modes, and the work of the linear elastic law and the solid,
-/// which have no modes.
+/// Names of the energy densities: the yarn laws' modes, and the work of the linear elastic law and the solid, or the
+/// energy of a law of one's own, which have no modes.
 pub const ENERGY_NAMES: [&str; 5] = ["w_el", "w_tc", "w_td", "w_ld", "work"];
 
-/// A law as its C entry takes it, or a solid of the host's own.
+/// A law of the library as its C entry takes it, a law of one's own, or a solid of the host's.
 #[derive(Clone, Debug)]
 pub enum Entry<T> {
     Hyperelastic(HyperelasticLaw<T>),
@@ -42,6 +43,7 @@ pub enum Entry<T> {
         frame: LinearFrame,
         criterion: i32,
     },
+    Own(OwnEntry<T>),
     Solid(Solid),
 }
 
@@ -64,35 +66,19 @@ pub struct Medium<T> {
     pub distortion_speed: f64,
 }
 
-/// A yarn law, prepared.
-///
-/// # Errors
-/// A property is wrong.
-fn yarn_entry<T: Number>(material: &Material) -> Result<Entry<T>, Error> {
-    let values: Vec<T> = material.values().into_iter().map(T::from_f64).collect();
-    let entry = match &material.law {
-        Law::Own(_) => prepared_frictional(&values).map(Entry::Frictional),
-        _ => prepared(&values).map(Entry::Hyperelastic),
-    };
-    entry.map_err(Error::Input)
-}
-
-impl<T: Number> Medium<T> {
+impl<T: Number> Entry<T> {
+    /// A material's law, prepared, and the linear elastic law's stress at failure.
+    ///
     /// # Errors
-    /// The frame is the spin's, which needs axes of its own; a property that is wrong.
-    pub fn new(material: &Material, density: f64, control: Control) -> Result<Self, Error> {
-        // What resists a section's distortion: the modes bend and shear elements mostly across the fibre.
-        let (entry, along, across, shear, distortion, strength) = match (&material.law, material.law.yarn()) {
-            (_, Some(yarn)) => {
-                // W = k_tc |I_tc|^p + ½ k_td I_td² by one transverse logarithmic strain, of which I_tc and I_td are
-                // half; with p >= 2 this is its stiffness at |I_tc| = 1, and less before. I_td is half of a shear, too.
-                // Fibres that slide hold less.
-                let hyperelastic::Properties { k_el, k_tc, p, k_td, .. } = yarn;
-                let across = (p * (p - 1.0) * k_tc + k_td) / 4.0;
-                (yarn_entry(material)?, k_el, across, k_td / 4.0, k_td, 0.0)
-            }
-            (&Law::LinearElastic { law, properties, frame, criterion }, None) => {
-                let values = <[f64; LINEAR_ELASTIC_PROPERTIES]>::from(properties);
+    /// The frame is the spin's, which needs axes of its own; a property that is wrong; a law of one's own that the host
+    /// cannot run.
+    fn new(material: &Material) -> Result<(Self, f64), Error> {
+        let values: Vec<T> = material.values().into_iter().map(T::from_f64).collect();
+        let yarn = match &material.law {
+            Law::Hyperelastic { .. } => prepared(&values).map(Entry::Hyperelastic),
+            Law::Own(own) if own.is_frictional() => prepared_frictional(&values).map(Entry::Frictional),
+            Law::Own(own) => return OwnEntry::new(own).map(|entry| (Entry::Own(entry), 0.0)),
+            Law::LinearElastic { properties, frame, criterion, .. } => {
                 let frame = match frame {
                     Rotation::Fibre => LinearFrame::Fibre,
                     Rotation::Polar => LinearFrame::Polar,
@@ -104,27 +90,32 @@ impl<T: Number> Medium<T> {
                     Criterion::LargestPrincipal => TORON_CRITERION_PRINCIPAL,
                     Criterion::FibreStress => TORON_CRITERION_FIBRE,
                 };
-                let prepared = prepared_linear(&values.map(T::from_f64)).map_err(Error::Input)?;
-                let linear_elastic::Properties { e_1, e_2, g, sigma_lim, .. } = properties;
-                let entry = Entry::LinearElastic { law: prepared, modulus: e_1, frame, criterion };
-                (entry, law.wave_modulus(), e_2, g, e_2, sigma_lim)
-            }
-            (Law::Hyperelastic { .. } | Law::Own(_), None) => {
-                let allowed = "hyperelastic, linear-elastic, frictional";
-                return Err(Error::Input(format!("the law is {}; allowed here: {allowed}", material.law_name())));
+                let law = prepared_linear(&values).map_err(Error::Input)?;
+                let entry = Entry::LinearElastic { law, modulus: properties.e_1, frame, criterion };
+                return Ok((entry, properties.sigma_lim));
             }
         };
+        yarn.map(|entry| (entry, 0.0)).map_err(Error::Input)
+    }
+}
+
+impl<T: Number> Medium<T> {
+    /// # Errors
+    /// As for the law's entry: a property that is wrong, a law that the host cannot run.
+    pub fn new(material: &Material, density: f64, control: Control) -> Result<Self, Error> {
+        let (entry, strength) = Entry::new(material)?;
+        let Resistance { along, across, shape, hourglass } = material.law.resistance();
         Ok(Medium {
             entry,
             density,
             control,
-            hourglass: control.hourglass * distortion,
+            hourglass: control.hourglass * hourglass,
             bounds: if control.by_direction { wave_bounds(material) } else { WaveBounds::Isotropic },
             fails: material.can_fail(),
             strength,
             wave_speed: (along / density).sqrt(),
             compaction_speed: (across / density).sqrt(),
-            distortion_speed: (shear / density).sqrt(),
+            distortion_speed: (shape / density).sqrt(),
         })
     }
 
@@ -145,14 +136,24 @@ impl<T: Number> Medium<T> {
         }
     }
 
-    /// The law's number of state variables, and where the latch stands among them.
+    /// The number of state variables that are kept, and where the latch stands among them.
     pub fn state(&self) -> (usize, usize) {
-        let law = match self.entry {
+        let law = match &self.entry {
             Entry::Hyperelastic(_) => &description::HYPERELASTIC,
             Entry::Frictional(_) => &description::FRICTIONAL,
             Entry::LinearElastic { .. } => &description::LINEAR_ELASTIC,
+            Entry::Own(own) => return (own.rows(), own.failed),
             Entry::Solid(_) => return (SOLID_STATE, SOLID_FAILED),
         };
         (law.state.len(), law.failed)
+    }
+
+    /// The place of the energy lost among them, of a law that tells it.
+    pub fn lost(&self) -> Option<usize> {
+        match &self.entry {
+            Entry::Frictional(_) => description::FRICTIONAL.lost,
+            Entry::Own(own) => own.lost(),
+            Entry::Hyperelastic(_) | Entry::LinearElastic { .. } | Entry::Solid(_) => None,
+        }
     }
 }

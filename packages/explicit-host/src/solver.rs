@@ -157,7 +157,9 @@ impl<T: Number> Solver<T> {
             law_outputs: measured || self.all_outputs,
             energy_balance: measured,
             step: self.state.step,
+            time: self.state.time,
             shortest,
+            has_failed: self.state.failed.is_some(),
             reference: self.state.stable.unwrap_or(f64::INFINITY),
         };
         self.compute_forces(options)?;

@@ -19,7 +19,7 @@ pub mod entries;
 pub mod eval;
 pub mod load_path;
 pub mod material;
-mod own_program;
+pub mod own_program;
 pub mod params;
 pub mod unit_expression;
 pub mod units;

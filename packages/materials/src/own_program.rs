@@ -13,9 +13,13 @@ use toron::host::prepared::AsNumbers;
 use toron_shared::build;
 use toron_shared::command_line;
 use toron_shared::console::{print, print_error};
+use toron_shared::error::Error;
 
 /// The commands whose output is tables, which they can print as JSON too.
-const WITH_TABLES: [&str; 3] = ["run", "params", "bench"];
+pub const WITH_TABLES: [&str; 3] = ["run", "params", "bench"];
+
+/// The number of the sources of the commands here.
+pub const SOURCES: &str = env!("TORON_SOURCES");
 
 #[derive(Parser)]
 struct Arguments {
@@ -23,8 +27,9 @@ struct Arguments {
     command: Command,
 }
 
+/// What a program for a law of one's own does with the material alone.
 #[derive(Subcommand)]
-enum Command {
+pub enum Command {
     /// Take one element along a load path; write a table and a plot of it.
     Run(load_path::command::Arguments),
     /// Print the tables of properties and state variables, or one preset's values.
@@ -60,11 +65,23 @@ pub fn of_law<M>(name: &'static str, number: i32) -> ExitCode
 where
     M: Material<f64> + Material<f32>,
     <M as Material<f64>>::Law: AsNumbers<f64> + Send + Sync + 'static,
-    <M as Material<f32>>::Law: AsNumbers<f32>,
+    <M as Material<f32>>::Law: AsNumbers<f32> + Send + Sync + 'static,
 {
-    build::declare::<Arguments>(env!("TORON_SOURCES"));
+    build::declare::<Arguments>(SOURCES);
+    with_law::<M>(name, number, |law| {
+        let command = adapted(Arguments::command(), law, "load paths on one element, property tables, decks");
+        command_line::run(command, &WITH_TABLES, |arguments: Arguments| arguments.command.run(law))
+    })
+}
+
+/// Calls a program with the law, which is there as long as the program runs.
+pub fn with_law<M>(name: &'static str, number: i32, program: impl FnOnce(&'static OwnLaw) -> ExitCode) -> ExitCode
+where
+    M: Material<f64> + Material<f32>,
+    <M as Material<f64>>::Law: AsNumbers<f64> + Send + Sync + 'static,
+    <M as Material<f32>>::Law: AsNumbers<f32> + Send + Sync + 'static,
+{
     match OwnLaw::new::<M>(name, number) {
-        // As long as the program runs, its law is there.
         Ok(law) => program(Box::leak(Box::new(law))),
         Err(reason) => {
             print_error(&format!("{reason}\n"));
@@ -73,12 +90,12 @@ where
     }
 }
 
-fn program(law: &'static OwnLaw) -> ExitCode {
-    let laws = Laws::Own(law);
-    let command = Arguments::command()
-        .name(laws.program())
+/// The arguments of a program for this law, which does what `about` says.
+pub fn adapted(command: clap::Command, law: &'static OwnLaw, about: &str) -> clap::Command {
+    command
+        .name(Laws::Own(law).program())
         .version(params::version())
-        .about(format!("The {}: load paths on one element, property tables, decks", law.description.title))
+        .about(format!("The {}: {about}", law.description.title))
         // There is one law, which has no demonstration and no built-in presets.
         .mut_subcommand("run", |run| {
             let help = "The load path, a file as toron's guide to load paths describes it";
@@ -90,16 +107,24 @@ fn program(law: &'static OwnLaw) -> ExitCode {
         .mut_subcommand("deck", |deck| {
             let preset = "The material: a file NAME.toml";
             deck.mut_arg("law", |law| law.hide(true)).mut_arg("preset", |argument| argument.help(preset))
-        });
-    command_line::run(command, &WITH_TABLES, |arguments: Arguments| match arguments.command {
-        Command::Run(arguments) => load_path::command::run(laws, &arguments),
-        Command::Params(arguments) => params::print_tables(laws, &arguments),
-        Command::Deck(arguments) => deck::command::run(laws, &arguments),
-        Command::Bench(arguments) => bench::own_law::run(law, &arguments),
-        Command::Header => {
-            print(&(law.header)(law.symbol));
-            Ok(())
+        })
+}
+
+impl Command {
+    /// # Errors
+    /// Those of the command.
+    pub fn run(self, law: &'static OwnLaw) -> Result<(), Error> {
+        let laws = Laws::Own(law);
+        match self {
+            Command::Run(arguments) => load_path::command::run(laws, &arguments),
+            Command::Params(arguments) => params::print_tables(laws, &arguments),
+            Command::Deck(arguments) => deck::command::run(laws, &arguments),
+            Command::Bench(arguments) => bench::own_law::run(law, &arguments),
+            Command::Header => {
+                print(&(law.header)(law.symbol));
+                Ok(())
+            }
+            Command::Eval { via, tangent } => own_law::lines(law, via, tangent),
         }
-        Command::Eval { via, tangent } => own_law::lines(law, via, tangent),
-    })
+    }
 }

@@ -9,6 +9,7 @@
 //! - what scenes of those two have in common, their keys: [`scene_keys`]; cases over their scene: [`layers`];
 //! - woven panels as meshes of hexahedra (`toron weave`): [`weave`];
 //! - a scene as a solver's whole deck (`--deck` of `toron fabric`, `impact` and `weave`): [`scene_deck`];
+//! - yarns and panels of a law of one's own, in a program of three lines: [`of_law`];
 //! - histories of a scene from several hosts (`toron compare`): [`compare`];
 //! - strength that scatters along a yarn: [`strength`];
 //! - numbers of chance, roots, the level of intervals: [`chance`], [`root`](mod@root), [`confidence`].
@@ -20,6 +21,7 @@ pub mod fabric;
 pub mod impact;
 pub mod layers;
 mod losses;
+pub mod own_program;
 pub mod residual;
 pub mod root;
 pub mod scene_deck;
@@ -27,3 +29,5 @@ pub mod scene_keys;
 pub mod strength;
 pub mod v50;
 pub mod weave;
+
+pub use own_program::of_law;

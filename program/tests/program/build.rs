@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::process::Command;
 
-use toron_build_number::{OF_MATERIALS, OF_PROGRAM, checksum};
+use toron_build_number::{OF_MATERIALS, OF_PROGRAM, OF_STRIKES, checksum};
 
 use toron_test_support::library::{ROOT, folder, run};
 
@@ -63,6 +63,9 @@ fn of_program() -> Vec<&'static str> {
 #[test]
 fn the_checksum_is_of_every_package_of_a_program() {
     assert_eq!(folders_of("toron-materials"), OF_MATERIALS);
+    let mut of_strikes = [&OF_MATERIALS[..], &OF_STRIKES].concat();
+    of_strikes.sort_unstable();
+    assert_eq!(folders_of("toron-strikes"), of_strikes);
     let mut of_program = of_program();
     of_program.sort_unstable();
     assert_eq!(folders_of("toron-program"), of_program);

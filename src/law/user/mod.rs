@@ -20,6 +20,7 @@ pub use super::description::{Description, Direction, MOST_DIRECTIONS, Reads};
 pub use super::number::dual::Dual;
 pub use super::number::real::Real;
 pub use super::number::{tensor, vector};
+pub use super::resistance::Resistance;
 
 /// What the table of properties is made of.
 pub mod parameters {
@@ -89,6 +90,13 @@ pub trait UserMaterial: Copy + Default + Send + Sync + 'static {
         _step: &Step<R, Self::State<R>>,
         _response: &Response<R, Self::State<R>>,
     ) -> Option<R> {
+        None
+    }
+
+    /// What resists the motions of an element at rest, from the [prepared](Self::prepare) properties: `impact` takes
+    /// artificial viscosity and hourglass control of it. `None`: that of an isotropic solid in which no wave is slower than
+    /// the law's fastest one, which holds a section too stiff if the fibres are much stiffer than it.
+    fn resistance(_properties: &Self::Properties<f64>) -> Option<Resistance> {
         None
     }
 }
@@ -361,6 +369,11 @@ unsafe impl<M: UserMaterial, T: Precision> Law<T> for User<M, T> {
     fn bulk_and_shear(&self) -> [T; 2] {
         let modulus = self.doubled().wave_modulus_at_rest();
         [T::splat(0.5 * modulus), T::splat(0.375 * modulus)]
+    }
+
+    fn resistance(&self) -> Resistance {
+        M::resistance(&self.doubled().properties)
+            .unwrap_or_else(|| Resistance::isotropic(Law::bulk_and_shear(&self.doubled())))
     }
 
     fn told(&self, code: i32) -> Result<i32, Error> {

@@ -8,7 +8,7 @@ pub mod viscoelastic;
 use toron::user::parameters::{NUMBER, Property, STRESS, component, positive, positive_or_zero};
 use toron::user::state::{ALIVE, ENERGY_DENSITY, FAILED, StateVariable, variable};
 use toron::user::vector::{dot, image, scale, transposed};
-use toron::user::{Description, Direction, Reads, Real, Response, Step, UserMaterial};
+use toron::user::{Description, Direction, Reads, Real, Resistance, Response, Step, UserMaterial};
 
 #[derive(Clone, Copy, Debug, Default)]
 pub struct ReinforcedSolid;
@@ -98,5 +98,11 @@ impl UserMaterial for ReinforcedSolid {
         let (square, volume) = (dot(a, a), c.lambda * (one - step.log_jacobian()) + c.mu);
         let fibres = c.k * square * (R::splat(4.0) * square + R::splat(2.0) * (square - one).max(zero));
         Some(volume.max(zero) + c.mu * largest + fibres)
+    }
+
+    /// Waves along and across the fibres; what holds a section's shape is the solid alone.
+    fn resistance(&[mu, lambda, k, ..]: &[f64; 7]) -> Option<Resistance> {
+        let across = lambda + 2.0 * mu;
+        Some(Resistance { along: across + 4.0 * k, across, shape: mu, hourglass: mu })
     }
 }

@@ -102,11 +102,7 @@ impl UserMaterial for ViscoelasticSolid {
         let (mut fq, mut k) = (rows, 0);
         while k < 3 {
             let r = rows[k];
-            fq[k] = [
-                dot(r, [q[0], q[3], q[5]]),
-                dot(r, [q[3], q[1], q[4]]),
-                dot(r, [q[5], q[4], q[2]]),
-            ];
+            fq[k] = [dot(r, [q[0], q[3], q[5]]), dot(r, [q[3], q[1], q[4]]), dot(r, [q[5], q[4], q[2]])];
             k += 1;
         }
         let (solid, volume) = (c.mu * inverse, c.lambda * step.log_jacobian() * inverse);

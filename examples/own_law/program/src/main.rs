@@ -1,5 +1,6 @@
-//! A program for the reinforced solid: `reinforced run`, `params`, `deck`, `eval`, `header` and `bench`.
+//! A program for the reinforced solid: `reinforced run`, `impact`, `fabric`, `params`, `deck`, `eval`,
+//! `header` and `bench`.
 
 fn main() -> std::process::ExitCode {
-    toron_materials::of_law::<reinforced_solid::ReinforcedSolid>("REINFORCED", 3)
+    toron_strikes::of_law::<reinforced_solid::ReinforcedSolid>("REINFORCED", 3)
 }

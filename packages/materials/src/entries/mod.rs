@@ -3,5 +3,6 @@
 pub mod aligned;
 pub mod blocks;
 pub mod hosts;
+pub mod own_block;
 pub mod precision;
 pub mod step;

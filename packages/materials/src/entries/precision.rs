@@ -2,6 +2,8 @@
 
 use std::ffi::c_char;
 
+use super::own_block::PrepareBlock;
+use crate::material::own_law::OwnLaw;
 use toron::Hyperelastic;
 use toron::host::abaqus::ExplicitLaw;
 use toron::host::lsdyna::UserRoutines;
@@ -44,6 +46,8 @@ pub trait BlockPrecision: openradioss::MyReal + Default + FromF64 + Send + Sync 
     const LSDYNA: Routine<lsdyna::Umat<Self>>;
     const LSDYNA_VECTOR: Routine<lsdyna::UmatVector<Self>>;
     const OPENRADIOSS: OpenradiossEntry<Self>;
+    /// What prepares a law that is known by its description alone.
+    fn own(law: &OwnLaw) -> PrepareBlock<Self>;
 }
 
 /// An entry that prepares a law, one that takes it, and one that takes the properties; the last two arguments are for a
@@ -76,6 +80,10 @@ impl BlockPrecision for f64 {
     const LSDYNA: Routine<lsdyna::Umat<f64>> = <Hyperelastic<f64>>::umat;
     const LSDYNA_VECTOR: Routine<lsdyna::UmatVector<f64>> = <Hyperelastic<f64>>::umat_vector;
     const OPENRADIOSS: OpenradiossEntry<f64> = openradioss::group_f64;
+
+    fn own(law: &OwnLaw) -> PrepareBlock<f64> {
+        law.blocks.0
+    }
 }
 
 impl BlockPrecision for f32 {
@@ -98,4 +106,8 @@ impl BlockPrecision for f32 {
     const LSDYNA: Routine<lsdyna::Umat<f32>> = <Hyperelastic<f32>>::umat;
     const LSDYNA_VECTOR: Routine<lsdyna::UmatVector<f32>> = <Hyperelastic<f32>>::umat_vector;
     const OPENRADIOSS: OpenradiossEntry<f32> = openradioss::group_f32;
+
+    fn own(law: &OwnLaw) -> PrepareBlock<f32> {
+        law.blocks.1
+    }
 }

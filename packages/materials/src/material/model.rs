@@ -6,9 +6,10 @@ use super::laws::LawName;
 use super::own_law::Own;
 use super::preset::Guesses;
 use toron::law::parameters::{HYPERELASTIC_PROPERTIES, LINEAR_ELASTIC_PROPERTIES, Property, STRESS};
+use toron::law::resistance::Resistance;
 use toron::law::state::{FAILURE_INDEX, FRICTIONAL_FAILED, INVARIANTS, LINEAR_LARGEST, LINEAR_STRESS, StateVariable};
-use toron::law::status;
 use toron::law::{hyperelastic, linear_elastic};
+use toron::law::{interface, status};
 use toron::{Criterion, Hyperelastic, LinearElastic, Measure, Request, Rotation};
 
 /// A law, prepared, and the properties that it was prepared from.
@@ -122,6 +123,15 @@ impl Law {
             Law::Hyperelastic { properties, .. } => Some(*properties),
             Law::Own(own) if own.is_frictional() => Some(array(&own.values).into()),
             Law::LinearElastic { .. } | Law::Own(_) => None,
+        }
+    }
+
+    /// What resists the motions of an element.
+    pub fn resistance(&self) -> Resistance {
+        match self {
+            Law::Hyperelastic { law, .. } => interface::Law::resistance(law),
+            Law::LinearElastic { law, .. } => interface::Law::resistance(law),
+            Law::Own(own) => own.resistance(),
         }
     }
 

@@ -8,6 +8,7 @@ use toml::Spanned;
 use super::file::MaterialFile;
 use super::laws::Laws;
 use super::model::{Law, Material};
+use super::own_law::Own;
 use crate::material::file::read_material;
 use toron::Rotation;
 use toron::host::units::UnitSystem;
@@ -22,9 +23,11 @@ const ROUNDING: f64 = 1e-9;
 pub const HYPERELASTIC: &str = "hyperelastic";
 pub const LINEAR_ELASTIC: &str = "linear-elastic";
 pub const FRICTIONAL: &str = "frictional";
+/// Of a law of one's own, in a program for it.
+pub const MATERIAL: &str = "material";
 
 /// The tables of materials, each with what is found there.
-pub type Tables<T> = [(&'static str, T); 3];
+pub type Tables<T> = [(&'static str, T); 4];
 
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
 #[serde(rename_all = "kebab-case")]
@@ -34,6 +37,9 @@ pub enum LawName {
     Frictional,
     /// The hyperelastic law where the yarn is struck, the linear elastic one elsewhere.
     Hybrid,
+    /// That of the program, where a case has a material of it and names no other law.
+    #[serde(skip)]
+    Own,
 }
 
 impl LawName {
@@ -43,13 +49,14 @@ impl LawName {
             LawName::Hyperelastic => Some(HYPERELASTIC),
             LawName::LinearElastic => Some(LINEAR_ELASTIC),
             LawName::Frictional => Some(FRICTIONAL),
+            LawName::Own => Some(MATERIAL),
             LawName::Hybrid => None,
         }
     }
 
     /// Whether a yarn of this law has the material of that table.
     pub fn has(self, table: &str) -> bool {
-        self.table().map_or(table != FRICTIONAL, |own| own == table)
+        self.table().map_or([HYPERELASTIC, LINEAR_ELASTIC].contains(&table), |own| own == table)
     }
 }
 
@@ -76,7 +83,8 @@ impl LawName {
 pub fn own_yarn<'a>(
     tables: impl IntoIterator<Item = (&'static str, &'a Option<Spanned<MaterialFile>>)>,
 ) -> Option<String> {
-    let named = tables.into_iter().filter_map(|(law, table)| Some((law, table.as_ref()?.get_ref().yarn()?)));
+    let of_library = tables.into_iter().filter(|(law, _)| *law != MATERIAL);
+    let named = of_library.filter_map(|(law, table)| Some((law, table.as_ref()?.get_ref().yarn()?)));
     named.into_iter().find(|(law, yarn)| *yarn != LawName::default_yarn(law)).map(|(_, yarn)| yarn.to_string())
 }
 
@@ -89,7 +97,9 @@ pub fn unused_material(tables: Tables<&Option<Spanned<MaterialFile>>>, laws: &[L
 
 /// Which material a case asks for.
 pub struct Choice<'a> {
-    /// [`HYPERELASTIC`], [`LINEAR_ELASTIC`] or [`FRICTIONAL`].
+    /// The laws of the program.
+    pub laws: Laws,
+    /// [`HYPERELASTIC`], [`LINEAR_ELASTIC`], [`FRICTIONAL`] or [`MATERIAL`].
     pub law: &'static str,
     pub failure: FailureName,
     /// As [`own_yarn`] finds it: beside it none is taken by default.
@@ -115,7 +125,7 @@ fn choose_failure(
     let (limit, weights): (usize, &[usize]) = match (&material.law, material.law.yarn()) {
         (_, Some(_)) => (EPS_LIM, &[ALPHA, BETA]),
         (Law::LinearElastic { .. }, None) => (SIGMA_LIM, &[]),
-        (Law::Hyperelastic { .. } | Law::Own(_), None) => return Ok(()), // of no case
+        (Law::Hyperelastic { .. } | Law::Own(_), None) => return Ok(()), // a law of one's own says itself when it fails
     };
     let (off, allowed): (&[usize], &str) = match failure {
         FailureName::None => (&[limit], "uniaxial or multiaxial"),
@@ -147,6 +157,17 @@ fn choose_failure(
     Ok(())
 }
 
+/// That a law can be struck.
+fn check_own(own: &Own) -> Result<(), String> {
+    let name = &own.law.name;
+    if own.law.description.reads.temperature {
+        return Err(format!(
+            "the law {name} reads the temperature, which scenes do not have; allowed: a law that does not"
+        ));
+    }
+    own.check_at_rest().map_err(|error| format!("the law {name}: {error}"))
+}
+
 /// The material of this law's table, which its preset completes, with the failure that the case asks for.
 ///
 /// # Errors
@@ -172,10 +193,21 @@ pub fn material_of_law(
         Some(table) => (table.get_ref().clone(), table.span()),
         None => (MaterialFile::default(), choice.span.clone()),
     };
-    let file = file.or_preset(preset, choice.span.clone());
-    let mut material = read_material(source, Laws::Toron, &file, units, span.clone())?;
+    let (laws, file) = match (law, choice.laws) {
+        (MATERIAL, Laws::Own(_)) => (choice.laws, file),
+        (MATERIAL, Laws::Toron) => {
+            let message = "material is of a law of one's own, whose program runs it; allowed here: hyperelastic, \
+                           linear-elastic, frictional";
+            return Err(source.error(span, message));
+        }
+        _ => (Laws::Toron, file.or_preset(preset, choice.span.clone())),
+    };
+    let mut material = read_material(source, laws, &file, units, span.clone())?;
+    if let Law::Own(own) = &material.law {
+        check_own(own).map_err(|message| source.error(span.clone(), &message))?;
+    }
     let found = material.law.name().text();
-    if found != law {
+    if law != MATERIAL && found != law {
         return Err(source.error(span, &format!("{law} has a material of the law {found}; allowed: {law}")));
     }
     let fibre = material.fibre();

@@ -4,7 +4,9 @@ use std::fmt;
 use std::ptr::{null, null_mut};
 use std::sync::Arc;
 
-use nalgebra::Matrix3;
+use crate::entries::own_block::{BlockLaw, PrepareBlock};
+use crate::entries::precision::BlockPrecision;
+use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
 use toron::Level;
 use toron::host::laws::{LAWS, LibraryLaw};
 use toron::host::prepared::AsNumbers;
@@ -12,6 +14,8 @@ use toron::host::{Material, is_name, is_number};
 use toron::law::block::Circumstances;
 use toron::law::description::Description;
 use toron::law::interface::{Law, Points};
+use toron::law::resistance::Resistance;
+use toron::law::status;
 use toron::{Error, Measure};
 use toron_c::TORON_FRICTIONAL;
 use toron_solvers::c_header;
@@ -30,6 +34,8 @@ pub struct OwnLaw {
     /// What its C header is made by.
     pub header: fn(&str) -> String,
     prepare: Prepare,
+    /// For blocks of points, in both precisions.
+    pub(crate) blocks: (PrepareBlock<f64>, PrepareBlock<f32>),
 }
 
 /// From properties to the law.
@@ -42,7 +48,7 @@ impl OwnLaw {
     where
         M: Material<f64> + Material<f32>,
         <M as Material<f64>>::Law: AsNumbers<f64> + Send + Sync + 'static,
-        <M as Material<f32>>::Law: AsNumbers<f32>,
+        <M as Material<f32>>::Law: AsNumbers<f32> + Send + Sync + 'static,
     {
         if !is_name(symbol) {
             let allowed = "capitals, digits and underscores, a capital first";
@@ -59,6 +65,10 @@ impl OwnLaw {
             library: None,
             header: c_header::<M>,
             prepare: |values| Ok(Arc::new(<M as Material<f64>>::Law::new(values)?)),
+            blocks: (
+                |values| Ok(Arc::new(<M as Material<f64>>::Law::new(values)?)),
+                |values| Ok(Arc::new(<M as Material<f32>>::Law::new(values)?)),
+            ),
         })
     }
 
@@ -67,7 +77,7 @@ impl OwnLaw {
     where
         M: Material<f64> + Material<f32>,
         <M as Material<f64>>::Law: AsNumbers<f64> + Send + Sync + 'static,
-        <M as Material<f32>>::Law: AsNumbers<f32>,
+        <M as Material<f32>>::Law: AsNumbers<f32> + Send + Sync + 'static,
     {
         OwnLaw {
             symbol: law.symbol,
@@ -77,6 +87,10 @@ impl OwnLaw {
             library: Some(law),
             header: c_header::<M>,
             prepare: |values| Ok(Arc::new(<M as Material<f64>>::Law::new(values)?)),
+            blocks: (
+                |values| Ok(Arc::new(<M as Material<f64>>::Law::new(values)?)),
+                |values| Ok(Arc::new(<M as Material<f32>>::Law::new(values)?)),
+            ),
         }
     }
 
@@ -115,6 +129,9 @@ impl fmt::Debug for Own {
         write!(f, "{} {:?}", self.law.symbol, self.values)
     }
 }
+
+/// The stretch at which a bar's stiffness is taken.
+const HARDLY: f64 = 1e-6;
 
 /// Points of a call: component `c` of point `i` is number `c · stride + i` of an array.
 pub struct PointArrays {
@@ -157,6 +174,53 @@ impl Own {
 
     pub fn bulk_and_shear(&self) -> [f64; 2] {
         self.prepared.bulk_and_shear()
+    }
+
+    /// What resists the motions of an element of it.
+    pub fn resistance(&self) -> Resistance {
+        self.prepared.resistance()
+    }
+
+    /// The stiffness of a bar along the fibre, or the first axis, that is hardly stretched: that of the tangent where no
+    /// stress changes across. None where it is not positive.
+    pub fn youngs_modulus(&self) -> Option<f64> {
+        let mut point = self.at_rest(1, 1, Some(Measure::Jaumann));
+        // At rest itself a fibre that bears tension alone has no stiffness yet.
+        let fibre = Vector3::from(self.axes()[0]);
+        let stretched = Matrix3::identity() + HARDLY * fibre * fibre.transpose();
+        point.f.copy_from_slice(stretched.as_slice());
+        self.try_step(&mut point).ok()?;
+        // The least energy of the strains of which the one along the fibre is 1: m·εm = n·ε, ε with shears twice.
+        let [x, y, z] = self.axes()[0];
+        let n = SVector::<f64, 6>::from([x * x, y * y, z * z, x * y, y * z, z * x]);
+        let stiffness = SMatrix::<f64, 6, 6>::from_fn(|i, j| point.tangent[6 * i + j]);
+        let unit = n.normalize();
+        let across = SMatrix::<f64, 6, 6>::identity() - unit * unit.transpose();
+        let free = (across * stiffness * across).pseudo_inverse(1e-12 * stiffness.norm()).ok()?;
+        let coupling = across * stiffness * unit;
+        let modulus = (unit.dot(&(stiffness * unit)) - coupling.dot(&(free * coupling))) / n.norm_squared();
+        Some(modulus).filter(|modulus| *modulus > 0.0 && modulus.is_finite())
+    }
+
+    /// The law in a precision, for blocks of points.
+    ///
+    /// # Errors
+    /// A property does not fit the precision.
+    pub fn block_law<T: BlockPrecision>(&self) -> Result<Arc<dyn BlockLaw<T>>, Error> {
+        let values: Vec<T> = self.values.iter().map(|&value| T::from_f64(value)).collect();
+        T::own(self.law)(&values)
+    }
+
+    /// That the law gives numbers at rest.
+    ///
+    /// # Errors
+    /// It does not: why, as far as it is known.
+    pub fn check_at_rest(&self) -> Result<(), Error> {
+        let code = self.prepared.step(&mut self.at_rest(1, 1, None))?;
+        match self.prepared.told(code)? {
+            status::OK => Ok(()),
+            code => Err(Error::Plain(code)),
+        }
     }
 
     /// The state of a point that nothing has happened to.
@@ -226,6 +290,8 @@ impl Own {
 trait Prepared: Send + Sync {
     fn axes(&self) -> [[f64; 3]; 3];
     fn bulk_and_shear(&self) -> [f64; 2];
+    fn resistance(&self) -> Resistance;
+    fn told(&self, code: i32) -> Result<i32, Error>;
     fn fresh(&self) -> Vec<f64>;
     fn step(&self, points: &mut PointArrays) -> Result<i32, Error>;
 }
@@ -237,6 +303,14 @@ impl<L: Law<f64> + Send + Sync> Prepared for L {
 
     fn bulk_and_shear(&self) -> [f64; 2] {
         Law::bulk_and_shear(self)
+    }
+
+    fn resistance(&self) -> Resistance {
+        Law::resistance(self)
+    }
+
+    fn told(&self, code: i32) -> Result<i32, Error> {
+        Law::told(self, code)
     }
 
     fn fresh(&self) -> Vec<f64> {

@@ -38,17 +38,18 @@ pub enum Tension {
     Logarithmic(f64),
     /// P = E ln λ: the linear elastic law, whose section keeps its area.
     Linear(f64),
-    /// P = E ε: Smith's own.
+    /// P = E ε: Smith's own, and that of a law of one's own, with its stiffness at rest.
     Hooke(f64),
 }
 
 impl Tension {
-    /// The tension of a material; none of a law of one's own, which no scene has.
+    /// The tension of a material; none of a law of one's own that resists no tension at rest.
     pub fn of(material: &Material) -> Option<Tension> {
         match (&material.law, material.law.yarn()) {
             (_, Some(yarn)) => Some(Tension::Logarithmic(yarn.k_el)),
             (Law::LinearElastic { properties, .. }, None) => Some(Tension::Linear(properties.e_1)),
-            (Law::Hyperelastic { .. } | Law::Own(_), None) => None,
+            (Law::Own(own), None) => own.youngs_modulus().map(Tension::Hooke),
+            (Law::Hyperelastic { .. }, None) => None, // not reached: it is a yarn law
         }
     }
 

@@ -15,6 +15,7 @@ use toron_explicit_host::judgement::{Finding, verdict};
 use toron_explicit_host::struck::command;
 use toron_explicit_host::struck::history::Column;
 use toron_explicit_host::struck::summary::Cells;
+use toron_materials::material::laws::Laws;
 use toron_shared::console::print_error;
 use toron_shared::error::Error;
 use toron_shared::file_names::{PANEL, STEPS};
@@ -24,8 +25,8 @@ use toron_shared::file_names::{PANEL, STEPS};
 ///
 /// # Errors
 /// As for [`command::run`].
-pub fn run(path: &Path, output: &Path, restart: bool) -> Result<(), Error> {
-    command::run(&Scene::read(path)?, path, output, restart)
+pub fn run(laws: Laws, path: &Path, output: &Path, restart: bool) -> Result<(), Error> {
+    command::run(&Scene::read_with(laws, path)?, path, output, restart)
 }
 
 /// `toron weave`: the panel of a weave, or of a strike, whose yarns are those of its first case.

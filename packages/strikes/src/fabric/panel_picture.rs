@@ -12,7 +12,6 @@ use crate::weave::surface::{self, Visible};
 use toron::law::parameters::ENERGY_DENSITY;
 use toron_explicit_host::contact::Shape;
 use toron_explicit_host::snapshot::Snapshot;
-use toron_materials::material::model::Law;
 use toron_materials::units::{time, unit};
 use toron_pictures::colour_scale::{Colours, Scale};
 use toron_pictures::page::{self, Area, Drawn};
@@ -70,7 +69,7 @@ const MODES: [&str; 3] = ["Elongation W_el", "Compaction W_tc", "Distortion W_td
 /// What is shown: the modes or, where there is none, the work of the linear law. Of two laws the first view has both.
 fn modes(case: &Case) -> Vec<&'static str> {
     match &case.zones {
-        Zones::One(material) if matches!(material.law, Law::LinearElastic { .. }) => vec!["Work"],
+        Zones::One(material) if material.law.yarn().is_none() => vec!["Work"],
         Zones::One(_) => MODES.to_vec(),
         Zones::Two(..) => vec!["Elongation W_el*", MODES[1], MODES[2]],
     }

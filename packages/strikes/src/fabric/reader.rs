@@ -23,6 +23,7 @@ use toron_explicit_host::mutual_contact::Parameters;
 use toron_explicit_host::struck::blow::DENSITIES;
 use toron_explicit_host::struck::plan::Plan;
 use toron_materials::material::file::MaterialFile;
+use toron_materials::material::laws::Laws;
 use toron_materials::material::model::Material;
 use toron_materials::units;
 use toron_shared::checked::{Checked, Positive, value};
@@ -50,8 +51,16 @@ impl Scene {
     /// # Errors
     /// An input error that names file, line, value and what is allowed.
     pub fn read(path: &Path) -> Result<Scene, Error> {
+        Scene::read_with(Laws::Toron, path)
+    }
+
+    /// The same for a program with these laws.
+    ///
+    /// # Errors
+    /// An input error that names file, line, value and what is allowed.
+    pub fn read_with(laws: Laws, path: &Path) -> Result<Scene, Error> {
         let (name, text) = toml_file::read(path)?;
-        Scene::parse(&name, &text)
+        Scene::parse_with(laws, &name, &text)
     }
 
     /// The scene that `text` describes; `name` stands for the file in messages.
@@ -59,6 +68,14 @@ impl Scene {
     /// # Errors
     /// An input error that names file, line, value and what is allowed.
     pub fn parse(name: &str, text: &str) -> Result<Scene, Error> {
+        Scene::parse_with(Laws::Toron, name, text)
+    }
+
+    /// The same for a program with these laws.
+    ///
+    /// # Errors
+    /// An input error that names file, line, value and what is allowed.
+    pub fn parse_with(laws: Laws, name: &str, text: &str) -> Result<Scene, Error> {
         let source = Source { name, text };
         let tables = source.tables()?;
         layers::check::<Table<PanelKeys>>(&source, tables.get_ref())?;
@@ -66,7 +83,7 @@ impl Scene {
         let units = units::system(&source, &file.units)?;
         let cloth = Arc::new(read_cloth(&source, tables.get_ref(), &units, None)?);
         let beside = ["weave", "ply", "mesh"];
-        let cases = read_cases((&source, &units), tables.get_ref(), &beside, &["summary"], |reader, case| {
+        let cases = read_cases((&source, laws, &units), tables.get_ref(), &beside, &["summary"], |reader, case| {
             let cloth = reader.cloth(case, &cloth)?;
             let threads = reader.threads(case, &cloth)?;
             reader.panel_case(&case.table.target, cloth, threads, case.name.clone())

@@ -12,19 +12,20 @@ use toron_explicit_host::struck::command;
 use toron_explicit_host::struck::history::Column;
 use toron_explicit_host::struck::run;
 use toron_explicit_host::struck::summary::Cells;
+use toron_materials::material::laws::Laws;
 use toron_shared::error::Error;
 use toron_shared::file_names::{STRAINS, YARN};
 
 /// The plot of all cases.
 const COMPARISON: [&str; 2] = ["residual-speed.svg", "residual-speed.png"];
 
-/// Runs the cases of a scene and writes what came of them to the directory `output`. With `restart`, cases go on from
+/// Runs the cases of a scene, of a program with these laws, and writes what came of them to the directory `output`. With `restart`, cases go on from
 /// their checkpoints there.
 ///
 /// # Errors
 /// As for [`command::run`].
-pub fn run(path: &Path, output: &Path, restart: bool) -> Result<(), Error> {
-    command::run(&Scene::read(path)?, path, output, restart)
+pub fn run(laws: Laws, path: &Path, output: &Path, restart: bool) -> Result<(), Error> {
+    command::run(&Scene::read_with(laws, path)?, path, output, restart)
 }
 
 impl command::Scene for Scene {

@@ -12,6 +12,7 @@ use crate::scene_keys::shots::read_shots;
 use crate::strength::scatter::Strength;
 use toron_explicit_host::contact::{RigidSurface, Shape};
 use toron_explicit_host::mesh::{Section, Yarn};
+use toron_materials::material::laws::Laws;
 use toron_materials::units;
 use toron_shared::checked::{Checked, Whole, value};
 use toron_shared::error::Error;
@@ -30,8 +31,16 @@ impl Scene {
     /// # Errors
     /// An input error that names file, line, value and what is allowed.
     pub fn read(path: &Path) -> Result<Scene, Error> {
+        Scene::read_with(Laws::Toron, path)
+    }
+
+    /// The same for a program with these laws.
+    ///
+    /// # Errors
+    /// An input error that names file, line, value and what is allowed.
+    pub fn read_with(laws: Laws, path: &Path) -> Result<Scene, Error> {
         let (name, text) = toml_file::read(path)?;
-        Scene::parse(&name, &text)
+        Scene::parse_with(laws, &name, &text)
     }
 
     /// The scene that `text` describes; `name` stands for the file in messages.
@@ -39,12 +48,20 @@ impl Scene {
     /// # Errors
     /// An input error that names file, line, value and what is allowed.
     pub fn parse(name: &str, text: &str) -> Result<Scene, Error> {
+        Scene::parse_with(Laws::Toron, name, text)
+    }
+
+    /// The same for a program with these laws.
+    ///
+    /// # Errors
+    /// An input error that names file, line, value and what is allowed.
+    pub fn parse_with(laws: Laws, name: &str, text: &str) -> Result<Scene, Error> {
         let source = Source { name, text };
         let tables = source.tables()?;
         layers::check::<Table<YarnKeys>>(&source, tables.get_ref())?;
         let file: SceneFile = source.parse()?;
         let units = units::system(&source, &file.units)?;
-        let cases = read_cases((&source, &units), tables.get_ref(), &[], &COMMON, |reader, case| {
+        let cases = read_cases((&source, laws, &units), tables.get_ref(), &[], &COMMON, |reader, case| {
             reader.yarn_case(&case.table.target, case.name.clone())
         })?;
         let inner = || cases.iter().map(|case| case.zones.inner());

@@ -10,7 +10,6 @@ use super::scene::{Case, Scene, Zones};
 use toron::law::parameters::ENERGY_DENSITY;
 use toron_explicit_host::mesh::Mesh;
 use toron_explicit_host::snapshot::Snapshot;
-use toron_materials::material::model::Law;
 use toron_materials::units::{time, unit};
 use toron_pictures::colour_scale::{Colours, Scale};
 use toron_pictures::page::{self, Area, Drawn};
@@ -64,7 +63,7 @@ const NEARER: Side = Side { corners: [4, 6], neighbour: [1, 0] };
 /// both.
 fn rows(case: &Case) -> Vec<&'static str> {
     match &case.zones {
-        Zones::One(material) if matches!(material.law, Law::LinearElastic { .. }) => vec!["Work"],
+        Zones::One(material) if material.law.yarn().is_none() => vec!["Work"],
         Zones::One(_) => MODES.to_vec(),
         Zones::Two(..) => vec!["Elongation*", MODES[1], MODES[2]],
     }

@@ -15,10 +15,11 @@ use toron_explicit_host::control_keys::control;
 use toron_explicit_host::medium::Control;
 use toron_explicit_host::struck::plan::Plan;
 use toron_materials::material::file::MaterialFile;
+use toron_materials::material::laws::Laws;
 use toron_materials::material::model::Material;
 use toron_materials::material::of_law::{
-    Choice, FRICTIONAL, FailureName, HYPERELASTIC, LINEAR_ELASTIC, LawName, Tables, material_of_law, own_yarn,
-    unused_material,
+    Choice, FRICTIONAL, FailureName, HYPERELASTIC, LINEAR_ELASTIC, LawName, MATERIAL, Tables, material_of_law,
+    own_yarn, unused_material,
 };
 use toron_materials::material::smith::strike_speed;
 use toron_shared::checked::{Checked, NotNegative, Positive, Whole, value};
@@ -58,6 +59,7 @@ pub struct Keys {
     pub hyperelastic: Option<Spanned<MaterialFile>>,
     pub linear_elastic: Option<Spanned<MaterialFile>>,
     pub frictional: Option<Spanned<MaterialFile>>,
+    pub material: Option<Spanned<MaterialFile>>,
     pub speed: Option<Spanned<Positive>>,
     pub mass: Option<Spanned<Positive>>,
     pub radius: Option<Spanned<Positive>>,
@@ -109,7 +111,8 @@ impl<T: Target> CaseTable for Table<T> {
 
 impl Keys {
     pub fn law(&self) -> LawName {
-        self.law.unwrap_or(LawName::Hyperelastic)
+        let default = if self.material.is_some() { LawName::Own } else { LawName::Hyperelastic };
+        self.law.unwrap_or(default)
     }
 
     pub fn is_single_precision(&self) -> bool {
@@ -118,7 +121,12 @@ impl Keys {
 
     /// The materials' tables, by their law.
     pub fn materials(&self) -> Tables<&Option<Spanned<MaterialFile>>> {
-        [(HYPERELASTIC, &self.hyperelastic), (LINEAR_ELASTIC, &self.linear_elastic), (FRICTIONAL, &self.frictional)]
+        [
+            (HYPERELASTIC, &self.hyperelastic),
+            (LINEAR_ELASTIC, &self.linear_elastic),
+            (FRICTIONAL, &self.frictional),
+            (MATERIAL, &self.material),
+        ]
     }
 
     /// The place of a property that this table itself gives to the material of a law.
@@ -148,7 +156,7 @@ impl Keys {
 /// # Errors
 /// As for that; what `read` refuses.
 pub fn read_cases<'t, T: Target, C>(
-    (source, units): (&Source<'t>, &UnitSystem),
+    (source, laws, units): (&Source<'t>, Laws, &UnitSystem),
     tables: &DeValue<'t>,
     beside: &[&str],
     common: &[&str],
@@ -158,7 +166,7 @@ pub fn read_cases<'t, T: Target, C>(
     let own_yarn = own_yarn(cases.iter().flat_map(|case| case.table.common.materials()));
     let read_case = |case: &Case<Table<T>>| {
         let (keys, own) = (&case.table.common, &case.own.common);
-        read(&Reader { source, units, keys, own, own_yarn: own_yarn.as_deref(), span: case.span() }, case)
+        read(&Reader { source, laws, units, keys, own, own_yarn: own_yarn.as_deref(), span: case.span() }, case)
     };
     cases.iter().map(read_case).collect()
 }
@@ -166,6 +174,8 @@ pub fn read_cases<'t, T: Target, C>(
 /// A case's table and what is needed to read it.
 pub struct Reader<'a> {
     pub source: &'a Source<'a>,
+    /// The laws of the program.
+    pub laws: Laws,
     pub units: &'a UnitSystem,
     /// The case's keys over the scene's, and those of the case's table alone.
     pub keys: &'a Keys,
@@ -219,6 +229,13 @@ impl Reader<'_> {
     /// The materials of the case's law; `distance` is how far the first of two reaches.
     pub fn zones(&self, distance: impl FnOnce() -> Result<f64, Error>) -> Result<Zones, Error> {
         let law = self.keys.law();
+        if let (Laws::Own(own), None, LawName::Hyperelastic) = (self.laws, self.keys.law, law) {
+            let message = format!(
+                "the material is missing; allowed: the table material, of the law {}, or law = \"hyperelastic\" and the like",
+                own.name
+            );
+            return Err(self.source.error(self.span.clone(), &message));
+        }
         let tables = self.keys.materials().into_iter().filter(|(table, _)| law.has(table));
         let materials: Vec<Material> =
             tables.map(|(table, file)| self.material(table, file)).collect::<Result<_, Error>>()?;
@@ -236,7 +253,13 @@ impl Reader<'_> {
         // A property of the scene is wrong only beside the failure of a case: that is the line to change.
         let place = |name: &str| self.own.given(law, name).or(self.own.failure.as_ref().map(Spanned::span));
         let failure = self.keys.failure.as_ref().map_or(FailureName::None, |failure| *failure.get_ref());
-        let choice = Choice { law, failure, own_yarn: self.own_yarn, place: &place, span: self.span.clone() };
+        if let Some(given) = self.keys.failure.as_ref().filter(|_| law == MATERIAL && failure != FailureName::None) {
+            let message =
+                "failure is that of the library's laws; allowed: none, since this law says itself when it fails";
+            return Err(self.source.error(given.span(), message));
+        }
+        let choice =
+            Choice { laws: self.laws, law, failure, own_yarn: self.own_yarn, place: &place, span: self.span.clone() };
         material_of_law(self.source, &choice, table, self.units)
     }
 }
