@@ -161,6 +161,10 @@ impl<R: Real> Real for Dual<R> {
         self.by(self.value.times_power_of_two(k.value), R::splat(1.0).times_power_of_two(k.value))
     }
     #[inline(always)]
+    fn without_slope(self) -> Self {
+        Dual::new(self.value, R::splat(0.0))
+    }
+    #[inline(always)]
     fn reciprocal(self) -> Self {
         let inverse = self.value.reciprocal();
         self.by(inverse, -(inverse * inverse))

@@ -126,6 +126,11 @@ pub trait Real:
     fn reciprocal(self) -> Self {
         Self::splat(1.0) / self
     }
+    /// The same value, as a number that does not change: without its derivative in a number that has one.
+    #[inline(always)]
+    fn without_slope(self) -> Self {
+        self
+    }
     #[doc(hidden)]
     /// Two numbers in one, to compute with at the cost of one; `self` in a type without room for a second (`PAIRS` is false).
     #[inline(always)]

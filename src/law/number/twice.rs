@@ -70,6 +70,7 @@ impl<R: Real> Real for Twice<R> {
         round();
         times_power_of_two(k);
         reciprocal();
+        without_slope();
         quotient(divisor, reciprocal);
     }
 
