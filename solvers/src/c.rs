@@ -1,5 +1,8 @@
 //! C: for a law of the name `NAME` its tables, `NAME_prepare_f64` and `NAME_block_f64` or `_f32`; and the header with their prototypes.
 
+use std::path::Path;
+use std::{fs, io};
+
 use toron::host::Material;
 use toron::host::constants::TORON_MESSAGE_CAPACITY;
 use toron::host::listed::prepared_size;
@@ -93,6 +96,29 @@ macro_rules! c {
             }
         };
     )+};
+}
+
+/// Writes the [header](c_header) of a law in C to a file, unless it is there already: for the build script of the law's library.
+///
+/// ```no_run
+/// toron_solvers::write_header::<toron::Hyperelastic>("YARN", "../yarn.h").expect("the folder can be written");
+/// ```
+///
+/// # Errors
+/// The file cannot be written.
+pub fn write_header<M>(name: &str, file: impl AsRef<Path>) -> io::Result<()>
+where
+    M: Material<f64> + Material<f32>,
+    <M as Material<f64>>::Law: AsNumbers<f64>,
+    <M as Material<f32>>::Law: AsNumbers<f32>,
+{
+    let (file, header) = (file.as_ref(), c_header::<M>(name));
+    // Cargo runs the script again when the file has gone or is another one.
+    println!("cargo::rerun-if-changed={}", file.display());
+    if fs::read_to_string(file).is_ok_and(|there| there == header) {
+        return Ok(());
+    }
+    fs::write(file, header)
 }
 
 /// The header of a law in C, from its tables: what a library exports that has the law under this name, in either precision.

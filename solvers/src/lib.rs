@@ -24,7 +24,7 @@ pub mod mgis;
 #[doc(hidden)]
 pub mod openradioss;
 
-pub use c::c_header;
+pub use c::{c_header, write_header};
 
 // What the macros name, in whatever package they are used.
 #[doc(hidden)]

@@ -165,18 +165,33 @@ fn a_new_law_is_the_example_under_its_own_name() {
         assert!(String::from_utf8_lossy(&refused.stderr).contains(message), "{refused:?}");
     }
     assert!(run(&["maxwell-yarn", "7"]).status.success());
-    for file in ["Cargo.toml", "double/Cargo.toml", "double/src/lib.rs", "program/Cargo.toml", "program/src/main.rs"] {
+    for file in [
+        "Cargo.toml",
+        "header.rs",
+        "double/Cargo.toml",
+        "double/src/lib.rs",
+        "program/Cargo.toml",
+        "program/src/main.rs",
+    ] {
         let text = std::fs::read_to_string(folder.join(file)).expect(file).to_lowercase();
-        assert!(!text.contains("reinforced") && !text.contains("viscoelastic") && !text.contains("own_law"), "{text}");
+        assert!(
+            !text.contains("reinforced")
+                && !text.contains("viscoelastic")
+                && !text.contains("plastic")
+                && !text.contains("own_law"),
+            "{text}"
+        );
     }
     let library = std::fs::read_to_string(folder.join("double/src/lib.rs")).expect("the library");
     assert!(library.contains("maxwell_yarn::MaxwellYarn as \"MAXWELL_YARN\", user 7;"), "{library}");
     let mut cargo = Command::new(env!("CARGO"));
     cargo
-        .args(["check", "--quiet", "--offline", "--package", "maxwell-yarn", "--target-dir"])
+        .args(["check", "--quiet", "--offline", "--package", "maxwell-yarn-double", "--target-dir"])
         .arg(folder.join("target"));
     let checked = cargo.current_dir(&folder).output().expect("cargo runs");
     assert!(checked.status.success(), "{}", String::from_utf8_lossy(&checked.stderr));
+    let header = std::fs::read_to_string(folder.join("maxwell-yarn.h")).expect("the build has written the header");
+    assert!(header.contains("int32_t MAXWELL_YARN_prepare_f64("), "{header}");
 }
 
 #[test]
