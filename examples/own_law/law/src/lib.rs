@@ -3,6 +3,7 @@
 //! W = ½ μ (I1 − 3) − μ ln J + ½ Λ (ln J)² + ½ k (I4 − 1)² per reference volume, with I1 = tr FᵀF, I4 = a·a and a = Fm, the image of
 //! the unit fibre direction m; it fails where the stretch of the fibre reaches a limit.
 
+pub mod plastic;
 pub mod viscoelastic;
 
 use toron::user::parameters::{NUMBER, Property, STRESS, component, positive, positive_or_zero};
