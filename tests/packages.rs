@@ -90,6 +90,7 @@ fn found(manifest: &str) -> BTreeMap<String, [Vec<String>; 2]> {
             to.push(text(&dependency["name"]));
         }
         built.sort();
+        built.dedup(); // its build script may need it, too
         tested.sort();
         (text(&package["name"]), [built, tested])
     };
