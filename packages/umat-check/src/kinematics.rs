@@ -23,7 +23,7 @@ impl Increment {
 
     /// The angle of R.
     pub fn angle(&self) -> f64 {
-        Rotation3::from_matrix_unchecked(self.rotation).angle()
+        rotation_vector(&self.rotation).norm()
     }
 
     /// The same with a turn of this angle, if it is larger.
@@ -37,7 +37,7 @@ impl Increment {
 
     /// The deformation from F0 at this part of the increment, along constant rates of stretch and spin.
     pub fn at(&self, part: f64, f0: &Matrix3<f64>) -> Matrix3<f64> {
-        let spin = Rotation3::from_matrix_unchecked(self.rotation).scaled_axis() * part;
+        let spin = rotation_vector(&self.rotation) * part;
         exp(&(self.strain * part)) * Rotation3::from_scaled_axis(spin).matrix() * f0
     }
 }
@@ -46,6 +46,15 @@ impl Increment {
 pub fn rotation_of(f: &Matrix3<f64>) -> Matrix3<f64> {
     let (squared_stretches, axes) = eigen(&(f * f.transpose()));
     rebuilt(&squared_stretches, &axes, |x| 1.0 / x.sqrt()) * f
+}
+
+/// A rotation's axis times its angle; exactly 0 where nothing turns. Rounding leaves cosines above 1, which have no
+/// arc: the angle is that of sine and cosine. Half a turn has no axis here.
+pub fn rotation_vector(rotation: &Matrix3<f64>) -> Vector3<f64> {
+    let of = |i: usize, j: usize| 0.5 * (rotation[(i, j)] - rotation[(j, i)]);
+    let axis = Vector3::new(of(2, 1), of(0, 2), of(1, 0));
+    let sine = axis.norm();
+    if sine == 0.0 { axis } else { axis * (sine.atan2(0.5 * (rotation.trace() - 1.0)) / sine) }
 }
 
 /// ln V of F = V R.
@@ -172,6 +181,19 @@ pub fn unit_strain(components: impl Into<Layout>, index: usize) -> Matrix3<f64> 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_rotation_vector_is_finite_whatever_rounding_leaves() {
+        let more_than_one = Matrix3::identity() * (1.0 + 4.0 * f64::EPSILON);
+        assert_eq!(rotation_vector(&more_than_one), Vector3::zeros());
+        let found = rotation_vector(&(more_than_one + Matrix3::new(0.0, -1e-7, 0.0, 1e-7, 0.0, 0.0, 0.0, 0.0, 0.0)));
+        assert!((found - Vector3::z() * 1e-7).norm() < 1e-20, "{found}");
+        for size in [1e-14, 1e-8, 0.3, 3.0] {
+            let vector = Vector3::new(0.6, -0.48, 0.64) * size;
+            let found = rotation_vector(Rotation3::from_scaled_axis(vector).matrix());
+            assert!((found - vector).norm() < 1e-14 * size.max(1e-2), "{found}");
+        }
+    }
 
     #[test]
     fn an_increment_is_decomposed_and_put_together_again() {

@@ -2,9 +2,9 @@
 
 use std::io;
 
-use nalgebra::{Matrix3, Rotation3};
+use nalgebra::Matrix3;
 
-use super::super::kinematics::{Increment, rotation_of};
+use super::super::kinematics::{Increment, rotation_of, rotation_vector};
 use super::super::material::Material;
 use super::call::{Components, Found, Given, Session, Time};
 
@@ -73,11 +73,10 @@ impl Point {
             let gradient = if material.explicit.stretch_alone { *u } else { turn * f };
             OF_GRADIENT.map(|place| gradient[place])
         };
-        let spin = Rotation3::from_matrix_unchecked(increment.rotation).scaled_axis();
         Given {
             density: material.explicit.density / ((u0 + u1) * 0.5).determinant(),
             strain_increment: components(&increment.strain),
-            spin: spin.into(),
+            spin: rotation_vector(&increment.rotation).into(),
             stretch: [components(&u0), components(&u1)],
             gradient: [gradient(&self.f, &u0, &self.turn), gradient(f1, &u1, turn)],
             stress: self.stress,
