@@ -28,6 +28,10 @@ const LEAST: f64 = 3e-3;
 const INTACT: f64 = 0.95;
 /// The strain of an unloading that asks for the stiffness.
 const PROBE: f64 = 1e-6;
+/// By what the time is longer in which a jump at a corner of the path is asked again, and what is left of it then, at
+/// most, if its stress is viscous: the rate jumps there itself.
+const SLOWER: f64 = 1e3;
+const VISCOUS: f64 = 0.75;
 
 /// The largest change in an increment of a path.
 struct Largest {
@@ -36,8 +40,13 @@ struct Largest {
     size: f64,
     /// How far along the path, and the point behind it.
     at: f64,
+    /// Whether that is the first increment of a leg.
+    at_corner: bool,
     after: Point,
 }
+
+/// The same path with ever smaller increments.
+type Refined = [Option<Largest>; INCREMENTS.len()];
 
 pub fn jumps(session: &mut Session) -> Finding {
     let started = Instant::now();
@@ -46,13 +55,21 @@ pub fn jumps(session: &mut Session) -> Finding {
     let (mut asked, mut failures) = (0, 0);
     for _ in 0..PATHS {
         let strain = direction(&mut rng, session.material) * size.max(1e-3);
-        let found = INCREMENTS.map(|increments| largest(session, &strain, increments, started));
-        let [Some(coarse), Some(middle), Some(fine)] = &found else { continue };
+        let mut found = refined(session, &strain, 1.0, started);
+        let [Some(_), Some(_), Some(fine)] = &found else { continue };
         asked += 1;
-        let stays = middle.change > KEPT[0] * coarse.change && fine.change > KEPT[1] * middle.change;
-        if !stays || fine.change < LEAST * fine.size {
-            continue;
+        if fine.at_corner && jump(&found).is_some() {
+            let change = fine.change;
+            let slow = refined(session, &strain, SLOWER, Instant::now());
+            let [.., Some(fine)] = &slow else { continue };
+            if fine.change < VISCOUS * change {
+                if fine.at_corner {
+                    continue;
+                }
+                found = slow;
+            }
         }
+        let Some(fine) = jump(&found) else { continue };
         let virgin = Point::virgin(session, [1, 1]);
         let (Some(before), Some(after)) =
             (stiffness(session, &virgin, &strain), stiffness(session, &fine.after, &strain))
@@ -88,12 +105,31 @@ pub fn jumps(session: &mut Session) -> Finding {
     Finding::new(Question::Jumps, Verdict::Right, None, text)
 }
 
+/// The path in so many times the time, with each of [`INCREMENTS`].
+fn refined(session: &mut Session, strain: &Matrix3<f64>, slower: f64, started: Instant) -> Refined {
+    INCREMENTS.map(|increments| {
+        let time_step = session.material.time_step * slower * OF_TIME / increments as f64;
+        largest(session, strain, (increments, time_step), started)
+    })
+}
+
+/// The largest change with the smallest increments, if it is a jump.
+fn jump([coarse, middle, fine]: &Refined) -> Option<&Largest> {
+    let (coarse, middle, fine) = (coarse.as_ref()?, middle.as_ref()?, fine.as_ref()?);
+    let stays = middle.change > KEPT[0] * coarse.change && fine.change > KEPT[1] * middle.change;
+    (stays && fine.change >= LEAST * fine.size).then_some(fine)
+}
+
 /// None where the path is not finished or there is no stress.
-fn largest(session: &mut Session, strain: &Matrix3<f64>, increments: usize, started: Instant) -> Option<Largest> {
-    let time_step = session.material.time_step * OF_TIME / increments as f64;
+fn largest(
+    session: &mut Session,
+    strain: &Matrix3<f64>,
+    (increments, time_step): (usize, f64),
+    started: Instant,
+) -> Option<Largest> {
     let mut point = Point::virgin(session, [1, 1]);
     let (mut stress, mut size) = (point.global_stress(session.material), 0.0_f64);
-    let mut found: Option<(f64, f64, Point)> = None;
+    let mut found: Option<(f64, usize, Point)> = None;
     for k in 1..=3 * increments {
         let part = (k % increments) as f64 / increments as f64;
         let part = match k.saturating_sub(1) / increments {
@@ -108,13 +144,14 @@ fn largest(session: &mut Session, strain: &Matrix3<f64>, increments: usize, star
         let next = point.global_stress(session.material);
         let change = (next - stress).norm();
         if found.as_ref().is_none_or(|(largest, ..)| change > *largest) {
-            found = Some((change, k as f64 / (3 * increments) as f64, point.clone()));
+            found = Some((change, k, point.clone()));
         }
         size = size.max(next.norm());
         stress = next;
     }
-    let (change, at, after) = found?;
-    (size > 0.0).then_some(Largest { change, size, at, after })
+    let (change, k, after) = found?;
+    let (at, at_corner) = (k as f64 / (3 * increments) as f64, k % increments == 1);
+    (size > 0.0).then_some(Largest { change, size, at, at_corner, after })
 }
 
 /// The change of the stress over the strain of a small unloading, by two of them, so that a jump is in neither.
