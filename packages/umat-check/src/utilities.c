@@ -51,14 +51,16 @@ static void eigen(double a[3][3], double values[3], double axes[3][3]) {
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++) axes[i][j] = i == j;
     for (int sweep = 0; sweep < 60; sweep++) {
-        if (a[0][1] * a[0][1] + a[0][2] * a[0][2] + a[1][2] * a[1][2] == 0.0) break;
+        if (a[0][1] == 0.0 && a[0][2] == 0.0 && a[1][2] == 0.0) break;
         for (int p = 0; p < 2; p++)
             for (int q = p + 1; q < 3; q++) {
-                if (a[p][q] == 0.0) continue;
+                /* What is below rounding turns nothing: theta and its square would overflow. */
+                if (fabs(a[p][q]) <= 1e-17 * (fabs(a[p][p]) + fabs(a[q][q]))) {
+                    a[p][q] = a[q][p] = 0.0;
+                    continue;
+                }
                 double theta = (a[q][q] - a[p][p]) / (2.0 * a[p][q]);
-                /* Its square must not overflow. */
-                double root = fabs(theta) > 1e100 ? fabs(theta) : sqrt(theta * theta + 1.0);
-                double t = (theta >= 0 ? 1.0 : -1.0) / (fabs(theta) + root);
+                double t = (theta >= 0 ? 1.0 : -1.0) / (fabs(theta) + sqrt(theta * theta + 1.0));
                 double c = 1.0 / sqrt(t * t + 1.0), s = t * c;
                 for (int k = 0; k < 3; k++) {
                     double x = a[k][p], y = a[k][q];
@@ -73,6 +75,7 @@ static void eigen(double a[3][3], double values[3], double axes[3][3]) {
                     axes[p][k] = c * x - s * y;
                     axes[q][k] = s * x + c * y;
                 }
+                a[p][q] = a[q][p] = 0.0;
             }
     }
     for (int i = 0; i < 3; i++) values[i] = a[i][i];
