@@ -205,9 +205,23 @@ fn last(rotation: Matrix3<f64>, count: usize) -> Vec<Matrix3<f64>> {
 
 /// Random histories, and the same with rotations: the largest difference of the stress, over the largest stress of the
 /// history. Each increment in so many equal parts, in its time.
+///
+/// What PNEWDT divides goes other ways turned and not, in between: as long as there are others, increments from there
+/// on are not compared.
 fn compared(
     session: &mut Session,
     parts: usize,
+    turned: impl Fn(&Matrix3<f64>, &Matrix3<f64>) -> Matrix3<f64>,
+    rotations: impl Fn(&mut Rng, &Material, usize, usize) -> (String, Vec<Matrix3<f64>>),
+) -> Result<Worst, String> {
+    let whole = compared_where(session, (parts, true), &turned, &rotations)?;
+    if whole.compared > 0 { Ok(whole) } else { compared_where(session, (parts, false), &turned, &rotations) }
+}
+
+/// The same, of all increments or of those before the first that PNEWDT divides.
+fn compared_where(
+    session: &mut Session,
+    (parts, whole): (usize, bool),
     turned: impl Fn(&Matrix3<f64>, &Matrix3<f64>) -> Matrix3<f64>,
     rotations: impl Fn(&mut Rng, &Material, usize, usize) -> (String, Vec<Matrix3<f64>>),
 ) -> Result<Worst, String> {
@@ -226,7 +240,8 @@ fn compared(
         let mut largest = 0.0_f64;
         for (k, q) in rotations.iter().enumerate() {
             let (stress, seen) = match (&plain[k.min(plain.len() - 1)], &other[k.min(other.len() - 1)]) {
-                (Ok(stress), Ok(seen)) => (stress, seen),
+                (Ok((_, divided)), _) | (_, Ok((_, divided))) if whole && *divided => break,
+                (Ok((stress, _)), Ok((seen, _))) => (stress, seen),
                 (Err(Failure::NotFinite(_)), _) | (_, Err(Failure::NotFinite(_))) => {
                     return Err(format!("not finite with {text}"));
                 }
@@ -249,12 +264,17 @@ fn compared(
     Ok(worst)
 }
 
-/// The stress on global axes after each increment; the last one may be why there is none.
-fn stresses(session: &mut Session, path: &[Matrix3<f64>], time_step: f64) -> Vec<Result<Matrix3<f64>, Failure>> {
+/// The stress on global axes after an increment, and whether PNEWDT has divided it.
+type Stress = (Matrix3<f64>, bool);
+
+/// The stress after each increment; the last one may be why there is none.
+fn stresses(session: &mut Session, path: &[Matrix3<f64>], time_step: f64) -> Vec<Result<Stress, Failure>> {
     let mut point = Point::virgin(session, [1, 1]);
     let mut all = Vec::new();
     for f in path {
-        let found = point.advance_in(session, f, time_step).map(|_| point.global_stress(session.material));
+        let before = point.increments();
+        let found = point.advance_in(session, f, time_step);
+        let found = found.map(|_| (point.global_stress(session.material), point.increments() > before + 1));
         let ends = found.is_err();
         all.push(found);
         if ends {

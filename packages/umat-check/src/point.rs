@@ -179,6 +179,11 @@ impl Point {
         Err(Failure::Refused)
     }
 
+    /// Increments up to now, those that PNEWDT has divided one by one.
+    pub fn increments(&self) -> i32 {
+        self.increment
+    }
+
     /// The point at the beginning of a further step.
     pub fn next_step(&self, begun: Begun) -> Point {
         Point {
