@@ -289,6 +289,8 @@ pub struct Session<'a> {
     pub watched: Option<Vec<&'static str>>,
     /// The stress moves in steps: differences are to be taken of large ones.
     pub coarse: bool,
+    /// The first PNEWDT that is not larger than 0.
+    pub no_step: Option<f64>,
     stress: Guarded,
     state: Guarded,
     modulus: Guarded,
@@ -318,6 +320,7 @@ impl<'a> Session<'a> {
             fields: material.passed_fields(),
             watched: None,
             coarse: false,
+            no_step: None,
             constants: Guarded::new(material.properties.len(), guard)?,
             shared,
             records: true,
@@ -483,6 +486,9 @@ impl<'a> Session<'a> {
             next_step: arguments.next_step,
             by_temperature: arguments.by_temperature,
         };
+        if answer.next_step.is_nan() || answer.next_step <= 0.0 {
+            self.no_step.get_or_insert(answer.next_step);
+        }
         answer.stress[..components].copy_from_slice(self.stress.numbers());
         for (index, &entry) in self.modulus.numbers().iter().enumerate() {
             answer.modulus[index % components][index / components] = entry;

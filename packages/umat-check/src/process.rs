@@ -453,6 +453,10 @@ pub fn histories(session: &mut Session, reads: Reads) -> Finding {
     }
     let refusals = if refused > 0 { format!(", {refused} of which end with PNEWDT") } else { String::new() };
     let time = if done < HISTORIES { format!(" in {} s", TIME.as_secs()) } else { String::new() };
+    if let Some(step) = session.no_step {
+        let text = format!("PNEWDT is {step}: DTIME is multiplied by it, and it has to be larger than 0");
+        return Finding::new(Question::Histories, Verdict::Wrong, None, text).with("PNEWDT");
+    }
     let text = format!("{done} random histories from the initial call{time}{refusals}");
     if refused == done || (long >= MANY && long_refused as f64 > NEARLY_ALL * long as f64) {
         let text = format!("{text}: next to no path into the range can be finished, in five attempts at an increment");
