@@ -503,7 +503,14 @@ pub fn runtime(session: &mut Session) -> Finding {
         let mut point = Point::virgin(session, [1, 1]);
         for f1 in history(&mut rng, session.material, 2).iter().take(30) {
             match point.advance(session, f1) {
-                Ok(_) => {}
+                Ok(answer) if answer.energies.iter().all(|energy| energy.is_finite()) => {}
+                Ok(_) => {
+                    let text = "SSE, SPD or SCD is not finite in an increment of the build that fills unset reals with NaN: a \
+                                variable is used unset";
+                    return Finding::new(Question::Runtime, Verdict::Wrong, None, text)
+                        .with("runtime check")
+                        .with(NOT_FINITE);
+                }
                 Err(Failure::Refused) => break,
                 Err(Failure::NotFinite(call)) => {
                     let answer = session.call_law(&call);

@@ -11,12 +11,14 @@ pub const UNSET: &str = "unset variable";
 /// Numbers of the stress and of DDSDDE in an answer.
 const STRESS: usize = 6;
 const MODULUS: usize = 36;
+const ENERGIES: usize = 3;
 
-/// The bits of stress, state and DDSDDE along a few histories.
+/// The bits of stress, state, DDSDDE and energies along a few histories.
 pub fn answers(session: &mut Session) -> Vec<u64> {
     let all = process::answers_of(session, 0x6e, 8, 40);
     let numbers = all.iter().flat_map(|answer| {
-        answer.stress.into_iter().chain(answer.state.iter().copied()).chain(answer.modulus.into_iter().flatten())
+        let stress_and_state = answer.stress.into_iter().chain(answer.state.iter().copied());
+        stress_and_state.chain(answer.modulus.into_iter().flatten()).chain(answer.energies)
     });
     numbers.map(f64::to_bits).collect()
 }
@@ -35,9 +37,9 @@ pub fn line(filled: &[u64], zeroed: &[u64], states: Option<usize>, named: &[Stri
     })
 }
 
-/// What differs first: the stress, then a state variable, then DDSDDE.
+/// What differs first: the stress, then a state variable, then DDSDDE, then an energy.
 fn difference(filled: &[u64], zeroed: &[u64], states: Option<usize>) -> Option<String> {
-    let length = states.map_or(STRESS, |states| STRESS + states + MODULUS);
+    let length = states.map_or(STRESS, |states| STRESS + states + MODULUS + ENERGIES);
     if filled == zeroed {
         return None;
     }
@@ -62,6 +64,7 @@ fn difference(filled: &[u64], zeroed: &[u64], states: Option<usize>) -> Option<S
         (Some(entry), Some(states)) if (STRESS..STRESS + states).contains(&entry) => {
             format!("STATEV({})", entry - STRESS + 1)
         }
+        (Some(entry), Some(states)) if entry >= STRESS + states + MODULUS => "SSE, SPD or SCD".to_string(),
         (Some(entry), _) if entry >= STRESS => "DDSDDE".to_string(),
         _ => return None,
     })
@@ -77,7 +80,7 @@ mod tests {
 
     #[test]
     fn what_differs_is_named() {
-        let mut zeroed = vec![1.0; STRESS + 2 + MODULUS];
+        let mut zeroed = vec![1.0; STRESS + 2 + MODULUS + ENERGIES];
         let same = bits(&zeroed);
         assert_eq!(difference(&same, &same, Some(2)), None);
         zeroed[STRESS + 1] = 2.0;
@@ -85,9 +88,12 @@ mod tests {
         zeroed[2] = 2.0;
         assert_eq!(difference(&same, &bits(&zeroed), Some(2)).as_deref(), Some("the stress by 5.0e-1 of itself"));
         assert_eq!(difference(&same[1..], &same, Some(2)).as_deref(), Some("increments have no answer"));
-        let mut modulus = vec![1.0; STRESS + 2 + MODULUS];
+        let mut modulus = vec![1.0; STRESS + 2 + MODULUS + ENERGIES];
         modulus[STRESS + 2] = 0.0;
         assert_eq!(difference(&same, &bits(&modulus), Some(2)).as_deref(), Some("DDSDDE"));
+        let mut energy = vec![1.0; STRESS + 2 + MODULUS + ENERGIES];
+        energy[STRESS + 2 + MODULUS + 1] = 0.0;
+        assert_eq!(difference(&same, &bits(&energy), Some(2)).as_deref(), Some("SSE, SPD or SCD"));
     }
 
     #[test]
