@@ -253,7 +253,7 @@ pub fn outputs(session: &mut Session) -> Finding {
     let components = session.material.components;
     let mut unset = [[false; 6]; 6];
     let mut used = [[false; 6]; 6];
-    let mut asked = 0;
+    let (mut asked, mut stress_depends) = (0, false);
     session.watched = Some(Vec::new());
     for (k, path) in paths(session.material, 0x0f, 8, 30).into_iter().enumerate() {
         let mut point = Point::virgin(session, [1, k as i32 + 1]);
@@ -266,6 +266,9 @@ pub fn outputs(session: &mut Session) -> Finding {
             call.unset = f64::from_bits(UNSET);
             let answer = session.call_law(&call);
             asked += 1;
+            let size = zero.stress.iter().fold(0.0_f64, |size, stress| size.max(stress.abs()));
+            let changes = |(one, other): (&f64, &f64)| (one - other).is_nan() || (one - other).abs() > 1e-12 * size;
+            stress_depends |= answer.stress.iter().zip(&zero.stress).any(changes);
             for i in 0..components {
                 for j in 0..components {
                     let entry = answer.modulus[i][j];
@@ -292,6 +295,10 @@ pub fn outputs(session: &mut Session) -> Finding {
     }
     if !written.is_empty() {
         return inputs_written(&written);
+    }
+    if stress_depends {
+        let text = format!("STRESS depends on what was in DDSDDE{} before the call", named(&used));
+        return Finding::new(Question::Outputs, Verdict::Wrong, None, text).with("unset");
     }
     if used.iter().flatten().any(|used| *used) {
         let text = if unset == used {
