@@ -27,6 +27,8 @@ const STRAIGHT: usize = 64;
 const FINER: usize = 4;
 /// Decrease of the dissipation, as a part of the work, that is rounding.
 const REGAINED: f64 = 1e-9;
+/// By how much of the work the dissipation may be more than it.
+const MORE: f64 = 5e-2;
 /// What is left of a difference that comes from the increments, at most; they are a quarter.
 const LEFT: f64 = 0.6;
 
@@ -152,6 +154,8 @@ struct Reported {
     dissipated_untouched: bool,
     /// The largest decrease of SPD + SCD, there and back, as a part of W.
     regained: f64,
+    /// By how much SPD + SCD are more than W and W/J, likewise.
+    excess: f64,
     /// SPD + SCD at the far ends of the paths, all together.
     dissipated: f64,
 }
@@ -167,6 +171,7 @@ fn reported(session: &mut Session, increments: usize) -> Result<Option<Reported>
         untouched: true,
         dissipated_untouched: true,
         regained: 0.0,
+        excess: 0.0,
         dissipated: 0.0,
     };
     let mut asked = 0;
@@ -200,7 +205,7 @@ fn reported(session: &mut Session, increments: usize) -> Result<Option<Reported>
             differences.push((
                 [(elastic - work).abs(), (elastic - by_volume).abs()],
                 [(sum - work).abs(), (sum - by_volume).abs()],
-                before[1] + before[2] - plastic - creep,
+                [before[1] + before[2] - plastic - creep, plastic + creep - work.max(by_volume)],
             ));
             if k == increments {
                 all.dissipated += plastic + creep;
@@ -208,12 +213,13 @@ fn reported(session: &mut Session, increments: usize) -> Result<Option<Reported>
         }
         if largest > 0.0 {
             asked += 1;
-            for (elastic, sum, regained) in differences {
+            for (elastic, sum, [regained, excess]) in differences {
                 for i in 0..2 {
                     all.elastic_alone_from_work[i] = all.elastic_alone_from_work[i].max(elastic[i] / largest);
                     all.from_work[i] = all.from_work[i].max(sum[i] / largest);
                 }
                 all.regained = all.regained.max(regained / largest);
+                all.excess = all.excess.max(excess / largest);
             }
         }
     }
@@ -309,8 +315,8 @@ pub fn dissipation(session: &mut Session) -> Finding {
 
 /// A text for the report where SPD + SCD are set.
 fn accumulated(session: &mut Session, found: &Reported) -> Finding {
-    let finer = reported(session, FINER * STRAIGHT).ok().flatten().map_or(f64::NAN, |finer| finer.dissipated);
-    let part = finer / found.dissipated;
+    let finer = reported(session, FINER * STRAIGHT).ok().flatten();
+    let part = finer.as_ref().map_or(f64::NAN, |finer| finer.dissipated) / found.dissipated;
     if part < 2.0 / FINER as f64 {
         let text = format!(
             "SPD + SCD are those of the increment alone (with a quarter of the increment {part:.2} of them): they are to be added to \
@@ -321,6 +327,14 @@ fn accumulated(session: &mut Session, found: &Reported) -> Finding {
     if found.regained > REGAINED {
         let text = format!("SPD + SCD decrease by {:.1e} of the work done", found.regained);
         return Finding::new(Question::Dissipation, Verdict::Wrong, Some(found.regained), text).with("energy gained");
+    }
+    // What a stress from the beginning has stored is no work.
+    let stored = Point::virgin(session, [1, 1]).stress.iter().any(|stress| *stress != 0.0);
+    let least = finer.map_or(0.0, |finer| finer.excess);
+    if !stored && least > MORE && least > LEFT * found.excess {
+        let text = format!("SPD + SCD are more than the work done, by up to {:.1e} of it", found.excess);
+        return Finding::new(Question::Dissipation, Verdict::Wrong, Some(found.excess), text)
+            .with("more than the work");
     }
     let text = "SPD + SCD never decrease, there and back";
     Finding::new(Question::Dissipation, Verdict::Right, Some(found.regained.max(0.0)), text)

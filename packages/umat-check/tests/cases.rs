@@ -81,6 +81,20 @@ fn each_case_is_told_as_what_it_is() {
     assert!(differences.is_empty(), "{differences}");
 }
 
+/// With steel's density a dissipation per volume is next to nothing per mass.
+#[test]
+fn a_dissipation_per_volume_is_warned_of() {
+    let change = ["DISSIPATED/DENSITY(I)", "DISSIPATED"].map(str::to_string);
+    let law = changed(&corpus("laws/vumat_j2.f"), &[change], "per-volume");
+    let scene = law.with_extension("toml");
+    let text = std::fs::read_to_string(&scene).expect("the law's file");
+    std::fs::write(&scene, text + "density = 7.8e-9\n").expect("it is written");
+    let (code, report) = check(&law, &["--only=dissipation".to_string()]);
+    let lines = report["materials"][0]["lines"].as_array().expect("lines");
+    let line = lines.iter().find(|line| line["line"] == "dissipation").map_or_else(String::new, shown);
+    assert!(code == 0 && line.starts_with("warning:") && line.contains("is it per volume?"), "{code}: {line}");
+}
+
 // ---- in CI
 
 fn written(name: &str) -> String {

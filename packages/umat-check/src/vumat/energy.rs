@@ -19,6 +19,13 @@ const NEAR: f64 = 2e-3;
 const NEAR_OF_OTHERS: f64 = 3e-2;
 /// Of the largest work: what rounding may take away.
 const ROUNDING: f64 = 1e-9;
+/// By how much of the work the dissipation may be more than it.
+const MORE: f64 = 5e-2;
+/// Of the work: the least dissipation that is one, and one that is next to nothing.
+const LEAST: f64 = 1e-3;
+const NOTHING: f64 = 1e-5;
+/// From this error on a known factor is no coincidence, whatever the law.
+const FACTOR: f64 = 0.5;
 /// What is left of a difference that comes from the increments, at most; they are a quarter.
 const LEFT: f64 = 0.6;
 
@@ -33,6 +40,10 @@ struct Reported {
     inelastic_untouched: bool,
     /// The largest decrease of enerInelasNew, of the largest work.
     regained: f64,
+    /// By how much enerInelasNew is more than the work, likewise.
+    excess: f64,
+    /// enerInelasNew at the ends of the paths, of the work per volume.
+    by_volume: f64,
 }
 
 /// Each path in so many increments.
@@ -46,6 +57,8 @@ fn reported(session: &mut Session, increments: usize) -> io::Result<Option<Repor
         untouched: true,
         inelastic_untouched: true,
         regained: 0.0,
+        excess: 0.0,
+        by_volume: 0.0,
     };
     let mut asked = 0;
     for _ in 0..PATHS {
@@ -72,18 +85,20 @@ fn reported(session: &mut Session, increments: usize) -> io::Result<Option<Repor
             let wanted = [density, 1.0, volume].into_iter().map(|by| work / by);
             let wanted = wanted.chain(properties.iter().flat_map(|by| [work / by, of_deformed / by]));
             let differences: Vec<f64> = wanted.map(|wanted| (internal - wanted).abs()).collect();
-            rows.push((differences, regained));
+            rows.push((differences, regained, inelastic * density - work));
             largest = largest.max(work.abs());
         }
         if largest > 0.0 {
+            all.by_volume = all.by_volume.max(inelastic_before / largest);
             asked += 1;
-            for (differences, regained) in rows {
+            for (differences, regained, excess) in rows {
                 let scales = [density, 1.0, 1.0].into_iter().chain(properties.iter().flat_map(|by| [*by; 2]));
                 for (i, (difference, by)) in differences.into_iter().zip(scales).enumerate() {
                     let part = difference * by.abs() / largest;
                     all.differences[i] = all.differences[i].max(if part.is_nan() { f64::INFINITY } else { part });
                 }
                 all.regained = all.regained.max(regained * density / largest);
+                all.excess = all.excess.max(excess / largest);
             }
         }
     }
@@ -125,6 +140,7 @@ pub fn energy(session: &mut Session) -> io::Result<Finding> {
     let verdict = if hyperelastic { Verdict::Wrong } else { Verdict::Warning };
     Ok(match (1..KINDS.len()).find(|&i| found.differences[i] <= near) {
         Some(i) => {
+            let verdict = if figure > FACTOR { Verdict::Wrong } else { verdict };
             Finding::new(Question::Energy, verdict, Some(figure), format!("{text}: it is {}", KINDS[i])).with(KINDS[i])
         }
         None => Finding::new(Question::Energy, verdict, Some(figure), text).with("enerInternNew"),
@@ -142,6 +158,25 @@ pub fn dissipation(session: &mut Session) -> io::Result<Finding> {
             let text = format!("enerInelasNew falls by {:.1e} of the work done", found.regained);
             line(Verdict::Wrong, Some(found.regained), &text).with("energy gained")
         }
+        Some(found) if found.excess > MORE && more_than_work(session, found.excess)? => {
+            let text =
+                format!("enerInelasNew is more than the work done per mass, by up to {:.1e} of it", found.excess);
+            line(Verdict::Wrong, Some(found.excess), &text).with("more than the work")
+        }
+        Some(found) if found.by_volume > LEAST && found.by_volume * session.material.explicit.density < NOTHING => {
+            let part = found.by_volume * session.material.explicit.density;
+            let text = format!(
+                "enerInelasNew is {part:.1e} of the work done per mass, and {:.1e} of that per volume: is it per volume?",
+                found.by_volume
+            );
+            line(Verdict::Warning, Some(part), &text).with(KINDS[1])
+        }
         Some(found) => line(Verdict::Right, Some(found.regained.max(0.0)), "enerInelasNew never falls"),
     })
+}
+
+/// Whether the dissipation is more than the work with smaller increments too.
+fn more_than_work(session: &mut Session, excess: f64) -> io::Result<bool> {
+    let finer = reported(session, FINER * STRAIGHT)?.map_or(0.0, |finer| finer.excess);
+    Ok(finer > MORE && finer > LEFT * excess)
 }
