@@ -170,7 +170,13 @@ pub fn run(program: &str, arguments: &Arguments) -> Result<(), Error> {
         link: arguments.link.clone(),
         fortran: arguments.fc.clone(),
     };
-    let built = compile::compile(file, &work_dir.path, &options)?;
+    let built = match compile::compile(file, &work_dir.path, &options) {
+        Ok(built) => built,
+        Err(error) => {
+            write_report(arguments, &not_built(file, &materials, &error))?;
+            return Err(error);
+        }
+    };
     RunDirectory::check(&arguments.output, &repeated::writes(file))?;
     for material in &mut materials {
         material.symbol.clone_from(&arguments.symbol);
@@ -205,7 +211,16 @@ fn write_wrapper(file: &Path, built: &Built, output: &Path) -> Result<(), Error>
     Ok(())
 }
 
-/// Writes and prints the report.
+/// The report on a file that does not compile: of each material the line `build` alone.
+fn not_built(file: &Path, materials: &[Material], error: &Error) -> Report {
+    let line = Finding::new(Question::Build, Verdict::Wrong, None, error.to_string()).with("not built");
+    let of = |material: &Material| MaterialReport { name: material.name.clone(), law: None, lines: vec![line.clone()] };
+    let mut report = Report::new(&file.display().to_string(), materials.iter().map(of).collect());
+    report.judge(false);
+    report
+}
+
+/// Judges, writes and prints the report.
 fn report_to(program: &str, arguments: &Arguments, report: &mut Report) -> Result<(), Error> {
     if let Some(baseline) = &arguments.baseline {
         let (name, text) = toml_file::read(baseline)?;
@@ -214,6 +229,16 @@ fn report_to(program: &str, arguments: &Arguments, report: &mut Report) -> Resul
     }
     report.judge(arguments.strict);
     let failures = report.failures(arguments.strict);
+    write_report(arguments, report)?;
+    if !arguments.json {
+        let colours = std::io::stdout().is_terminal() && std::env::var_os("NO_COLOR").is_none();
+        print(&report.as_text(program, colours));
+    }
+    if failures.is_empty() { Ok(()) } else { Err(Error::Evaluation(format!("{}: {failures}", report.file))) }
+}
+
+/// Writes the report for other tools, and prints it if that is asked in JSON.
+fn write_report(arguments: &Arguments, report: &Report) -> Result<(), Error> {
     if let Some(path) = &arguments.junit {
         write(path, &ci::junit(report, arguments.strict))?;
     }
@@ -222,11 +247,8 @@ fn report_to(program: &str, arguments: &Arguments, report: &mut Report) -> Resul
     }
     if arguments.json {
         print(&json_text(report)?);
-    } else {
-        let colours = std::io::stdout().is_terminal() && std::env::var_os("NO_COLOR").is_none();
-        print(&report.as_text(program, colours));
     }
-    if failures.is_empty() { Ok(()) } else { Err(Error::Evaluation(format!("{}: {failures}", report.file))) }
+    Ok(())
 }
 
 fn json_text(value: &impl serde::Serialize) -> Result<String, Error> {

@@ -181,6 +181,22 @@ fn junit_and_sarif_are_written() {
 }
 
 #[test]
+fn a_file_that_does_not_compile_has_a_report_too() {
+    let law = changed(&corpus("cases/j2_modes.f"), &[["NINT(PROPS(5))".into(), "NINT(PROPS(5)".into()]], "not-built");
+    let (junit, sarif) = (written("not-built.xml"), written("not-built.sarif"));
+    let arguments = ["--junit", &junit, "--sarif", &sarif].map(str::to_string);
+    let (code, report) = check(&law, &arguments);
+    let line = &report["materials"][0]["lines"][0];
+    assert_eq!(
+        (code, &report["verdict"], &line["line"], &line["verdict"]),
+        (2, &"wrong".into(), &"build".into(), &"wrong".into())
+    );
+    assert!(line["text"].as_str().is_some_and(|text| text.contains("does not compile")), "{line}");
+    assert!(std::fs::read_to_string(junit).expect("JUnit").contains("does not compile"));
+    assert!(std::fs::read_to_string(sarif).expect("SARIF").contains("does not compile"));
+}
+
+#[test]
 fn a_quick_check_asks_less() {
     let law = corpus("cases/yeoh.f");
     let (code, report) = check(&law, &["--props=.8,.1,20".to_string(), "--quick".to_string()]);
