@@ -59,6 +59,7 @@ const NEAR: f64 = 0.1;
 /// As `1.2 %`.
 pub fn percent(part: f64) -> String {
     match 100.0 * part {
+        1e5.. => "more than 1000 times".to_string(),
         of @ 10.0.. => format!("{of:.0} %"),
         of @ 0.01.. => format!("{of:.2} %"),
         of => format!("{of:.0e} %"),

@@ -381,6 +381,7 @@ fn wrong_tangent(
     let entries = judged.named(&all);
     // Where nothing should be there is no measure.
     let size = match difference.worst.is_finite() {
+        true if difference.worst > NO_MEASURE => "wrong by more than 1000 times the stiffness".to_string(),
         true => format!("wrong by up to {}", mistakes::percent(difference.worst)),
         false => "wrong".to_string(),
     };
@@ -447,7 +448,14 @@ fn growth(states: &[State], found: &[Option<Difference>]) -> &'static str {
     }
 }
 
+/// Figures beyond this say no more.
+const NO_MEASURE: f64 = 1e3;
+
 fn convergence(factor: f64) -> String {
+    if factor > NO_MEASURE {
+        let text = "Newton's method may diverge: it multiplies an error by more than 1000, as where DDSDDE is next to singular";
+        return text.to_string();
+    }
     if factor >= 1.0 {
         return format!("Newton's method may diverge: it multiplies an error by up to {factor:.2}");
     }
@@ -598,4 +606,17 @@ fn derivatives(
         jaumann.then(|| of_deformation(session, before, call, f1)).flatten(),
         plain.then(|| of_strain_increment(session, call)).flatten(),
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn figures_that_say_no_more_are_not_given() {
+        assert!(convergence(1.2e16).contains("more than 1000"));
+        assert!(convergence(12.0).contains("up to 12.00"));
+        assert_eq!(mistakes::percent(5.36e6), "more than 1000 times");
+        assert_eq!(mistakes::percent(5.0), "500 %");
+    }
 }
