@@ -45,8 +45,9 @@ pub fn driver(call: &Call, material: &Material, law: &str) -> Option<String> {
     let name = material.name.to_uppercase().replace('\'', "''");
     Some(
         format!(
-            "! One call of the UMAT in {law}, and DDSDDE beside differences of its stress. ABA_PARAM.INC says\n\
-         !   implicit real*8(a-h,o-z)\n\
+            "! One call of the UMAT in {law}, and DDSDDE beside differences of its stress. Where the law includes\n\
+         ! ABA_PARAM.INC, first\n\
+         ! echo '      implicit real*8(a-h,o-z)' > ABA_PARAM.INC\n\
          ! gfortran -std=legacy -ffixed-line-length-132 -I. {law} THIS.f90 THIS.c -lpthread -o one && ./one\n\
          ! THIS.c, beside it, has ROTSIG, XIT and other routines that Abaqus has.\n\
          program one\n  implicit none\n{counts}{declared}{BODY}",

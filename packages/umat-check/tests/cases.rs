@@ -253,8 +253,10 @@ fn a_wrong_tangent_is_reproduced_by_a_program() {
     let said = report["materials"][0]["lines"][1]["text"].as_str().expect("text");
     let (_, said) = said.split_once("worst at (22, 22) ").expect("the entry that is worst");
     let said: Vec<f64> = said.split([' ', ',', ';']).filter_map(|word| word.parse().ok()).collect();
-    let include = Path::new(&folder).join("ABA_PARAM.INC");
-    std::fs::write(include, "      implicit real*8(a-h,o-z)\n").expect("an include");
+    let source = std::fs::read_to_string(Path::new(&folder).join("volume-tangent.f90")).expect("the program");
+    let include = source.lines().find_map(|line| line.strip_prefix("! echo")).expect("how the include is made");
+    let made = std::process::Command::new("sh").current_dir(&folder).args(["-c", &format!("echo{include}")]).status();
+    assert!(made.expect("sh").success());
     let compiled = std::process::Command::new("gfortran")
         .current_dir(&folder)
         .args(["-std=legacy", "-ffixed-line-length-132", "-I.", "-w"])
