@@ -114,10 +114,10 @@ fn objective(session: &mut Session, reads: Reads, asked: &dyn Fn(&mut Session) -
 
 const NOT_OBJECTIVE: &str = "not objective";
 
-/// What a law of this kind may lack: only states of a law of increments have to be turned, and only such a law needs axes
-/// that turn.
+/// What a law of this kind may lack: only tensors in the states of a law of increments have to be turned, and only such a
+/// law needs axes that turn.
 fn advice(material: &Material, reads: Reads) -> &'static str {
-    match (reads == Reads::Total, material.initial.is_empty()) {
+    match (reads == Reads::Total, material.initial.len() < material.components.min(3)) {
         (true, _) => "",
         (false, true) => {
             "; a law with directions of its own needs orientation = true; without NLGEOM that does not matter"

@@ -95,13 +95,16 @@ impl Report {
         for line in &shown {
             text.push_str(&as_text(line, program, colours));
         }
-        let count = |verdict: Verdict| material.lines.iter().filter(|line| line.verdict == verdict).count();
+        let count =
+            |verdict: Verdict| material.lines.iter().filter(|line| line.verdict == verdict && !line.known).count();
+        let known = material.lines.iter().filter(|line| line.known).count();
         let counts =
             [Verdict::Right, Verdict::Wrong, Verdict::Ended, Verdict::Warning, Verdict::NotSure, Verdict::NotReported];
         let counts: Vec<String> = counts
             .into_iter()
             .filter(|&verdict| count(verdict) > 0)
             .map(|verdict| format!("{} {}", count(verdict), verdict.name()))
+            .chain((known > 0).then(|| format!("{known} known")))
             .collect();
         text.push_str(&format!("\n{}\n", counts.join(", ")));
         text
@@ -211,6 +214,7 @@ mod tests {
         assert_eq!(report.failures(false), "");
         report.mark_known(&earlier);
         assert!(report.judge(true).is_empty());
+        assert!(report.as_text("umat-check", false).ends_with("\n1 known\n"), "the counts have it apart");
         // A further kind is news.
         report.materials[0].lines[0].kinds.push("input overwritten".to_string());
         report.mark_known(&earlier);
