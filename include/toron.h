@@ -101,8 +101,8 @@
 #define TORON_STATE_COUNT -211
 
 /*
- The deformation gradient has a determinant ≤ 0 (or one that underflows), or maps the fibre to zero length: an inverted
- element.
+ The deformation gradient has a determinant ≤ 0 (or one that underflows), or maps the fibre to zero length: an
+ inverted element.
  */
 #define TORON_INVERTED -301
 
@@ -122,7 +122,8 @@
 #define TORON_STATE_NOT_FINITE -304
 
 /*
- The fibre direction given for this point is zero, NaN or infinite, or along the second axis of the linear elastic law.
+ The fibre direction given for this point is zero, NaN or infinite, or along the second axis of the linear elastic
+ law.
  */
 #define TORON_FIBRE_DIRECTION -305
 
@@ -265,7 +266,8 @@
 #define TORON_MESSAGE_CAPACITY 512
 
 /*
- A row of the tables of properties and state variables. Set `size`; the rest is written. Texts are null-terminated UTF-8.
+ A row of the tables of properties and state variables. Set `size`; the rest is written. Texts are null-terminated
+ UTF-8.
  */
 typedef struct toron_table_row {
   /*
@@ -290,8 +292,8 @@ typedef struct toron_table_row {
   int32_t has_default;
   double default_value;
   /*
-   The least and the greatest allowed value (infinite if there is no bound); minimum_excluded is 1 if the least value
-   itself is not allowed.
+   The least and the greatest allowed value (infinite if there is no bound); minimum_excluded is 1 if the least
+   value itself is not allowed.
    */
   double minimum;
   double maximum;
@@ -304,9 +306,9 @@ typedef struct toron_table_row {
 } toron_table_row;
 
 /*
- The hyperelastic law, prepared by `toron_hyperelastic_prepare_f64` or `_f32`: numbers only, without a pointer. It may be
- copied, shared by threads and sent to other processes of the same byte order, and needs no release. Its content is the
- library's own; its size is the same in all versions of this interface.
+ The hyperelastic law, prepared by `toron_hyperelastic_prepare_f64` or `_f32`: numbers only, without a pointer. It
+ may be copied, shared by threads and sent to other processes of the same byte order, and needs no release. Its
+ content is the library's own; its size is the same in all versions of this interface.
  */
 typedef struct toron_hyperelastic_f64 {
   /*
@@ -318,9 +320,9 @@ typedef struct toron_hyperelastic_f64 {
 } toron_hyperelastic_f64;
 
 /*
- The hyperelastic law, prepared by `toron_hyperelastic_prepare_f64` or `_f32`: numbers only, without a pointer. It may be
- copied, shared by threads and sent to other processes of the same byte order, and needs no release. Its content is the
- library's own; its size is the same in all versions of this interface.
+ The hyperelastic law, prepared by `toron_hyperelastic_prepare_f64` or `_f32`: numbers only, without a pointer. It
+ may be copied, shared by threads and sent to other processes of the same byte order, and needs no release. Its
+ content is the library's own; its size is the same in all versions of this interface.
  */
 typedef struct toron_hyperelastic_f32 {
   /*
@@ -333,8 +335,8 @@ typedef struct toron_hyperelastic_f32 {
 
 /*
  A point of the hyperelastic law or of the law with friction. Set `size`, and what is wanted; the rest is 0: an array
- that is null is left out, and an output that is left out is not computed. The arrays of the old and the new state may
- be the same.
+ that is null is left out, and an output that is left out is not computed. The arrays of the old and the new state
+ may be the same.
  */
 typedef struct toron_point_f64 {
   /*
@@ -366,7 +368,8 @@ typedef struct toron_point_f64 {
    */
   const double *state_old;
   /*
-   Out, as many: the new state. If null, the point does not fail, but stays failed if its old state has the flag set.
+   Out, as many: the new state. If null, the point does not fail, but stays failed if its old state has the flag
+   set.
    */
   double *state_new;
   /*
@@ -378,31 +381,32 @@ typedef struct toron_point_f64 {
    */
   double *modes;
   /*
-   Out, 1: an upper bound of the wave speed, to be used with current element lengths; never below the speed along a fibre at
-   rest. It is meant for the stable time step; a bulk viscosity computed with it damps more than with the exact speed.
+   Out, 1: an upper bound of the wave speed, to be used with current element lengths; never below the speed along a
+   fibre at rest. It is meant for the stable time step; a bulk viscosity computed with it damps more than with the
+   exact speed.
    */
   double *wave_speed;
   /*
-   Out, 36 (81 for `TORON_TANGENT_NOMINAL`): the tangent, entry (row, column), counted from 0, at 6 row + column (9 row +
-   column); a symmetric matrix, but where the fibres of the law with friction slide. Rows and columns are in the order
-   11 22 33 12 23 31, with derivatives with respect to engineering shears; for `TORON_TANGENT_NOMINAL`
-   11 21 31 12 22 32 13 23 33.
+   Out, 36 (81 for `TORON_TANGENT_NOMINAL`): the tangent, entry (row, column), counted from 0, at 6 row + column (9
+   row + column); a symmetric matrix, but where the fibres of the law with friction slide. Rows and columns are in
+   the order 11 22 33 12 23 31, with derivatives with respect to engineering shears; for `TORON_TANGENT_NOMINAL` 11
+   21 31 12 22 32 13 23 33.
 
-   The call that detects failure returns that of the intact material, later calls return zeros. At a kink (I_el = 0 or I_tc =
-   0) it is that of loading.
+   The call that detects failure returns that of the intact material, later calls return zeros. At a kink (I_el = 0
+   or I_tc = 0) it is that of loading.
    */
   double *tangent;
   /*
-   In, 1: the true fibre strain at failure, ln(1 + eps_lim), in place of that of the properties; if null or 0, that of the
-   properties. Read if `state_new` is not null.
+   In, 1: the true fibre strain at failure, ln(1 + eps_lim), in place of that of the properties; if null or 0, that
+   of the properties. Read if `state_new` is not null.
    */
   const double *limit;
 } toron_point_f64;
 
 /*
  A point of the hyperelastic law or of the law with friction. Set `size`, and what is wanted; the rest is 0: an array
- that is null is left out, and an output that is left out is not computed. The arrays of the old and the new state may
- be the same.
+ that is null is left out, and an output that is left out is not computed. The arrays of the old and the new state
+ may be the same.
  */
 typedef struct toron_point_f32 {
   /*
@@ -434,7 +438,8 @@ typedef struct toron_point_f32 {
    */
   const float *state_old;
   /*
-   Out, as many: the new state. If null, the point does not fail, but stays failed if its old state has the flag set.
+   Out, as many: the new state. If null, the point does not fail, but stays failed if its old state has the flag
+   set.
    */
   float *state_new;
   /*
@@ -446,35 +451,36 @@ typedef struct toron_point_f32 {
    */
   float *modes;
   /*
-   Out, 1: an upper bound of the wave speed, to be used with current element lengths; never below the speed along a fibre at
-   rest. It is meant for the stable time step; a bulk viscosity computed with it damps more than with the exact speed.
+   Out, 1: an upper bound of the wave speed, to be used with current element lengths; never below the speed along a
+   fibre at rest. It is meant for the stable time step; a bulk viscosity computed with it damps more than with the
+   exact speed.
    */
   float *wave_speed;
   /*
-   Out, 36 (81 for `TORON_TANGENT_NOMINAL`): the tangent, entry (row, column), counted from 0, at 6 row + column (9 row +
-   column); a symmetric matrix, but where the fibres of the law with friction slide. Rows and columns are in the order
-   11 22 33 12 23 31, with derivatives with respect to engineering shears; for `TORON_TANGENT_NOMINAL`
-   11 21 31 12 22 32 13 23 33.
+   Out, 36 (81 for `TORON_TANGENT_NOMINAL`): the tangent, entry (row, column), counted from 0, at 6 row + column (9
+   row + column); a symmetric matrix, but where the fibres of the law with friction slide. Rows and columns are in
+   the order 11 22 33 12 23 31, with derivatives with respect to engineering shears; for `TORON_TANGENT_NOMINAL` 11
+   21 31 12 22 32 13 23 33.
 
-   The call that detects failure returns that of the intact material, later calls return zeros. At a kink (I_el = 0 or I_tc =
-   0) it is that of loading.
+   The call that detects failure returns that of the intact material, later calls return zeros. At a kink (I_el = 0
+   or I_tc = 0) it is that of loading.
    */
   float *tangent;
   /*
-   In, 1: the true fibre strain at failure, ln(1 + eps_lim), in place of that of the properties; if null or 0, that of the
-   properties. Read if `state_new` is not null.
+   In, 1: the true fibre strain at failure, ln(1 + eps_lim), in place of that of the properties; if null or 0, that
+   of the properties. Read if `state_new` is not null.
    */
   const float *limit;
 } toron_point_f32;
 
 /*
- Where the entries of an array are: component c of point i at `c * leading_dimension + i * stride`, in numbers. All 0: as the
- block says.
+ Where the entries of an array are: component c of point i at `c * leading_dimension + i * stride`, in numbers. All
+ 0: as the block says.
  */
 typedef struct toron_layout {
   /*
-   From one component to the next; 0: that of the block, or 1 if the stride is more than 1 (points in rows). Not read where
-   every component has a pointer.
+   From one component to the next; 0: that of the block, or 1 if the stride is more than 1 (points in rows). Not
+   read where every component has a pointer.
    */
   size_t leading_dimension;
   /*
@@ -484,13 +490,14 @@ typedef struct toron_layout {
 } toron_layout;
 
 /*
- A block of points of the hyperelastic law or of the law with friction. Set `size`, `n`, and what is wanted; the rest is
- 0: an array that is null is left out, and an output that is left out is not computed.
+ A block of points of the hyperelastic law or of the law with friction. Set `size`, `n`, and what is wanted; the rest
+ is 0: an array that is null is left out, and an output that is left out is not computed.
 
- Component c of point i is at `c * leading_dimension + i`, unless the layout of the array says otherwise. F, fibre and stress
- have a pointer for each component, so that they may be in separate arrays; if only the first is set, the others follow it by
- the layout. The arrays of the old and the new state may be the same; otherwise arrays must not overlap. Energies, invariants
- and failure may be parts of one array of 11 components (15 of the law with friction), starting at components 0, 4 and 8.
+ Component c of point i is at `c * leading_dimension + i`, unless the layout of the array says otherwise. F, fibre
+ and stress have a pointer for each component, so that they may be in separate arrays; if only the first is set, the
+ others follow it by the layout. The arrays of the old and the new state may be the same; otherwise arrays must not
+ overlap. Energies, invariants and failure may be parts of one array of 11 components (15 of the law with friction),
+ starting at components 0, 4 and 8.
  */
 typedef struct toron_block_f64 {
   /*
@@ -510,8 +517,8 @@ typedef struct toron_block_f64 {
    */
   int32_t measure;
   /*
-   In: the instruction set to use, one of `TORON_LEVEL_...`; if the processor lacks it, the best one below it. AVX2 and
-   AVX-512 give identical bits; the baseline differs in the last digits.
+   In: the instruction set to use, one of `TORON_LEVEL_...`; if the processor lacks it, the best one below it. AVX2
+   and AVX-512 give identical bits; the baseline differs in the last digits.
    */
   int32_t level;
   /*
@@ -545,8 +552,8 @@ typedef struct toron_block_f64 {
    */
   double *invariants;
   /*
-   Out, 3: failure index, failed, alive; of the law with friction 7, before these the energy lost, I_te and the two components
-   of the slip. If null, no point fails, but a point whose old failure flag is set stays failed.
+   Out, 3: failure index, failed, alive; of the law with friction 7, before these the energy lost, I_te and the two
+   components of the slip. If null, no point fails, but a point whose old failure flag is set stays failed.
    */
   double *failure;
   /*
@@ -554,8 +561,8 @@ typedef struct toron_block_f64 {
    */
   double *modes;
   /*
-   Out, 36 components (81 for `TORON_TANGENT_NOMINAL`): entry (row, column), counted from 0, is component 6 row + column (9 row
-   + column); else as in `toron_point_f64`.
+   Out, 36 components (81 for `TORON_TANGENT_NOMINAL`): entry (row, column), counted from 0, is component 6 row +
+   column (9 row + column); else as in `toron_point_f64`.
    */
   double *tangent;
   /*
@@ -563,7 +570,8 @@ typedef struct toron_block_f64 {
    */
   double *wave_speed;
   /*
-   Out, a number for each point: 1, or 0 if it has failed or cannot be evaluated: what a solver deletes elements by.
+   Out, a number for each point: 1, or 0 if it has failed or cannot be evaluated: what a solver deletes elements
+   by.
    */
   double *active;
   /*
@@ -571,7 +579,8 @@ typedef struct toron_block_f64 {
    */
   int32_t *status;
   /*
-   Where the entries of these arrays are. That of the state holds for energies, invariants and failure, old and new.
+   Where the entries of these arrays are. That of the state holds for energies, invariants and failure, old and
+   new.
    */
   struct toron_layout deformation_gradient_layout;
   struct toron_layout fibre_layout;
@@ -580,21 +589,22 @@ typedef struct toron_block_f64 {
   struct toron_layout modes_layout;
   struct toron_layout tangent_layout;
   /*
-   In, a number for each point: the true fibre strain at failure, ln(1 + eps_lim), in place of that of the properties; 0: that of the
-   properties. If null, that of the properties. Read if `failure` is not null.
+   In, a number for each point: the true fibre strain at failure, ln(1 + eps_lim), in place of that of the
+   properties; 0: that of the properties. If null, that of the properties. Read if `failure` is not null.
    */
   const double *limit;
   struct toron_layout limit_layout;
 } toron_block_f64;
 
 /*
- A block of points of the hyperelastic law or of the law with friction. Set `size`, `n`, and what is wanted; the rest is
- 0: an array that is null is left out, and an output that is left out is not computed.
+ A block of points of the hyperelastic law or of the law with friction. Set `size`, `n`, and what is wanted; the rest
+ is 0: an array that is null is left out, and an output that is left out is not computed.
 
- Component c of point i is at `c * leading_dimension + i`, unless the layout of the array says otherwise. F, fibre and stress
- have a pointer for each component, so that they may be in separate arrays; if only the first is set, the others follow it by
- the layout. The arrays of the old and the new state may be the same; otherwise arrays must not overlap. Energies, invariants
- and failure may be parts of one array of 11 components (15 of the law with friction), starting at components 0, 4 and 8.
+ Component c of point i is at `c * leading_dimension + i`, unless the layout of the array says otherwise. F, fibre
+ and stress have a pointer for each component, so that they may be in separate arrays; if only the first is set, the
+ others follow it by the layout. The arrays of the old and the new state may be the same; otherwise arrays must not
+ overlap. Energies, invariants and failure may be parts of one array of 11 components (15 of the law with friction),
+ starting at components 0, 4 and 8.
  */
 typedef struct toron_block_f32 {
   /*
@@ -614,8 +624,8 @@ typedef struct toron_block_f32 {
    */
   int32_t measure;
   /*
-   In: the instruction set to use, one of `TORON_LEVEL_...`; if the processor lacks it, the best one below it. AVX2 and
-   AVX-512 give identical bits; the baseline differs in the last digits.
+   In: the instruction set to use, one of `TORON_LEVEL_...`; if the processor lacks it, the best one below it. AVX2
+   and AVX-512 give identical bits; the baseline differs in the last digits.
    */
   int32_t level;
   /*
@@ -649,8 +659,8 @@ typedef struct toron_block_f32 {
    */
   float *invariants;
   /*
-   Out, 3: failure index, failed, alive; of the law with friction 7, before these the energy lost, I_te and the two components
-   of the slip. If null, no point fails, but a point whose old failure flag is set stays failed.
+   Out, 3: failure index, failed, alive; of the law with friction 7, before these the energy lost, I_te and the two
+   components of the slip. If null, no point fails, but a point whose old failure flag is set stays failed.
    */
   float *failure;
   /*
@@ -658,8 +668,8 @@ typedef struct toron_block_f32 {
    */
   float *modes;
   /*
-   Out, 36 components (81 for `TORON_TANGENT_NOMINAL`): entry (row, column), counted from 0, is component 6 row + column (9 row
-   + column); else as in `toron_point_f64`.
+   Out, 36 components (81 for `TORON_TANGENT_NOMINAL`): entry (row, column), counted from 0, is component 6 row +
+   column (9 row + column); else as in `toron_point_f64`.
    */
   float *tangent;
   /*
@@ -667,7 +677,8 @@ typedef struct toron_block_f32 {
    */
   float *wave_speed;
   /*
-   Out, a number for each point: 1, or 0 if it has failed or cannot be evaluated: what a solver deletes elements by.
+   Out, a number for each point: 1, or 0 if it has failed or cannot be evaluated: what a solver deletes elements
+   by.
    */
   float *active;
   /*
@@ -675,7 +686,8 @@ typedef struct toron_block_f32 {
    */
   int32_t *status;
   /*
-   Where the entries of these arrays are. That of the state holds for energies, invariants and failure, old and new.
+   Where the entries of these arrays are. That of the state holds for energies, invariants and failure, old and
+   new.
    */
   struct toron_layout deformation_gradient_layout;
   struct toron_layout fibre_layout;
@@ -684,8 +696,8 @@ typedef struct toron_block_f32 {
   struct toron_layout modes_layout;
   struct toron_layout tangent_layout;
   /*
-   In, a number for each point: the true fibre strain at failure, ln(1 + eps_lim), in place of that of the properties; 0: that of the
-   properties. If null, that of the properties. Read if `failure` is not null.
+   In, a number for each point: the true fibre strain at failure, ln(1 + eps_lim), in place of that of the
+   properties; 0: that of the properties. If null, that of the properties. Read if `failure` is not null.
    */
   const float *limit;
   struct toron_layout limit_layout;
@@ -740,8 +752,8 @@ typedef struct toron_linear_elastic_f32 {
 } toron_linear_elastic_f32;
 
 /*
- A point of the linear elastic law. Set `size`, and what is wanted; the rest is 0: an array that is null is left out, and an
- output that is left out is not computed. The arrays of the old and the new state may be the same.
+ A point of the linear elastic law. Set `size`, and what is wanted; the rest is 0: an array that is null is left out,
+ and an output that is left out is not computed. The arrays of the old and the new state may be the same.
  */
 typedef struct toron_linear_point_f64 {
   /*
@@ -749,8 +761,8 @@ typedef struct toron_linear_point_f64 {
    */
   size_t size;
   /*
-   In: the frame that turns with the material, one of `TORON_ROTATION_...` (0, the fibre's, is right for a yarn), and the
-   stress that is compared with the strength, one of `TORON_CRITERION_...`.
+   In: the frame that turns with the material, one of `TORON_ROTATION_...` (0, the fibre's, is right for a yarn),
+   and the stress that is compared with the strength, one of `TORON_CRITERION_...`.
    */
   int32_t rotation;
   int32_t criterion;
@@ -772,16 +784,16 @@ typedef struct toron_linear_point_f64 {
   const double *f_old;
   const double *f_new;
   /*
-   In, 3 each, of any length: the fibre direction and the second material axis in the reference placement; if null, those of
-   the properties. The second axis may be 0 if any will do. Not read for `TORON_ROTATION_SPIN`.
+   In, 3 each, of any length: the fibre direction and the second material axis in the reference placement; if null,
+   those of the properties. The second axis may be 0 if any will do. Not read for `TORON_ROTATION_SPIN`.
    */
   const double *fibre;
   const double *second_axis;
   /*
    In and out, 9: the current material axes in global coordinates, one after the other. Must not be null for
-   `TORON_ROTATION_SPIN`, and start with those of `toron_linear_elastic_axes_f64`; not used for the other frames. They are checked:
-   with Q the matrix of the axes, `TORON_MATERIAL_AXES` is returned and nothing changed where the norm of QᵀQ − 1 exceeds 0.01; a
-   smaller deviation is corrected.
+   `TORON_ROTATION_SPIN`, and start with those of `toron_linear_elastic_axes_f64`; not used for the other frames.
+   They are checked: with Q the matrix of the axes, `TORON_MATERIAL_AXES` is returned and nothing changed where the
+   norm of QᵀQ − 1 exceeds 0.01; a smaller deviation is corrected.
    */
   double *axes;
   /*
@@ -801,20 +813,21 @@ typedef struct toron_linear_point_f64 {
    */
   double *wave_speed;
   /*
-   Out, 36 (81 for `TORON_TANGENT_NOMINAL`): the tangent consistent with the step, as in `toron_point_f64`, but not symmetric.
-   `TORON_TANGENT_JAUMANN` gives the entries of Abaqus's DDSDDE, but in the order 11 22 33 12 23 31. It is computed in double
-   precision, and so are then all other results.
+   Out, 36 (81 for `TORON_TANGENT_NOMINAL`): the tangent consistent with the step, as in `toron_point_f64`, but not
+   symmetric. `TORON_TANGENT_JAUMANN` gives the entries of Abaqus's DDSDDE, but in the order 11 22 33 12 23 31. It
+   is computed in double precision, and so are then all other results.
    */
   double *tangent;
   /*
-   In, 1: the strength, in place of that of the properties; if null or 0, that of the properties. Read if `state_new` is not null.
+   In, 1: the strength, in place of that of the properties; if null or 0, that of the properties. Read if
+   `state_new` is not null.
    */
   const double *limit;
 } toron_linear_point_f64;
 
 /*
- A point of the linear elastic law. Set `size`, and what is wanted; the rest is 0: an array that is null is left out, and an
- output that is left out is not computed. The arrays of the old and the new state may be the same.
+ A point of the linear elastic law. Set `size`, and what is wanted; the rest is 0: an array that is null is left out,
+ and an output that is left out is not computed. The arrays of the old and the new state may be the same.
  */
 typedef struct toron_linear_point_f32 {
   /*
@@ -822,8 +835,8 @@ typedef struct toron_linear_point_f32 {
    */
   size_t size;
   /*
-   In: the frame that turns with the material, one of `TORON_ROTATION_...` (0, the fibre's, is right for a yarn), and the
-   stress that is compared with the strength, one of `TORON_CRITERION_...`.
+   In: the frame that turns with the material, one of `TORON_ROTATION_...` (0, the fibre's, is right for a yarn),
+   and the stress that is compared with the strength, one of `TORON_CRITERION_...`.
    */
   int32_t rotation;
   int32_t criterion;
@@ -845,16 +858,16 @@ typedef struct toron_linear_point_f32 {
   const float *f_old;
   const float *f_new;
   /*
-   In, 3 each, of any length: the fibre direction and the second material axis in the reference placement; if null, those of
-   the properties. The second axis may be 0 if any will do. Not read for `TORON_ROTATION_SPIN`.
+   In, 3 each, of any length: the fibre direction and the second material axis in the reference placement; if null,
+   those of the properties. The second axis may be 0 if any will do. Not read for `TORON_ROTATION_SPIN`.
    */
   const float *fibre;
   const float *second_axis;
   /*
    In and out, 9: the current material axes in global coordinates, one after the other. Must not be null for
-   `TORON_ROTATION_SPIN`, and start with those of `toron_linear_elastic_axes_f64`; not used for the other frames. They are checked:
-   with Q the matrix of the axes, `TORON_MATERIAL_AXES` is returned and nothing changed where the norm of QᵀQ − 1 exceeds 0.01; a
-   smaller deviation is corrected.
+   `TORON_ROTATION_SPIN`, and start with those of `toron_linear_elastic_axes_f64`; not used for the other frames.
+   They are checked: with Q the matrix of the axes, `TORON_MATERIAL_AXES` is returned and nothing changed where the
+   norm of QᵀQ − 1 exceeds 0.01; a smaller deviation is corrected.
    */
   float *axes;
   /*
@@ -874,20 +887,21 @@ typedef struct toron_linear_point_f32 {
    */
   float *wave_speed;
   /*
-   Out, 36 (81 for `TORON_TANGENT_NOMINAL`): the tangent consistent with the step, as in `toron_point_f64`, but not symmetric.
-   `TORON_TANGENT_JAUMANN` gives the entries of Abaqus's DDSDDE, but in the order 11 22 33 12 23 31. It is computed in double
-   precision, and so are then all other results.
+   Out, 36 (81 for `TORON_TANGENT_NOMINAL`): the tangent consistent with the step, as in `toron_point_f64`, but not
+   symmetric. `TORON_TANGENT_JAUMANN` gives the entries of Abaqus's DDSDDE, but in the order 11 22 33 12 23 31. It
+   is computed in double precision, and so are then all other results.
    */
   float *tangent;
   /*
-   In, 1: the strength, in place of that of the properties; if null or 0, that of the properties. Read if `state_new` is not null.
+   In, 1: the strength, in place of that of the properties; if null or 0, that of the properties. Read if
+   `state_new` is not null.
    */
   const float *limit;
 } toron_linear_point_f32;
 
 /*
- A strain increment of the linear elastic law, in material axes that the caller updates. Set `size`, and what is wanted; the rest
- is 0.
+ A strain increment of the linear elastic law, in material axes that the caller updates. Set `size`, and what is
+ wanted; the rest is 0.
  */
 typedef struct toron_linear_increment_f64 {
   /*
@@ -925,8 +939,8 @@ typedef struct toron_linear_increment_f64 {
 } toron_linear_increment_f64;
 
 /*
- A strain increment of the linear elastic law, in material axes that the caller updates. Set `size`, and what is wanted; the rest
- is 0.
+ A strain increment of the linear elastic law, in material axes that the caller updates. Set `size`, and what is
+ wanted; the rest is 0.
  */
 typedef struct toron_linear_increment_f32 {
   /*
@@ -964,8 +978,8 @@ typedef struct toron_linear_increment_f32 {
 } toron_linear_increment_f32;
 
 /*
- A block of points of the linear elastic law. Set `size`, `n`, and what is wanted; the rest is 0: an array that is null is left
- out, and an output that is left out is not computed.
+ A block of points of the linear elastic law. Set `size`, `n`, and what is wanted; the rest is 0: an array that is
+ null is left out, and an output that is left out is not computed.
 
  Entries are placed as in `toron_block_f64`; the arrays hold what they hold in `toron_linear_point_f64`.
  */
@@ -1037,8 +1051,8 @@ typedef struct toron_linear_block_f64 {
    */
   int32_t *status;
   /*
-   Where the entries of these arrays are. That of F holds for both ends, that of the fibre for the second axis too, that of
-   the state for the old and the new one.
+   Where the entries of these arrays are. That of F holds for both ends, that of the fibre for the second axis too,
+   that of the state for the old and the new one.
    */
   struct toron_layout deformation_gradient_layout;
   struct toron_layout fibre_layout;
@@ -1047,16 +1061,16 @@ typedef struct toron_linear_block_f64 {
   struct toron_layout stress_layout;
   struct toron_layout tangent_layout;
   /*
-   In, a number for each point: the strength in place of that of the properties; if null or 0, that of the properties. Read if
-   `state_new` is not null.
+   In, a number for each point: the strength in place of that of the properties; if null or 0, that of the
+   properties. Read if `state_new` is not null.
    */
   const double *limit;
   struct toron_layout limit_layout;
 } toron_linear_block_f64;
 
 /*
- A block of points of the linear elastic law. Set `size`, `n`, and what is wanted; the rest is 0: an array that is null is left
- out, and an output that is left out is not computed.
+ A block of points of the linear elastic law. Set `size`, `n`, and what is wanted; the rest is 0: an array that is
+ null is left out, and an output that is left out is not computed.
 
  Entries are placed as in `toron_block_f64`; the arrays hold what they hold in `toron_linear_point_f64`.
  */
@@ -1128,8 +1142,8 @@ typedef struct toron_linear_block_f32 {
    */
   int32_t *status;
   /*
-   Where the entries of these arrays are. That of F holds for both ends, that of the fibre for the second axis too, that of
-   the state for the old and the new one.
+   Where the entries of these arrays are. That of F holds for both ends, that of the fibre for the second axis too,
+   that of the state for the old and the new one.
    */
   struct toron_layout deformation_gradient_layout;
   struct toron_layout fibre_layout;
@@ -1138,8 +1152,8 @@ typedef struct toron_linear_block_f32 {
   struct toron_layout stress_layout;
   struct toron_layout tangent_layout;
   /*
-   In, a number for each point: the strength in place of that of the properties; if null or 0, that of the properties. Read if
-   `state_new` is not null.
+   In, a number for each point: the strength in place of that of the properties; if null or 0, that of the
+   properties. Read if `state_new` is not null.
    */
   const float *limit;
   struct toron_layout limit_layout;
@@ -1154,10 +1168,9 @@ typedef struct toron_vumat_f64 {
    */
   size_t size;
   /*
-   Numbers of points, of direct components (3), of shear components (3; 1 for plane strain and axisymmetric solids, which the
-   caller has to tell from plane stress: Abaqus passes the same numbers), of state variables (the law's, or
-   more) and of properties (the law's, or
-   one more).
+   Numbers of points, of direct components (3), of shear components (3; 1 for plane strain and axisymmetric solids,
+   which the caller has to tell from plane stress: Abaqus passes the same numbers), of state variables (the law's,
+   or more) and of properties (the law's, or one more).
    */
   int32_t nblock;
   int32_t ndir;
@@ -1182,7 +1195,8 @@ typedef struct toron_vumat_f64 {
    */
   const double *density;
   /*
-   In, 6 (or 4, as all tensors of plane elements): increment of strain, tensor components; read in the data check only.
+   In, 6 (or 4, as all tensors of plane elements): increment of strain, tensor components; read in the data check
+   only.
    */
   const double *strain_inc;
   /*
@@ -1215,10 +1229,9 @@ typedef struct toron_vumat_f32 {
    */
   size_t size;
   /*
-   Numbers of points, of direct components (3), of shear components (3; 1 for plane strain and axisymmetric solids, which the
-   caller has to tell from plane stress: Abaqus passes the same numbers), of state variables (the law's, or
-   more) and of properties (the law's, or
-   one more).
+   Numbers of points, of direct components (3), of shear components (3; 1 for plane strain and axisymmetric solids,
+   which the caller has to tell from plane stress: Abaqus passes the same numbers), of state variables (the law's,
+   or more) and of properties (the law's, or one more).
    */
   int32_t nblock;
   int32_t ndir;
@@ -1243,7 +1256,8 @@ typedef struct toron_vumat_f32 {
    */
   const float *density;
   /*
-   In, 6 (or 4, as all tensors of plane elements): increment of strain, tensor components; read in the data check only.
+   In, 6 (or 4, as all tensors of plane elements): increment of strain, tensor components; read in the data check
+   only.
    */
   const float *strain_inc;
   /*
@@ -1289,11 +1303,10 @@ int32_t toron_abi_version(void);
 int32_t toron_status_message(int32_t status, char *message, size_t capacity);
 
 /*
- The number of properties of a law (`TORON_HYPERELASTIC`, `TORON_LINEAR_ELASTIC`, `TORON_FRICTIONAL`), or `TORON_UNKNOWN_NAME`.
+ The number of properties of a law (`TORON_HYPERELASTIC`, `TORON_LINEAR_ELASTIC`, `TORON_FRICTIONAL`), or
+ `TORON_UNKNOWN_NAME`.
  */
-int32_t toron_property_count(int32_t law,
-                             char *message,
-                             size_t capacity);
+int32_t toron_property_count(int32_t law, char *message, size_t capacity);
 
 /*
  Writes the table row of property `index`, counted from 0, to `row`, whose `size` is set.
@@ -1325,10 +1338,10 @@ int32_t toron_state_index(int32_t law, const char *variable, char *message, size
 /*
  The properties and the reference density of a preset, in the units of the user's model.
 
- - `preset`: "kevlar-km2-600" or "kevlar-km2-600-linear"; `units`: a unit of length, one of mass and one of time, joined
-   by "-", such as "m-kg-s" (or "si"), "mm-tonne-s", "mm-kg-ms", "cm-g-us".
- - `properties`: array for the properties; `count` must equal the law's number of properties. `density`: one value, out, or
-   null.
+ - `preset`: "kevlar-km2-600" or "kevlar-km2-600-linear"; `units`: a unit of length, one of mass and one of time,
+   joined by "-", such as "m-kg-s" (or "si"), "mm-tonne-s", "mm-kg-ms", "cm-g-us".
+ - `properties`: array for the properties; `count` must equal the law's number of properties. `density`: one value,
+   out, or null.
 
  Returns 0, `TORON_UNKNOWN_NAME`, `TORON_NULL_ARGUMENT` or `TORON_PROPERTY_COUNT`.
  */
@@ -1357,8 +1370,8 @@ int32_t toron_preset_f32(const char *preset,
  - `law`: out; `size`: `sizeof *law`.
  - `properties`, `count`: the properties in the table's order.
 
- Returns 0; or `TORON_NULL_ARGUMENT`, `TORON_BAD_SIZE` or a −2xx code, and nothing is written: the message names the wrong
- property, its value and the allowed values.
+ Returns 0; or `TORON_NULL_ARGUMENT`, `TORON_BAD_SIZE` or a −2xx code, and nothing is written: the message names the
+ wrong property, its value and the allowed values.
  */
 int32_t toron_hyperelastic_prepare_f64(struct toron_hyperelastic_f64 *law,
                                        size_t size,
@@ -1397,8 +1410,8 @@ int32_t toron_hyperelastic_point_f32(const struct toron_hyperelastic_f32 *law,
                                      size_t capacity);
 
 /*
- As `toron_hyperelastic_point_f64`, with the properties in the table's order, which are checked in every call, in place of a
- law that has been prepared. That takes longer; the results may differ in the last digits.
+ As `toron_hyperelastic_point_f64`, with the properties in the table's order, which are checked in every call, in
+ place of a law that has been prepared. That takes longer; the results may differ in the last digits.
  */
 int32_t toron_hyperelastic_point_with_properties_f64(const double *properties,
                                                      size_t count,
@@ -1418,9 +1431,9 @@ int32_t toron_hyperelastic_point_with_properties_f32(const float *properties,
 /*
  The hyperelastic law at a block of points, with or without a tangent: see `toron_block_f64`.
 
- Returns 0; or the most negative −3xx code of the points (a point with such a code has zero stress and keeps its state; the
- other points are not affected), and the message names the first point with that code (without `status` only if its F and fibre
- still tell it); or a −1xx or −2xx code, and then nothing is written.
+ Returns 0; or the most negative −3xx code of the points (a point with such a code has zero stress and keeps its
+ state; the other points are not affected), and the message names the first point with that code (without `status`
+ only if its F and fibre still tell it); or a −1xx or −2xx code, and then nothing is written.
  */
 int32_t toron_hyperelastic_block_f64(const struct toron_hyperelastic_f64 *law,
                                      const struct toron_block_f64 *block,
@@ -1436,8 +1449,8 @@ int32_t toron_hyperelastic_block_f32(const struct toron_hyperelastic_f32 *law,
                                      size_t capacity);
 
 /*
- As `toron_hyperelastic_block_f64`, with the properties in the table's order, which are checked in every call, in place of a
- law that has been prepared. The results are the same bits.
+ As `toron_hyperelastic_block_f64`, with the properties in the table's order, which are checked in every call, in
+ place of a law that has been prepared. The results are the same bits.
  */
 int32_t toron_hyperelastic_block_with_properties_f64(const double *properties,
                                                      size_t count,
@@ -1455,14 +1468,15 @@ int32_t toron_hyperelastic_block_with_properties_f32(const float *properties,
                                                      size_t capacity);
 
 /*
- Stability check: the smallest eigenvalue, over all wave directions, of the acoustic tensor times the reference density.
+ Stability check: the smallest eigenvalue, over all wave directions, of the acoustic tensor times the reference
+ density.
 
- If it is negative, the material has lost ellipticity: wave speeds are imaginary and results depend on the mesh. Without
- k_ld it is 0 to rounding in stable states: compare it with −1e-9 k_el.
+ If it is negative, the material has lost ellipticity: wave speeds are imaginary and results depend on the mesh.
+ Without k_ld it is 0 to rounding in stable states: compare it with −1e-9 k_el.
 
  - `point`: its `deformation_gradient` and `fibre` are read.
- - `least`: the eigenvalue, out, in units of stress; `direction`: 3 values, out, the unit normal of that wave in global
-   axes, or null.
+ - `least`: the eigenvalue, out, in units of stress; `direction`: 3 values, out, the unit normal of that wave in
+   global axes, or null.
 
  Returns 0; a −1xx or −3xx code, and nothing is written.
  */
@@ -1494,11 +1508,11 @@ int32_t toron_frictional_prepare_f32(struct toron_frictional_f32 *law,
                                      size_t capacity);
 
 /*
- The law with friction over a step at one point, with or without a tangent: see `toron_point_f64`; its arrays of the state have
- 15 values. The step goes from the slip of the old state to the deformation gradient.
+ The law with friction over a step at one point, with or without a tangent: see `toron_point_f64`; its arrays of the
+ state have 15 values. The step goes from the slip of the old state to the deformation gradient.
 
- Returns 0, a −1xx or −2xx code (nothing is written), or a −3xx code (stress, modes and tangent are 0, the wave speed is that of
- a yarn at rest, the state is unchanged but for `alive`, which is 1 - failed).
+ Returns 0, a −1xx or −2xx code (nothing is written), or a −3xx code (stress, modes and tangent are 0, the wave speed
+ is that of a yarn at rest, the state is unchanged but for `alive`, which is 1 - failed).
  */
 int32_t toron_frictional_point_f64(const struct toron_frictional_f64 *law,
                                    const struct toron_point_f64 *point,
@@ -1514,8 +1528,8 @@ int32_t toron_frictional_point_f32(const struct toron_frictional_f32 *law,
                                    size_t capacity);
 
 /*
- As `toron_frictional_point_f64`, with the properties in the table's order in place of a law that has been prepared. The
- results are the same bits.
+ As `toron_frictional_point_f64`, with the properties in the table's order in place of a law that has been prepared.
+ The results are the same bits.
  */
 int32_t toron_frictional_point_with_properties_f64(const double *properties,
                                                    size_t count,
@@ -1533,12 +1547,12 @@ int32_t toron_frictional_point_with_properties_f32(const float *properties,
                                                    size_t capacity);
 
 /*
- The law with friction over a step at a block of points, with or without a tangent: see `toron_block_f64`; its arrays of the
- failure have 7 components.
+ The law with friction over a step at a block of points, with or without a tangent: see `toron_block_f64`; its arrays
+ of the failure have 7 components.
 
- Returns the worst status code of the points: 0, or the most negative −3xx code (that point carries no stress and keeps
- its state; the others are not affected; the message names the first one, without `status` only if its F and fibre still tell
- it); or a −1xx or −2xx code, and nothing is written.
+ Returns the worst status code of the points: 0, or the most negative −3xx code (that point carries no stress and
+ keeps its state; the others are not affected; the message names the first one, without `status` only if its F and
+ fibre still tell it); or a −1xx or −2xx code, and nothing is written.
  */
 int32_t toron_frictional_block_f64(const struct toron_frictional_f64 *law,
                                    const struct toron_block_f64 *block,
@@ -1554,8 +1568,8 @@ int32_t toron_frictional_block_f32(const struct toron_frictional_f32 *law,
                                    size_t capacity);
 
 /*
- As `toron_frictional_block_f64`, with the properties in the table's order in place of a law that has been prepared. The
- results are the same bits.
+ As `toron_frictional_block_f64`, with the properties in the table's order in place of a law that has been prepared.
+ The results are the same bits.
  */
 int32_t toron_frictional_block_with_properties_f64(const double *properties,
                                                    size_t count,
@@ -1573,7 +1587,8 @@ int32_t toron_frictional_block_with_properties_f32(const float *properties,
                                                    size_t capacity);
 
 /*
- Checks the properties of the linear elastic law, and prepares the law from them; as `toron_hyperelastic_prepare_f64`.
+ Checks the properties of the linear elastic law, and prepares the law from them; as
+ `toron_hyperelastic_prepare_f64`.
  */
 int32_t toron_linear_elastic_prepare_f64(struct toron_linear_elastic_f64 *law,
                                          size_t size,
@@ -1596,8 +1611,8 @@ int32_t toron_linear_elastic_prepare_f32(struct toron_linear_elastic_f32 *law,
  The material axes of the linear elastic law in the undeformed state: the initial value of `axes` for
  `TORON_ROTATION_SPIN`.
 
- - `fibre`, `second_axis`: 3 values each, those of a point, of any length; null: those of the properties. The second axis may
-   be 0 if any will do.
+ - `fibre`, `second_axis`: 3 values each, those of a point, of any length; null: those of the properties. The second
+   axis may be 0 if any will do.
  - `axes`: 9 values, out, the three axes one after the other.
 
  Returns 0, `TORON_NULL_ARGUMENT`, `TORON_NOT_PREPARED`, or `TORON_FIBRE_DIRECTION` if there are no such axes.
@@ -1623,8 +1638,8 @@ int32_t toron_linear_elastic_axes_f32(const struct toron_linear_elastic_f32 *law
  The linear elastic law over a step at one point, from the deformation gradients at both ends: see
  `toron_linear_point_f64`.
 
- Returns 0, a −1xx or −2xx code (nothing is written), or a −3xx code (stress and tangent are 0, the state is unchanged but for
- `alive`).
+ Returns 0, a −1xx or −2xx code (nothing is written), or a −3xx code (stress and tangent are 0, the state is
+ unchanged but for `alive`).
  */
 int32_t toron_linear_elastic_point_f64(const struct toron_linear_elastic_f64 *law,
                                        const struct toron_linear_point_f64 *point,
@@ -1640,8 +1655,8 @@ int32_t toron_linear_elastic_point_f32(const struct toron_linear_elastic_f32 *la
                                        size_t capacity);
 
 /*
- As `toron_linear_elastic_point_f64`, with the properties in the table's order in place of a law that has been prepared. The
- results are the same bits.
+ As `toron_linear_elastic_point_f64`, with the properties in the table's order in place of a law that has been
+ prepared. The results are the same bits.
  */
 int32_t toron_linear_elastic_point_with_properties_f64(const double *properties,
                                                        size_t count,
@@ -1659,10 +1674,11 @@ int32_t toron_linear_elastic_point_with_properties_f32(const float *properties,
                                                        size_t capacity);
 
 /*
- The linear elastic law for a strain increment in material axes that the host updates: see `toron_linear_increment_f64`.
+ The linear elastic law for a strain increment in material axes that the host updates: see
+ `toron_linear_increment_f64`.
 
- The result is only as good as the axes: if they follow the polar rotation or the spin, the stiff direction drifts away
- from a sheared fibre. Returns the same codes as `toron_linear_elastic_point_f64`.
+ The result is only as good as the axes: if they follow the polar rotation or the spin, the stiff direction drifts
+ away from a sheared fibre. Returns the same codes as `toron_linear_elastic_point_f64`.
  */
 int32_t toron_linear_elastic_increment_f64(const struct toron_linear_elastic_f64 *law,
                                            const struct toron_linear_increment_f64 *increment,
@@ -1680,9 +1696,9 @@ int32_t toron_linear_elastic_increment_f32(const struct toron_linear_elastic_f32
 /*
  The linear elastic law over a step at a block of points: see `toron_linear_block_f64`.
 
- Returns the worst status code of the points: 0, or the most negative −3xx code (that point carries no stress and keeps
- its state and axes; the others are not affected; the message names the first one, without `status` only if
- its F and directions still tell it); or a −1xx or −2xx code, and nothing is written.
+ Returns the worst status code of the points: 0, or the most negative −3xx code (that point carries no stress and
+ keeps its state and axes; the others are not affected; the message names the first one, without `status` only if its
+ F and directions still tell it); or a −1xx or −2xx code, and nothing is written.
  */
 int32_t toron_linear_elastic_block_f64(const struct toron_linear_elastic_f64 *law,
                                        const struct toron_linear_block_f64 *block,
@@ -1698,8 +1714,8 @@ int32_t toron_linear_elastic_block_f32(const struct toron_linear_elastic_f32 *la
                                        size_t capacity);
 
 /*
- As `toron_linear_elastic_block_f64`, with the properties in the table's order in place of a law that has been prepared. The
- results are the same bits.
+ As `toron_linear_elastic_block_f64`, with the properties in the table's order in place of a law that has been
+ prepared. The results are the same bits.
  */
 int32_t toron_linear_elastic_block_with_properties_f64(const double *properties,
                                                        size_t count,
@@ -1719,11 +1735,11 @@ int32_t toron_linear_elastic_block_with_properties_f32(const float *properties,
 /*
  The hyperelastic law as a UMAT of Abaqus/Standard.
 
- The arguments are those of a UMAT with the same names: `stress` (`ntens` = `ndi` + `nshr`, out), `statev` (`nstatv` ≥ 11, in and
- out), `ddsdde` (`ntens` × `ntens`, out, symmetric, engineering shears; if null, it is not computed), `sse` (out),
- `pnewdt` (in and out), `dfgrd1` (9, in), `props` (`nprops` = 11, in, or 12: the
- last one is the number of the state variable that holds the point's own limit, ln(1 + eps_lim), or 0), `ndi` = 3, `nshr` = 3, or 1 for plane strain and
- axisymmetric solids, whose fibre lies in the plane or normal to it, and `nlgeom`: JSTEP(3) of
+ The arguments are those of a UMAT with the same names: `stress` (`ntens` = `ndi` + `nshr`, out), `statev` (`nstatv`
+ ≥ 11, in and out), `ddsdde` (`ntens` × `ntens`, out, symmetric, engineering shears; if null, it is not computed),
+ `sse` (out), `pnewdt` (in and out), `dfgrd1` (9, in), `props` (`nprops` = 11, in, or 12: the last one is the number
+ of the state variable that holds the point's own limit, ln(1 + eps_lim), or 0), `ndi` = 3, `nshr` = 3, or 1 for
+ plane strain and axisymmetric solids, whose fibre lies in the plane or normal to it, and `nlgeom`: JSTEP(3) of
  Abaqus, which is not 0 with NLGEOM=YES; without it there is no F. No pointer other than `ddsdde` may be null.
 
  DDSDDE is the modulus of the Jaumann rate of the Kirchhoff stress, over J. The call that detects failure returns the
@@ -1768,12 +1784,14 @@ int32_t toron_abaqus_umat_f64(double *stress,
 /*
  The linear elastic law as a UMAT of Abaqus/Standard.
 
- The arguments are those of `toron_abaqus_umat_tangent_f64`, and `dfgrd0` (9, in), F at the start of the increment; `nstatv` ≥ 10,
- `nprops` = 10, or 11: the last one is the number of the state variable that holds the point's own strength, or 0. The material axes follow the fibre, and the largest principal stress is compared with σ_lim. DDSDDE is not
- symmetric: `*USER MATERIAL, UNSYMM`; Abaqus takes its symmetric part otherwise. In plane strain and axisymmetric solids both axes
- lie in the plane or normal to it.
+ The arguments are those of `toron_abaqus_umat_tangent_f64`, and `dfgrd0` (9, in), F at the start of the increment;
+ `nstatv` ≥ 10, `nprops` = 10, or 11: the last one is the number of the state variable that holds the point's own
+ strength, or 0. The material axes follow the fibre, and the largest principal stress is compared with σ_lim. DDSDDE
+ is not symmetric: `*USER MATERIAL, UNSYMM`; Abaqus takes its symmetric part otherwise. In plane strain and
+ axisymmetric solids both axes lie in the plane or normal to it.
 
- Returns as `toron_abaqus_umat_tangent_f64` does, and `TORON_INCREMENT_TOO_LARGE` for a step that cannot be integrated.
+ Returns as `toron_abaqus_umat_tangent_f64` does, and `TORON_INCREMENT_TOO_LARGE` for a step that cannot be
+ integrated.
  */
 int32_t toron_abaqus_linear_umat_f64(double *stress,
                                      double *statev,
@@ -1794,9 +1812,10 @@ int32_t toron_abaqus_linear_umat_f64(double *stress,
 /*
  The law with friction as a UMAT of Abaqus/Standard.
 
- The arguments are those of `toron_abaqus_umat_tangent_f64`, and `spd` (out): the energy lost per current volume; `nstatv` ≥ 15,
- `nprops` = 13, or 14: the last one is the number of the state variable that holds the point's own limit, or 0. DDSDDE is not
- symmetric where the fibres slide: `*USER MATERIAL, UNSYMM`; Abaqus takes its symmetric part otherwise.
+ The arguments are those of `toron_abaqus_umat_tangent_f64`, and `spd` (out): the energy lost per current volume;
+ `nstatv` ≥ 15, `nprops` = 13, or 14: the last one is the number of the state variable that holds the point's own
+ limit, or 0. DDSDDE is not symmetric where the fibres slide: `*USER MATERIAL, UNSYMM`; Abaqus takes its symmetric
+ part otherwise.
 
  Returns as `toron_abaqus_umat_tangent_f64` does.
  */
@@ -1819,8 +1838,8 @@ int32_t toron_abaqus_frictional_umat_f64(double *stress,
 /*
  The hyperelastic law as a VUMAT of Abaqus/Explicit, for jobs in double precision.
 
- `block` holds the VUMAT's arguments; their shapes are given in `toron_vumat_f64`. All pointers are the caller's and not
- null. The law reads U, not F, so that the stress is the corotational one that Abaqus wants. In the data check
+ `block` holds the VUMAT's arguments; their shapes are given in `toron_vumat_f64`. All pointers are the caller's and
+ not null. The law reads U, not F, so that the stress is the corotational one that Abaqus wants. In the data check
  (`step_time` = `total_time` = 0) the answer is elastic and nothing fails. State variable 11, "alive", deletes the
  element.
 
@@ -1837,12 +1856,11 @@ int32_t toron_abaqus_vumat_f64(const struct toron_vumat_f64 *block, char *messag
 int32_t toron_abaqus_vumat_f32(const struct toron_vumat_f32 *block, char *message, size_t capacity);
 
 /*
- The linear elastic law as a VUMAT of Abaqus/Explicit, for jobs in double precision: as `toron_abaqus_vumat_f64`, with 10 properties
- and 10 state variables or more, of which number 10, "alive", deletes the element. It reads U at both ends of the increment.
+ The linear elastic law as a VUMAT of Abaqus/Explicit, for jobs in double precision: as `toron_abaqus_vumat_f64`,
+ with 10 properties and 10 state variables or more, of which number 10, "alive", deletes the element. It reads U at
+ both ends of the increment.
  */
-int32_t toron_abaqus_linear_vumat_f64(const struct toron_vumat_f64 *block,
-                                      char *message,
-                                      size_t capacity);
+int32_t toron_abaqus_linear_vumat_f64(const struct toron_vumat_f64 *block, char *message, size_t capacity);
 
 /*
  As `toron_abaqus_linear_vumat_f64`, for jobs in single precision.
@@ -1850,12 +1868,11 @@ int32_t toron_abaqus_linear_vumat_f64(const struct toron_vumat_f64 *block,
 int32_t toron_abaqus_linear_vumat_f32(const struct toron_vumat_f32 *block, char *message, size_t capacity);
 
 /*
- The law with friction as a VUMAT of Abaqus/Explicit, for jobs in double precision: as `toron_abaqus_vumat_f64`, with 13 properties
- and 15 state variables or more, of which number 15, "alive", deletes the element. `ener_inelas_new` is the energy lost per mass.
+ The law with friction as a VUMAT of Abaqus/Explicit, for jobs in double precision: as `toron_abaqus_vumat_f64`, with
+ 13 properties and 15 state variables or more, of which number 15, "alive", deletes the element. `ener_inelas_new` is
+ the energy lost per mass.
  */
-int32_t toron_abaqus_frictional_vumat_f64(const struct toron_vumat_f64 *block,
-                                          char *message,
-                                          size_t capacity);
+int32_t toron_abaqus_frictional_vumat_f64(const struct toron_vumat_f64 *block, char *message, size_t capacity);
 
 /*
  As `toron_abaqus_frictional_vumat_f64`, for jobs in single precision.
@@ -1865,13 +1882,13 @@ int32_t toron_abaqus_frictional_vumat_f32(const struct toron_vumat_f32 *block, c
 /*
  The hyperelastic law as a scalar user material of LS-DYNA, in double precision.
 
- `cm`: at least 11 values, the properties; `sig`: 6 values, the Cauchy stress, out; `hsv`: `nhv` = 11 state variables, in
- and out, followed by the 9 entries of F by columns, in; `failel`: out, 1 where the element has failed or could not be
- evaluated, else 0. None may be null.
+ `cm`: at least 11 values, the properties; `sig`: 6 values, the Cauchy stress, out; `hsv`: `nhv` = 11 state
+ variables, in and out, followed by the 9 entries of F by columns, in; `failel`: out, 1 where the element has failed
+ or could not be evaluated, else 0. None may be null.
 
- Returns 0; `TORON_NULL_ARGUMENT`, `TORON_STATE_COUNT`, `TORON_NO_DEFORMATION_GRADIENT` (F = 0 or stored elsewhere: check
- IHYPER and NHV on the card) or a −2xx code, and nothing is written; or a −3xx code: the stress is 0, energies and
- invariants are unchanged, and the element is marked as failed.
+ Returns 0; `TORON_NULL_ARGUMENT`, `TORON_STATE_COUNT`, `TORON_NO_DEFORMATION_GRADIENT` (F = 0 or stored elsewhere:
+ check IHYPER and NHV on the card) or a −2xx code, and nothing is written; or a −3xx code: the stress is 0, energies
+ and invariants are unchanged, and the element is marked as failed.
  */
 int32_t toron_lsdyna_umat_f64(const double *cm,
                               double *sig,
@@ -1896,8 +1913,8 @@ int32_t toron_lsdyna_umat_f32(const float *cm,
  The hyperelastic law as a vectorised user material of LS-DYNA, in double precision.
 
  `cm`: 11 properties or more; `sig1` … `sig6`: `nlq` each, out; `hsvs`: (`nlq`, 20), `nhv` = 11 state variables, in
- and out, then F, in; `failels`: `nlq`, out, 1 where an element has failed or could not be evaluated, else 0. Elements
- `lft` to `llt`, counted from 1, are evaluated; the others are not touched. No pointer may be null.
+ and out, then F, in; `failels`: `nlq`, out, 1 where an element has failed or could not be evaluated, else 0.
+ Elements `lft` to `llt`, counted from 1, are evaluated; the others are not touched. No pointer may be null.
 
  Returns the worst status: 0; `TORON_NULL_ARGUMENT`, `TORON_BAD_COUNT`, `TORON_BAD_LEADING_DIMENSION`,
  `TORON_STATE_COUNT`, `TORON_NO_DEFORMATION_GRADIENT` (of the first element, as in `toron_lsdyna_umat_f64`) or a −2xx
@@ -1943,11 +1960,11 @@ int32_t toron_lsdyna_umat_vector_f32(const float *cm,
  The tangent of the hyperelastic law for LS-DYNA's scalar user routine `utan`, in double precision.
 
  `cm`: 11 properties or more; `hsv`: `nhv` = 11 state variables, then 9 entries of F, in, as written by the material
- routine; `es`: 6 × 6, out, the Truesdell modulus of the Cauchy stress, 11 22 33 12 23 31, engineering shears, symmetric.
- None may be null.
+ routine; `es`: 6 × 6, out, the Truesdell modulus of the Cauchy stress, 11 22 33 12 23 31, engineering shears,
+ symmetric. None may be null.
 
- Returns 0; `TORON_NULL_ARGUMENT`, `TORON_STATE_COUNT`, `TORON_NO_DEFORMATION_GRADIENT` or a −2xx code, and nothing is
- written; or a −3xx code, and then `es` is 0. For a failed element `es` is 0 as well.
+ Returns 0; `TORON_NULL_ARGUMENT`, `TORON_STATE_COUNT`, `TORON_NO_DEFORMATION_GRADIENT` or a −2xx code, and nothing
+ is written; or a −3xx code, and then `es` is 0. For a failed element `es` is 0 as well.
  */
 int32_t toron_lsdyna_utan_f64(const double *cm,
                               const double *hsv,
@@ -1969,8 +1986,9 @@ int32_t toron_lsdyna_utan_f32(const float *cm,
 /*
  The tangent of the hyperelastic law as LS-DYNA's vectorised `utan` wants it, in double precision.
 
- `cm`, `nhv`, `lft`, `llt`, `nlq` as for `toron_lsdyna_umat_vector_f64`; `hsvs`: (`nlq`, 20), in; `dsave`: (`nlq`, 6, 6), out,
- as `es` of `toron_lsdyna_utan_f64`. Elements `lft` to `llt`, counted from 1, are evaluated; the others are not touched.
+ `cm`, `nhv`, `lft`, `llt`, `nlq` as for `toron_lsdyna_umat_vector_f64`; `hsvs`: (`nlq`, 20), in; `dsave`: (`nlq`, 6,
+ 6), out, as `es` of `toron_lsdyna_utan_f64`. Elements `lft` to `llt`, counted from 1, are evaluated; the others are
+ not touched.
 
  Returns the worst status, as `toron_lsdyna_umat_vector_f64` does; the tangent is 0 for an element that cannot be
  evaluated or has failed.
@@ -2002,8 +2020,9 @@ int32_t toron_lsdyna_utan_vector_f32(const float *cm,
  Computes the bulk and shear modulus to be entered as cm(12) and cm(13), to which IBULK = 12 and IG = 13 on the card
  refer.
 
- LS-DYNA computes its time step from K + 4G/3. With these values it equals k_el, and the wave along a stretched fibre is
- never faster than √(k_el/ρ). `bulk`, `shear`: one value each, out. Returns 0, `TORON_NULL_ARGUMENT` or a −2xx code.
+ LS-DYNA computes its time step from K + 4G/3. With these values it equals k_el, and the wave along a stretched fibre
+ is never faster than √(k_el/ρ). `bulk`, `shear`: one value each, out. Returns 0, `TORON_NULL_ARGUMENT` or a −2xx
+ code.
  */
 int32_t toron_lsdyna_bulk_and_shear_f64(const double *values,
                                         size_t count,
@@ -2015,9 +2034,9 @@ int32_t toron_lsdyna_bulk_and_shear_f64(const double *values,
 /*
  The linear elastic law as a scalar user material of LS-DYNA, in double precision.
 
- As `toron_lsdyna_umat_f64`, with `cm`: at least 10 values, the properties; `hsv`: `nhv` = 19 variables, the law's 10 state variables
- and the 9 entries of F of the last step by columns, in and out, followed by the 9 entries of F, in. The material axes follow the
- fibre, and the largest principal stress is compared with σ_lim.
+ As `toron_lsdyna_umat_f64`, with `cm`: at least 10 values, the properties; `hsv`: `nhv` = 19 variables, the law's 10
+ state variables and the 9 entries of F of the last step by columns, in and out, followed by the 9 entries of F, in.
+ The material axes follow the fibre, and the largest principal stress is compared with σ_lim.
  */
 int32_t toron_lsdyna_linear_umat_f64(const double *cm,
                                      double *sig,
@@ -2039,8 +2058,8 @@ int32_t toron_lsdyna_linear_umat_f32(const float *cm,
                                      size_t capacity);
 
 /*
- The linear elastic law as a vectorised user material of LS-DYNA, in double precision: as `toron_lsdyna_umat_vector_f64`, with `hsvs`:
- (`nlq`, 28), ordered as `hsv` of `toron_lsdyna_linear_umat_f64`.
+ The linear elastic law as a vectorised user material of LS-DYNA, in double precision: as
+ `toron_lsdyna_umat_vector_f64`, with `hsvs`: (`nlq`, 28), ordered as `hsv` of `toron_lsdyna_linear_umat_f64`.
  */
 int32_t toron_lsdyna_linear_umat_vector_f64(const double *cm,
                                             double *sig1,
@@ -2078,10 +2097,11 @@ int32_t toron_lsdyna_linear_umat_vector_f32(const float *cm,
                                             size_t capacity);
 
 /*
- The tangent of the linear elastic law for LS-DYNA's scalar user routine `utan`, in double precision: as `toron_lsdyna_utan_f64`, with
- `hsv` of `toron_lsdyna_linear_umat_f64`.
+ The tangent of the linear elastic law for LS-DYNA's scalar user routine `utan`, in double precision: as
+ `toron_lsdyna_utan_f64`, with `hsv` of `toron_lsdyna_linear_umat_f64`.
 
- It is that of a further, infinitesimal step from the state that the material routine has written, its symmetric part.
+ It is that of a further, infinitesimal step from the state that the material routine has written, its symmetric
+ part.
  */
 int32_t toron_lsdyna_linear_utan_f64(const double *cm,
                                      const double *hsv,
@@ -2101,8 +2121,8 @@ int32_t toron_lsdyna_linear_utan_f32(const float *cm,
                                      size_t capacity);
 
 /*
- As `toron_lsdyna_linear_utan_f64`, for LS-DYNA's vectorised `utan`: arguments as of `toron_lsdyna_utan_vector_f64`, with `hsvs`:
- (`nlq`, 28).
+ As `toron_lsdyna_linear_utan_f64`, for LS-DYNA's vectorised `utan`: arguments as of `toron_lsdyna_utan_vector_f64`,
+ with `hsvs`: (`nlq`, 28).
  */
 int32_t toron_lsdyna_linear_utan_vector_f64(const double *cm,
                                             const double *hsvs,
@@ -2128,8 +2148,8 @@ int32_t toron_lsdyna_linear_utan_vector_f32(const float *cm,
                                             size_t capacity);
 
 /*
- As `toron_lsdyna_bulk_and_shear_f64`, for the linear elastic law: cm(11) and cm(12), IBULK = 11 and IG = 12. K + 4G/3 is the largest of
- E1, E2 and 2G.
+ As `toron_lsdyna_bulk_and_shear_f64`, for the linear elastic law: cm(11) and cm(12), IBULK = 11 and IG = 12. K +
+ 4G/3 is the largest of E1, E2 and 2G.
  */
 int32_t toron_lsdyna_linear_bulk_and_shear_f64(const double *values,
                                                size_t count,
@@ -2141,8 +2161,8 @@ int32_t toron_lsdyna_linear_bulk_and_shear_f64(const double *values,
 /*
  The law with friction as a scalar user material of LS-DYNA, in double precision.
 
- As `toron_lsdyna_umat_f64`, with `cm`: at least 13 values, the properties; `hsv`: `nhv` = 15 state variables, in and out, followed
- by the 9 entries of F by columns, in.
+ As `toron_lsdyna_umat_f64`, with `cm`: at least 13 values, the properties; `hsv`: `nhv` = 15 state variables, in and
+ out, followed by the 9 entries of F by columns, in.
  */
 int32_t toron_lsdyna_frictional_umat_f64(const double *cm,
                                          double *sig,
@@ -2164,8 +2184,8 @@ int32_t toron_lsdyna_frictional_umat_f32(const float *cm,
                                          size_t capacity);
 
 /*
- The law with friction as a vectorised user material of LS-DYNA, in double precision: as `toron_lsdyna_umat_vector_f64`, with `hsvs`:
- (`nlq`, 24), ordered as `hsv` of `toron_lsdyna_frictional_umat_f64`.
+ The law with friction as a vectorised user material of LS-DYNA, in double precision: as
+ `toron_lsdyna_umat_vector_f64`, with `hsvs`: (`nlq`, 24), ordered as `hsv` of `toron_lsdyna_frictional_umat_f64`.
  */
 int32_t toron_lsdyna_frictional_umat_vector_f64(const double *cm,
                                                 double *sig1,
@@ -2203,11 +2223,11 @@ int32_t toron_lsdyna_frictional_umat_vector_f32(const float *cm,
                                                 size_t capacity);
 
 /*
- The tangent of the law with friction for LS-DYNA's scalar user routine `utan`, in double precision: as `toron_lsdyna_utan_f64`, with
- `hsv` of `toron_lsdyna_frictional_umat_f64`.
+ The tangent of the law with friction for LS-DYNA's scalar user routine `utan`, in double precision: as
+ `toron_lsdyna_utan_f64`, with `hsv` of `toron_lsdyna_frictional_umat_f64`.
 
- It is that of a further, infinitesimal step from the state that the material routine has written, where the fibres hold: that of
- unloading where they have slid in the step.
+ It is that of a further, infinitesimal step from the state that the material routine has written, where the fibres
+ hold: that of unloading where they have slid in the step.
  */
 int32_t toron_lsdyna_frictional_utan_f64(const double *cm,
                                          const double *hsv,
@@ -2227,8 +2247,8 @@ int32_t toron_lsdyna_frictional_utan_f32(const float *cm,
                                          size_t capacity);
 
 /*
- As `toron_lsdyna_frictional_utan_f64`, for LS-DYNA's vectorised `utan`: arguments as of `toron_lsdyna_utan_vector_f64`, with `hsvs`:
- (`nlq`, 24).
+ As `toron_lsdyna_frictional_utan_f64`, for LS-DYNA's vectorised `utan`: arguments as of
+ `toron_lsdyna_utan_vector_f64`, with `hsvs`: (`nlq`, 24).
  */
 int32_t toron_lsdyna_frictional_utan_vector_f64(const double *cm,
                                                 const double *hsvs,
@@ -2266,9 +2286,10 @@ int32_t toron_lsdyna_frictional_bulk_and_shear_f64(const double *values,
 /*
  The starter's routine of a user material of OpenRadioss, `LECMUSERnn`, in double precision.
 
- `number`: nn, 1 for the hyperelastic law, 2 for the linear elastic one and 3 for that with friction; `values`: `count` numbers
- of the card behind the density, the law's properties and then the options; `uparam`: `maxuparam` values, out; `nuparam`, `nuvar`: out; `parmat`: out, 1
- value, the modulus of the fastest wave at rest. None may be null.
+ `number`: nn, 1 for the hyperelastic law, 2 for the linear elastic one and 3 for that with friction; `values`:
+ `count` numbers of the card behind the density, the law's properties and then the options; `uparam`: `maxuparam`
+ values, out; `nuparam`, `nuvar`: out; `parmat`: out, 1 value, the modulus of the fastest wave at rest. None may be
+ null.
 
  Returns 0, or a code with which the starter is to be stopped, and nothing is written: a −1xx code
  (`TORON_BAD_ARGUMENT` for a number or an option among them) or a −2xx code.
@@ -2285,27 +2306,24 @@ int32_t toron_openradioss_lecm_f64(int32_t number,
                                    size_t capacity);
 
 /*
- A line of what the starter's listing says of a material of OpenRadioss: what its elements need, the values of the card, and
- the names of the user variables.
+ A line of what the starter's listing says of a material of OpenRadioss: what its elements need, the values of the
+ card, and the names of the user variables.
 
- `uparam`: `nuparam` values, as `toron_openradioss_lecm_f64` has written them; `line`: counted from 0; `text`: at most `capacity`
- bytes, out, with the terminating null. Returns 0, `TORON_UNKNOWN_NAME` behind the last line, or another code if `uparam` is not
- such an array.
+ `uparam`: `nuparam` values, as `toron_openradioss_lecm_f64` has written them; `line`: counted from 0; `text`: at
+ most `capacity` bytes, out, with the terminating null. Returns 0, `TORON_UNKNOWN_NAME` behind the last line, or
+ another code if `uparam` is not such an array.
  */
-int32_t toron_openradioss_listing_f64(const double *uparam,
-                                      int32_t nuparam,
-                                      int32_t line,
-                                      char *text,
-                                      size_t capacity);
+int32_t toron_openradioss_listing_f64(const double *uparam, int32_t nuparam, int32_t line, char *text, size_t capacity);
 
 /*
  The engine's routine of a user material of OpenRadioss, `LUSERnn`, for solids, in double precision.
 
- `nel` elements; `uparam`: `nuparam` values; `time`: 0 in the first cycle; `ngl`: `nel` numbers of elements for messages, or null;
- `rho0`: the reference density, 1 value; `fpsxx` … `fpsxz`: `nel` each, the deformation gradient; `signxx` … `signzx`: `nel` each,
- out, the Cauchy stress; `sigvxx` … `sigvzx` and `viscmax`: out, 0, or null; `soundsp`: `nel`, out, a bound of the wave speed;
- `uvar`: (`nel`, `nuvar`), in and out; `off`: `nel`, in and out, 0 where a point has failed or cannot be evaluated; `nodes`:
- (`nel`, 8, 3), what MAT_SOLID_GET_NOD_X gives, or null; read at time 0 if the fibre comes from the nodes.
+ `nel` elements; `uparam`: `nuparam` values; `time`: 0 in the first cycle; `ngl`: `nel` numbers of elements for
+ messages, or null; `rho0`: the reference density, 1 value; `fpsxx` … `fpsxz`: `nel` each, the deformation gradient;
+ `signxx` … `signzx`: `nel` each, out, the Cauchy stress; `sigvxx` … `sigvzx` and `viscmax`: out, 0, or null;
+ `soundsp`: `nel`, out, a bound of the wave speed; `uvar`: (`nel`, `nuvar`), in and out; `off`: `nel`, in and out, 0
+ where a point has failed or cannot be evaluated; `nodes`: (`nel`, 8, 3), what MAT_SOLID_GET_NOD_X gives, or null;
+ read at time 0 if the fibre comes from the nodes.
 
  A point with `off` below 1 has no stress and keeps its state; `off` never rises. The variable `deleted` says why it
  is out: 1 failed, 2 by the solver, or the −3xx code of the reason why it could not be evaluated.

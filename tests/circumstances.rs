@@ -316,8 +316,8 @@ fn a_law_is_not_evaluated_without_what_it_reads() {
     }
 }
 
-/// A law with a root in its stress, that of the first invariant less 3: 0 at rest, where its slope is infinite; or, with a
-/// property of 0, a quotient of 0 and 0.
+/// A law with a root in its stress, that of the first invariant less 3: 0 at rest, where its slope is infinite; or,
+/// with a property of 0, a quotient of 0 and 0.
 #[derive(Clone, Copy, Debug, Default)]
 struct Rooted;
 

@@ -1,5 +1,6 @@
-//! The behaviours of MFront's generic interface as MGIS calls them, of the library's laws and of laws of one's own: every stress and every tangent against the library's own entries
-//! and against differences of the stress, prediction operators, the speed of sound, plane hypotheses.
+//! The behaviours of MFront's generic interface as MGIS calls them, of the library's laws and of laws of one's own:
+//! every stress and every tangent against the library's own entries and against differences of the stress, prediction
+//! operators, the speed of sound, plane hypotheses.
 
 use std::f64::consts::SQRT_2;
 use std::ffi::c_char;
@@ -20,7 +21,8 @@ use toron::{Criterion, Hyperelastic, LinearElastic, Measure, Request, Rotation};
 
 use reinforced_solid::ReinforcedSolid;
 
-/// Rows and columns of the components, of tensors and of symmetric ones; in the plane the first five and the first four.
+/// Rows and columns of the components, of tensors and of symmetric ones; in the plane the first five and the first
+/// four.
 const TENSOR: [(usize, usize); 9] = [(0, 0), (1, 1), (2, 2), (0, 1), (1, 0), (0, 2), (2, 0), (1, 2), (2, 1)];
 const SYMMETRIC: [(usize, usize); 6] = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)];
 
@@ -468,7 +470,8 @@ fn requests_differ_in_the_operator_alone() {
     }
 }
 
-/// A prediction operator is that of the state at the start of the step. Nothing else is written, and F at its end is not read.
+/// A prediction operator is that of the state at the start of the step. Nothing else is written, and F at its end is
+/// not read.
 #[test]
 fn prediction_operators() {
     for behaviour in Behaviour::all() {
@@ -557,7 +560,8 @@ fn oblique_axes_are_refused_in_the_plane() {
     }
 }
 
-/// A wrong property is refused by its name, as the law's own table has it, in every hypothesis; a point that has failed carries nothing.
+/// A wrong property is refused by its name, as the law's own table has it, in every hypothesis; a point that has failed
+/// carries nothing.
 #[test]
 fn properties_and_failure_of_a_law_of_ones_own() {
     let (rest, pulled) = (Matrix3::identity(), Matrix3::from_diagonal(&Vector3::new(1.05, 1.0, 1.0)));
@@ -593,8 +597,8 @@ fn properties_and_failure_of_a_law_of_ones_own() {
     }
 }
 
-/// The strength is a material property, which a code may give by point, as MGIS passes an array of them: each point fails at its own,
-/// whatever others have, and one that changes counts from then on.
+/// The strength is a material property, which a code may give by point, as MGIS passes an array of them: each point
+/// fails at its own, whatever others have, and one that changes counts from then on.
 #[test]
 fn strengths_by_point() {
     let (rest, pulled) = (Matrix3::identity(), Matrix3::from_diagonal(&Vector3::new(1.05, 1.0, 1.0)));
@@ -615,8 +619,8 @@ fn strengths_by_point() {
     }
 }
 
-/// Newton's method to a given uniaxial stress by dσ/dF, F without rotation: the stress that is missing is squared from one
-/// iteration to the next.
+/// Newton's method to a given uniaxial stress by dσ/dF, F without rotation: the stress that is missing is squared from
+/// one iteration to the next.
 #[test]
 fn a_given_stress_is_found_quadratically() {
     /// The entries of F on and above the diagonal.

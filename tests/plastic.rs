@@ -1,5 +1,5 @@
-//! A metal by von Mises as a law of one's own, `examples/own_law`: in a UMAT and in blocks of points, against the same law by
-//! eigenvectors and bisection, and against a closed form.
+//! A metal by von Mises as a law of one's own, `examples/own_law`: in a UMAT and in blocks of points, against the same
+//! law by eigenvectors and bisection, and against a closed form.
 
 use std::ptr::null_mut;
 

@@ -29,8 +29,8 @@ use toron_test_support::block::levels;
 #[derive(Clone, Copy, Debug, Default)]
 struct Bare;
 
-/// The same with a viscous stress, 2 η (E − E at the start) as a second Piola–Kirchhoff stress, and the sum of the steps of tr E by
-/// their size; it fails where that reaches a limit.
+/// The same with a viscous stress, 2 η (E − E at the start) as a second Piola–Kirchhoff stress, and the sum of the
+/// steps of tr E by their size; it fails where that reaches a limit.
 #[derive(Clone, Copy, Debug, Default)]
 struct Viscous;
 

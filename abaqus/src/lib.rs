@@ -3,8 +3,8 @@
 //! double precision; libtoron_abaqus_sp, linked to as `libexplicitU.so`, has that of jobs in single precision. See
 //! `toron::host::abaqus`.
 //!
-//! A library of its own, since the symbols' names are Abaqus's choice, and since it ends the job where the deck is wrong: package
-//! `toron-solvers` has both.
+//! A library of its own, since the symbols' names are Abaqus's choice, and since it ends the job where the deck is
+//! wrong: package `toron-solvers` has both.
 
 // Abaqus's routines are looked up as Unix has it, and its symbols have other names on Windows.
 #![cfg(unix)]

@@ -13,8 +13,9 @@ macro_rules! behaviours {
 
 toron::library_laws! { behaviours {} }
 
-/// The bounds of a law's properties, each under both of MFront's names: outside them the property is refused. The properties that have
-/// bounds are listed, since a name of a symbol cannot be computed; the list is checked against the table.
+/// The bounds of a law's properties, each under both of MFront's names: outside them the property is refused. The
+/// properties that have bounds are listed, since a name of a symbol cannot be computed; the list is checked against the
+/// table.
 #[cfg(target_arch = "x86_64")]
 macro_rules! bounds {
     ($behaviour:literal, $law:path: $($property:literal),*) => {

@@ -119,7 +119,8 @@ enum Command {
         /// The C entry to go through, as its host would call it.
         #[arg(long, value_enum, default_value = "law")]
         via: Entry,
-        /// Add "ddsdde", rows of the Jaumann modulus as Abaqus wants it, of a path's last step; refused for entries that have none.
+        /// Add "ddsdde", rows of the Jaumann modulus as Abaqus wants it, of a path's last step; refused for entries
+        /// that have none.
         #[arg(long)]
         tangent: bool,
     },

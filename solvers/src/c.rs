@@ -1,4 +1,5 @@
-//! C: for a law of the name `NAME` its tables, `NAME_prepare_f64` and `NAME_block_f64` or `_f32`; and the header with their prototypes.
+//! C: for a law of the name `NAME` its tables, `NAME_prepare_f64` and `NAME_block_f64` or `_f32`; and the header with
+//! their prototypes.
 
 use std::path::Path;
 use std::{fs, io};
@@ -10,7 +11,8 @@ use toron::host::prepared::AsNumbers;
 use toron::law::interface::Law;
 use toron::law::status;
 
-// What stands beside `$law` may hide the user's names: a macro brings no name but those of functions, and one that no law has.
+// What stands beside `$law` may hide the user's names: a macro brings no name but those of functions, and one that no
+// law has.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! c {
@@ -98,7 +100,8 @@ macro_rules! c {
     )+};
 }
 
-/// Writes the [header](c_header) of a law in C to a file, unless it is there already: for the build script of the law's library.
+/// Writes the [header](c_header) of a law in C to a file, unless it is there already: for the build script of the law's
+/// library.
 ///
 /// ```no_run
 /// toron_solvers::write_header::<toron::Hyperelastic>("YARN", "../yarn.h").expect("the folder can be written");
@@ -121,7 +124,8 @@ where
     fs::write(file, header)
 }
 
-/// The header of a law in C, from its tables: what a library exports that has the law under this name, in either precision.
+/// The header of a law in C, from its tables: what a library exports that has the law under this name, in either
+/// precision.
 pub fn c_header<M>(name: &str) -> String
 where
     M: Material<f64> + Material<f32>,

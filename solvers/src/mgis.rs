@@ -62,8 +62,8 @@ macro_rules! mgis {
                 $crate::mgis! { @ $name, "ComputesInternalEnergy", STORES_ENERGY: u16 = 1 }
                 $crate::mgis! { @ $name, "ComputesDissipatedEnergy", DISSIPATES_ENERGY: u16 = LAW.lost.is_some() as u16 }
 
-                // None of these; the lists must exist all the same. MGIS and MTest themselves add the temperature, which comes first
-                // unless it is said to be removed.
+                // None of these; the lists must exist all the same. MGIS and MTest themselves add the temperature,
+                // which comes first unless it is said to be removed.
                 $crate::mgis! { @ $name, "nExternalStateVariables", EXTERNAL_COUNT: u16 = 0 }
                 $crate::mgis! { @ $name, "ExternalStateVariables", EXTERNAL_LIST: [__toron::Text; 1] = [__toron::Text::NONE] }
                 $crate::mgis! { @ $name, "ExternalStateVariablesTypes", EXTERNAL_TYPES: [i32; 1] = [0] }

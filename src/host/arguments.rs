@@ -12,13 +12,13 @@ use crate::law::status;
 use crate::law::tangent::Measure;
 use crate::law::wave_speed;
 
-/// Where the entries of an array are: component c of point i at `c * leading_dimension + i * stride`, in numbers. All 0: as the
-/// block says.
+/// Where the entries of an array are: component c of point i at `c * leading_dimension + i * stride`, in numbers. All
+/// 0: as the block says.
 #[repr(C)]
 #[derive(Clone, Copy, Default)]
 pub struct Layout {
-    /// From one component to the next; 0: that of the block, or 1 if the stride is more than 1 (points in rows). Not read where
-    /// every component has a pointer.
+    /// From one component to the next; 0: that of the block, or 1 if the stride is more than 1 (points in rows). Not
+    /// read where every component has a pointer.
     pub leading_dimension: size_t,
     /// From one point to the next; 0: 1. Points next to each other take the least time: others are copied part by part.
     pub stride: size_t,
@@ -56,8 +56,9 @@ impl Layout {
         Layout { leading_dimension, stride: self.stride.max(1) }
     }
 
-    /// Checks the pointers to the components of an array of `n` points: all are given, or only the first one, or none. The layout
-    /// has nothing left out; `component` is the name of one of its components, `distances` those of its leading dimension and stride.
+    /// Checks the pointers to the components of an array of `n` points: all are given, or only the first one, or none.
+    /// The layout has nothing left out; `component` is the name of one of its components, `distances` those of its
+    /// leading dimension and stride.
     ///
     /// # Errors
     /// Some are given, but not all; or entries may overlap, or are before the array's start.

@@ -26,13 +26,14 @@ use crate::law::tangent::Measure;
 use crate::law::voigt::Moduli;
 use crate::law::wave_speed;
 
-/// A block of points of the hyperelastic law or of the law with friction. Set `size`, `n`, and what is wanted; the rest is
-/// 0: an array that is null is left out, and an output that is left out is not computed.
+/// A block of points of the hyperelastic law or of the law with friction. Set `size`, `n`, and what is wanted; the rest
+/// is 0: an array that is null is left out, and an output that is left out is not computed.
 ///
-/// Component c of point i is at `c * leading_dimension + i`, unless the layout of the array says otherwise. F, fibre and stress
-/// have a pointer for each component, so that they may be in separate arrays; if only the first is set, the others follow it by
-/// the layout. The arrays of the old and the new state may be the same; otherwise arrays must not overlap. Energies, invariants
-/// and failure may be parts of one array of 11 components (15 of the law with friction), starting at components 0, 4 and 8.
+/// Component c of point i is at `c * leading_dimension + i`, unless the layout of the array says otherwise. F, fibre
+/// and stress have a pointer for each component, so that they may be in separate arrays; if only the first is set, the
+/// others follow it by the layout. The arrays of the old and the new state may be the same; otherwise arrays must not
+/// overlap. Energies, invariants and failure may be parts of one array of 11 components (15 of the law with friction),
+/// starting at components 0, 4 and 8.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct Block<T> {
@@ -44,8 +45,8 @@ pub struct Block<T> {
     pub leading_dimension: size_t,
     /// In: which tangent, one of `TORON_TANGENT_...`; read if `tangent` is not null.
     pub measure: i32,
-    /// In: the instruction set to use, one of `TORON_LEVEL_...`; if the processor lacks it, the best one below it. AVX2 and
-    /// AVX-512 give identical bits; the baseline differs in the last digits.
+    /// In: the instruction set to use, one of `TORON_LEVEL_...`; if the processor lacks it, the best one below it. AVX2
+    /// and AVX-512 give identical bits; the baseline differs in the last digits.
     pub level: i32,
     /// In: reference density; read if `wave_speed` is not null.
     pub density: f64,
@@ -63,29 +64,31 @@ pub struct Block<T> {
     pub energies: *mut T,
     /// Out, 4: I_el I_tc I_td I_ld.
     pub invariants: *mut T,
-    /// Out, 3: failure index, failed, alive; of the law with friction 7, before these the energy lost, I_te and the two components
-    /// of the slip. If null, no point fails, but a point whose old failure flag is set stays failed.
+    /// Out, 3: failure index, failed, alive; of the law with friction 7, before these the energy lost, I_te and the two
+    /// components of the slip. If null, no point fails, but a point whose old failure flag is set stays failed.
     pub failure: *mut T,
     /// Out, 24: S_el, S_tc, S_td, S_ld, second Piola-Kirchhoff, each 11 22 33 12 23 31.
     pub modes: *mut T,
-    /// Out, 36 components (81 for `TORON_TANGENT_NOMINAL`): entry (row, column), counted from 0, is component 6 row + column (9 row
-    /// + column); else as in `toron_point_f64`.
+    /// Out, 36 components (81 for `TORON_TANGENT_NOMINAL`): entry (row, column), counted from 0, is component 6 row +
+    /// column (9 row + column); else as in `toron_point_f64`.
     pub tangent: *mut T,
     /// Out, a number for each point: an upper bound of the wave speed, as in `toron_point_f64`.
     pub wave_speed: *mut T,
-    /// Out, a number for each point: 1, or 0 if it has failed or cannot be evaluated: what a solver deletes elements by.
+    /// Out, a number for each point: 1, or 0 if it has failed or cannot be evaluated: what a solver deletes elements
+    /// by.
     pub active: *mut T,
     /// Out, a number for each point: its status code.
     pub status: *mut i32,
-    /// Where the entries of these arrays are. That of the state holds for energies, invariants and failure, old and new.
+    /// Where the entries of these arrays are. That of the state holds for energies, invariants and failure, old and
+    /// new.
     pub deformation_gradient_layout: Layout,
     pub fibre_layout: Layout,
     pub state_layout: Layout,
     pub stress_layout: Layout,
     pub modes_layout: Layout,
     pub tangent_layout: Layout,
-    /// In, a number for each point: the true fibre strain at failure, ln(1 + eps_lim), in place of that of the properties; 0: that of the
-    /// properties. If null, that of the properties. Read if `failure` is not null.
+    /// In, a number for each point: the true fibre strain at failure, ln(1 + eps_lim), in place of that of the
+    /// properties; 0: that of the properties. If null, that of the properties. Read if `failure` is not null.
     pub limit: *const T,
     pub limit_layout: Layout,
 }
@@ -97,8 +100,8 @@ const _: () =
     assert!(size_of::<Block<f64>>() == 5 * 8 + 30 * 8 + 14 * 8 && size_of::<Block<f32>>() == size_of::<Block<f64>>());
 
 impl<T: Scalar> Block<T> {
-    /// Whether all arrays are placed in the usual way: one pointer each, and one leading dimension for all. Most blocks are, and
-    /// most calls have so few points that to look at every layout would take time.
+    /// Whether all arrays are placed in the usual way: one pointer each, and one leading dimension for all. Most blocks
+    /// are, and most calls have so few points that to look at every layout would take time.
     #[inline(always)]
     fn is_plain(&self) -> bool {
         let [f, fibre] = [&self.deformation_gradient_layout, &self.fibre_layout];
@@ -125,8 +128,8 @@ impl<T: Scalar> Block<T> {
         others == 0 && self.leading_dimension <= MOST && self.n <= leading_dimension(self.leading_dimension, self.n)
     }
 
-    /// Whether it is a single point, and requests what most callers do, the stress with or without the state, the wave speed and a
-    /// tangent of 6×6, at a level whose lanes compute as a point on its own does.
+    /// Whether it is a single point, and requests what most callers do, the stress with or without the state, the wave
+    /// speed and a tangent of 6×6, at a level whose lanes compute as a point on its own does.
     #[inline(always)]
     fn is_usual_point(&self) -> bool {
         let no_state = self.energies.addr() | self.invariants.addr() | self.failure.addr() == 0;
@@ -269,8 +272,8 @@ impl<T: Precision> Given<'_, T> {
 #[inline(always)]
 pub unsafe fn evaluate<T: Precision + Registers>(law: Given<'_, T>, block: *const Block<T>) -> Result<i32, Error> {
     let mut buffer = MaybeUninit::uninit();
-    // SAFETY: `read` refuses null, and the layouts are plain, or checked before an array is read; how long the arrays are the C caller
-    // promises, and of `status` that it has n codes.
+    // SAFETY: `read` refuses null, and the layouts are plain, or checked before an array is read; how long the arrays
+    // are the C caller promises, and of `status` that it has n codes.
     unsafe {
         let block = read(block, &mut buffer)?;
         block.check()?;
@@ -293,7 +296,8 @@ pub unsafe fn evaluate<T: Precision + Registers>(law: Given<'_, T>, block: *cons
     }
 }
 
-/// The error of a block without status codes, after the call: of the first point at fault, if that can be told from F and fibre.
+/// The error of a block without status codes, after the call: of the first point at fault, if that can be told from F
+/// and fibre.
 ///
 /// # Errors
 /// Always.
@@ -309,7 +313,8 @@ unsafe fn named<T: Precision>(law: Given<'_, T>, block: &Block<T>, worst: i32) -
     Err(index.map_or(Error::Plain(worst), |index| Error::Point { code: worst, index }))
 }
 
-/// Evaluates a block of one point, which takes less time on its own than in a register, by the same operations. Returns its status.
+/// Evaluates a block of one point, which takes less time on its own than in a register, by the same operations. Returns
+/// its status.
 ///
 /// # Errors
 /// None: the block and the law have been checked.
@@ -395,8 +400,8 @@ impl<T: Scalar> PointOfBlock<'_, T> {
         let PointOfBlock { block, code } = self;
         *code = point.status;
         let next = leading_dimension(block.leading_dimension, 1);
-        // SAFETY: a usual point has a stress, and all parts of the state or none; what may be null has been checked. As many values as
-        // components.
+        // SAFETY: a usual point has a stress, and all parts of the state or none; what may be null has been checked. As
+        // many values as components.
         let store = |values: &[T], array: *mut T| unsafe {
             for (c, &value) in values.iter().enumerate() {
                 *array.add(c * next) = value;

@@ -60,8 +60,8 @@ const RESIDUAL_STIFFNESS: f64 = 1e-6;
 /// The most properties of a law whose directions are turned.
 const MOST_PROPERTIES: usize = 128;
 
-/// The arguments of CalculiX that the laws use, with the names of its `umat_user.f`. Who makes one promises that every pointer points to
-/// as many values as its field says, valid for what they are used for.
+/// The arguments of CalculiX that the laws use, with the names of its `umat_user.f`. Who makes one promises that every
+/// pointer points to as many values as its field says, valid for what they are used for.
 #[derive(Clone, Copy, Debug)]
 pub struct Behaviour {
     /// In, 80 characters: the material's name.
@@ -75,8 +75,8 @@ pub struct Behaviour {
     pub emec: *const f64,
     pub beta: *const f64,
     pub xkl: *const f64,
-    /// In: the integration points of an element, mi(1), and the state variables of a point, 1; then the old and, out, the new state
-    /// variables of all points.
+    /// In: the integration points of an element, mi(1), and the state variables of a point, 1; then the old and, out,
+    /// the new state variables of all points.
     pub mi: *const i32,
     pub nstate_: *const i32,
     pub xstateini: *const f64,
@@ -350,8 +350,8 @@ impl Arguments<'_> {
     }
 }
 
-/// The vector whose components in the axes of `*ORIENTATION` are `m`: rectangular axes by two vectors, or cylindrical ones about
-/// the line through two points, as CalculiX's `transformatrix.f` reads them.
+/// The vector whose components in the axes of `*ORIENTATION` are `m`: rectangular axes by two vectors, or cylindrical
+/// ones about the line through two points, as CalculiX's `transformatrix.f` reads them.
 fn turned(m: [f64; 3], &[a_1, a_2, a_3, b_1, b_2, b_3, system]: &[f64; 7], place: &[f64; 3]) -> [f64; 3] {
     let (a, b) = (Vector3::new(a_1, a_2, a_3), Vector3::new(b_1, b_2, b_3));
     let unit = |v: Vector3<f64>| v / v.norm();
@@ -370,7 +370,8 @@ fn turned(m: [f64; 3], &[a_1, a_2, a_3, b_1, b_2, b_3, system]: &[f64; 7], place
     (e1 * m_1 + e2 * m_2 + e3 * m_3).into()
 }
 
-/// The text of an error. It is written in the default floating-point environment, since formatting numbers is arithmetic.
+/// The text of an error. It is written in the default floating-point environment, since formatting numbers is
+/// arithmetic.
 struct Message {
     text: [u8; 400],
     length: usize,
@@ -472,8 +473,8 @@ pub unsafe fn linear_elastic(call: &Behaviour) {
 /// As for [`CalculixLaw::behaviour`].
 #[inline(always)]
 unsafe fn answer<S>(call: &Behaviour, law: impl FnOnce(&Arguments<'_>) -> Result<Answer<S>, Error>) {
-    // SAFETY: no pointer is null, and each has the values that `Behaviour` says. Integration points, elements and orientations count
-    // from 1.
+    // SAFETY: no pointer is null, and each has the values that `Behaviour` says. Integration points, elements and
+    // orientations count from 1.
     let (arguments, new) = unsafe {
         let point = (*call.iel as usize - 1) * *call.mi as usize + (*call.iint as usize - 1);
         let place = point * *call.nstate_ as usize;
@@ -494,8 +495,8 @@ unsafe fn answer<S>(call: &Behaviour, law: impl FnOnce(&Arguments<'_>) -> Result
     };
     let mut message = Message::EMPTY;
     match in_default_environment(|| law(&arguments).map_err(|error| message.write(error))) {
-        // SAFETY: the results have the sizes that `Behaviour` says; the state has as many values as the law's and F, which
-        // `Arguments::properties` has checked before there is an answer.
+        // SAFETY: the results have the sizes that `Behaviour` says; the state has as many values as the law's and F,
+        // which `Arguments::properties` has checked before there is an answer.
         Ok(answer) => unsafe {
             *call.stre.cast() = answer.stress;
             *call.stiff.cast() = answer.stiffness;

@@ -1,5 +1,5 @@
-//! What the entry points have in common: they read their arguments, compute in the default floating-point environment and store
-//! the requested results.
+//! What the entry points have in common: they read their arguments, compute in the default floating-point environment
+//! and store the requested results.
 
 use core::slice;
 
@@ -43,9 +43,9 @@ pub(super) fn check_pointers<T>(pointers: &[(*const T, &'static str)]) -> Result
     }
 }
 
-/// Whether a direction is neither in the plane of a plane-strain or axisymmetric element nor normal to it: the stress along it
-/// would have components that such an element does not have. False for a direction that is zero or not finite, which is refused
-/// elsewhere.
+/// Whether a direction is neither in the plane of a plane-strain or axisymmetric element nor normal to it: the stress
+/// along it would have components that such an element does not have. False for a direction that is zero or not finite,
+/// which is refused elsewhere.
 fn out_of_plane([m_1, m_2, m_3]: [f64; 3]) -> bool {
     /// A direction typed or computed to this many digits counts as in the plane.
     const TOLERANCE: f64 = 1e-9;
@@ -53,8 +53,8 @@ fn out_of_plane([m_1, m_2, m_3]: [f64; 3]) -> bool {
     along > TOLERANCE * across && across > TOLERANCE * along
 }
 
-/// The error of a direction among the properties that a plane-strain or axisymmetric element does not allow: the stress would have
-/// components that such an element does not have. `index` is that of its first component, from 0.
+/// The error of a direction among the properties that a plane-strain or axisymmetric element does not allow: the stress
+/// would have components that such an element does not have. `index` is that of its first component, from 0.
 #[cold]
 fn oblique(index: usize, name: &'static str, value: [f64; 3]) -> Error {
     let (value, wanted) = (value.map(Value::of), "a direction in the plane (third component 0) or normal to it");
@@ -94,8 +94,8 @@ pub(super) fn stiffness_at_rest<T: Precision, L: Law<T>>(law: &L) -> Result<[T; 
     Err(Error::Setting { code: status::BAD_ARGUMENT, text })
 }
 
-/// For hosts that do not pass the F of the last step: sets it to 1 where it is 0, as the host initialises the place where it is kept,
-/// since points start unstressed. No F has a column of zeros.
+/// For hosts that do not pass the F of the last step: sets it to 1 where it is 0, as the host initialises the place
+/// where it is kept, since points start unstressed. No F has a column of zeros.
 ///
 /// # Safety
 /// The rows have n values.
@@ -121,8 +121,8 @@ pub(super) fn from_entry<T, const N: usize>(mut arrays: [*mut T; N], first: usiz
     arrays
 }
 
-/// Where a caller wants the message of an error: a buffer, or nowhere if it is null. It is written only if there is an error. Who makes
-/// one promises that `text` is null or points to `capacity` writable bytes.
+/// Where a caller wants the message of an error: a buffer, or nowhere if it is null. It is written only if there is an
+/// error. Who makes one promises that `text` is null or points to `capacity` writable bytes.
 #[derive(Clone, Copy)]
 pub struct Message {
     pub text: *mut c_char,
@@ -209,8 +209,8 @@ pub unsafe fn status_message(status: i32, text: *mut c_char, capacity: size_t) -
     if status::meaning(status).is_some() { status::OK } else { status::UNKNOWN_NAME }
 }
 
-/// Runs the body of an entry point in the default floating-point environment. Returns its status, or that of its error, with a
-/// message.
+/// Runs the body of an entry point in the default floating-point environment. Returns its status, or that of its error,
+/// with a message.
 ///
 /// # Safety
 /// As for [`Message::write`].
@@ -234,7 +234,8 @@ pub unsafe fn look_up(message: Message, body: impl FnOnce() -> Result<i32, Error
     body().unwrap_or_else(|error| unsafe { message.refuse(&error) })
 }
 
-/// The worst code of a block as a result of [`entry`]: an error that names the first point at fault, if each point's code is known.
+/// The worst code of a block as a result of [`entry`]: an error that names the first point at fault, if each point's
+/// code is known.
 ///
 /// # Errors
 /// The code is not 0, and `codes` is not null.

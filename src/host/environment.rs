@@ -1,12 +1,14 @@
-//! The change from the caller's floating-point environment, which no entry point computes in or alters, to the default one.
+//! The change from the caller's floating-point environment, which no entry point computes in or alters, to the default
+//! one.
 //!
-//! Some solvers trap floating-point exceptions, flush subnormal numbers to zero or round in another direction. The compiler
-//! assumes none of that: it may compute in unused lanes, speculate a division whose result is dropped, and fold constants as if
-//! rounding to nearest. So each entry point computes in the default environment of IEEE 754 (nothing trapped, subnormal numbers
-//! kept, round to nearest) and restores the caller's when it is done, sticky exception flags included.
+//! Some solvers trap floating-point exceptions, flush subnormal numbers to zero or round in another direction. The
+//! compiler assumes none of that: it may compute in unused lanes, speculate a division whose result is dropped, and
+//! fold constants as if rounding to nearest. So each entry point computes in the default environment of IEEE 754
+//! (nothing trapped, subnormal numbers kept, round to nearest) and restores the caller's when it is done, sticky
+//! exception flags included.
 //!
-//! On x86-64 the environment is the register MXCSR; nothing here uses the x87 registers. On other processors the work runs in
-//! the caller's environment.
+//! On x86-64 the environment is the register MXCSR; nothing here uses the x87 registers. On other processors the work
+//! runs in the caller's environment.
 
 /// Nothing trapped, no flag raised, subnormal numbers kept, round to nearest: MXCSR as a process starts with it.
 #[cfg(target_arch = "x86_64")]
@@ -37,12 +39,12 @@ pub fn in_default_environment<R, W: FnOnce() -> R>(work: W) -> R {
 
     let mut call = Call { work: ManuallyDrop::new(work), result: MaybeUninit::uninit() };
     let run: unsafe extern "sysv64" fn(*mut Call<R, W>) = run;
-    // The caller's MXCSR, and the one to run in. All arithmetic is in `run`: the compiler may move operations across a change of
-    // environments that it does not know of, but not out of a function that only the assembly calls.
+    // The caller's MXCSR, and the one to run in. All arithmetic is in `run`: the compiler may move operations across a
+    // change of environments that it does not know of, but not out of a function that only the assembly calls.
     let mut words = [0, DEFAULT_MXCSR];
-    // SAFETY: `run` has the calling convention whose registers are given up, keeps r12 as that convention demands, and takes
-    // its argument in rdi; the stack is aligned for a call, since the block does not claim to leave it alone. MXCSR is the
-    // caller's again at the end of the block.
+    // SAFETY: `run` has the calling convention whose registers are given up, keeps r12 as that convention demands, and
+    // takes its argument in rdi; the stack is aligned for a call, since the block does not claim to leave it alone.
+    // MXCSR is the caller's again at the end of the block.
     unsafe {
         core::arch::asm!(
             "stmxcsr [r12]",

@@ -57,7 +57,8 @@ pub unsafe fn point<T: Precision>(law: &Frictional<T>, point: *const Point<T>) -
 /// What [a caller promises](super#what-a-caller-promises).
 pub unsafe fn block<T: Precision>(law: &Frictional<T>, block: *const Block<T>) -> Result<i32, Error> {
     let mut buffer = MaybeUninit::uninit();
-    // SAFETY: `read` refuses null, and the layouts are checked before an array is read; how long the arrays are the C caller promises.
+    // SAFETY: `read` refuses null, and the layouts are checked before an array is read; how long the arrays are the C
+    // caller promises.
     unsafe {
         let block = read(block, &mut buffer)?;
         block.check()?;

@@ -69,9 +69,9 @@ impl LibraryLaw {
     }
 }
 
-/// The number, `/MAT/USERnn`, of the law whose properties and state variables are as many as a material has in Abaqus, or
-/// that has so many constants as the first law cannot have, a limit variable included; that of the first law if there is
-/// none. So the message of the right law says what a card lacks.
+/// The number, `/MAT/USERnn`, of the law whose properties and state variables are as many as a material has in Abaqus,
+/// or that has so many constants as the first law cannot have, a limit variable included; that of the first law if
+/// there is none. So the message of the right law says what a card lacks.
 #[inline]
 pub fn by_counts(counts: [i32; 2]) -> i32 {
     let [first, others @ ..] = &LAWS;

@@ -1,5 +1,5 @@
-//! A failure limit of each point in one of the host's state variables, not of the law's: a constant of the card behind the properties,
-//! [`NAME`], is that variable's number from 1, or 0 where there is none.
+//! A failure limit of each point in one of the host's state variables, not of the law's: a constant of the card behind
+//! the properties, [`NAME`], is that variable's number from 1, or 0 where there is none.
 
 use core::ptr::null;
 
@@ -25,7 +25,8 @@ fn has_constant<T: Precision, L: Law<T>>(count: usize) -> bool {
     L::HAS_LIMIT && count == properties.len() + 1
 }
 
-/// The place, from 0, of the variable that holds the limit, if the card names one. Variables from `kept` on are not the law's.
+/// The place, from 0, of the variable that holds the limit, if the card names one. Variables from `kept` on are not the
+/// law's.
 ///
 /// # Errors
 /// A number that is none of these variables'.
@@ -61,8 +62,8 @@ pub(super) fn of<T: Precision, L: Law<T>>(limit: &T) -> *const T {
     if L::HAS_LIMIT { limit } else { null() }
 }
 
-/// The limit, or 0 where there is none or the point has failed before, by its `latch`. Refuses one that means nothing, since no smaller
-/// step would help.
+/// The limit, or 0 where there is none or the point has failed before, by its `latch`. Refuses one that means nothing,
+/// since no smaller step would help.
 ///
 /// # Errors
 /// It is negative, NaN or infinite.

@@ -18,15 +18,15 @@ use crate::law::number::real::Scalar;
 use crate::law::state::LINEAR_ELASTIC_STATE;
 use crate::law::status;
 
-/// A point of the linear elastic law. Set `size`, and what is wanted; the rest is 0: an array that is null is left out, and an
-/// output that is left out is not computed. The arrays of the old and the new state may be the same.
+/// A point of the linear elastic law. Set `size`, and what is wanted; the rest is 0: an array that is null is left out,
+/// and an output that is left out is not computed. The arrays of the old and the new state may be the same.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct LinearPoint<T> {
     /// The size of this structure.
     pub size: size_t,
-    /// In: the frame that turns with the material, one of `TORON_ROTATION_...` (0, the fibre's, is right for a yarn), and the
-    /// stress that is compared with the strength, one of `TORON_CRITERION_...`.
+    /// In: the frame that turns with the material, one of `TORON_ROTATION_...` (0, the fibre's, is right for a yarn),
+    /// and the stress that is compared with the strength, one of `TORON_CRITERION_...`.
     pub rotation: i32,
     pub criterion: i32,
     /// In: which tangent, one of `TORON_TANGENT_...`; read if `tangent` is not null.
@@ -38,14 +38,14 @@ pub struct LinearPoint<T> {
     /// In, 9 each: F by columns at both ends of the step. Must not be null.
     pub f_old: *const T,
     pub f_new: *const T,
-    /// In, 3 each, of any length: the fibre direction and the second material axis in the reference placement; if null, those of
-    /// the properties. The second axis may be 0 if any will do. Not read for `TORON_ROTATION_SPIN`.
+    /// In, 3 each, of any length: the fibre direction and the second material axis in the reference placement; if null,
+    /// those of the properties. The second axis may be 0 if any will do. Not read for `TORON_ROTATION_SPIN`.
     pub fibre: *const T,
     pub second_axis: *const T,
     /// In and out, 9: the current material axes in global coordinates, one after the other. Must not be null for
-    /// `TORON_ROTATION_SPIN`, and start with those of `toron_linear_elastic_axes_f64`; not used for the other frames. They are checked:
-    /// with Q the matrix of the axes, `TORON_MATERIAL_AXES` is returned and nothing changed where the norm of QᵀQ − 1 exceeds 0.01; a
-    /// smaller deviation is corrected.
+    /// `TORON_ROTATION_SPIN`, and start with those of `toron_linear_elastic_axes_f64`; not used for the other frames.
+    /// They are checked: with Q the matrix of the axes, `TORON_MATERIAL_AXES` is returned and nothing changed where the
+    /// norm of QᵀQ − 1 exceeds 0.01; a smaller deviation is corrected.
     pub axes: *mut T,
     /// In, 10: the old state; if null, all 0.
     pub state_old: *const T,
@@ -55,16 +55,17 @@ pub struct LinearPoint<T> {
     pub stress: *mut T,
     /// Out, 1: an upper bound of the wave speed at the end of the step, to be used with current element lengths.
     pub wave_speed: *mut T,
-    /// Out, 36 (81 for `TORON_TANGENT_NOMINAL`): the tangent consistent with the step, as in `toron_point_f64`, but not symmetric.
-    /// `TORON_TANGENT_JAUMANN` gives the entries of Abaqus's DDSDDE, but in the order 11 22 33 12 23 31. It is computed in double
-    /// precision, and so are then all other results.
+    /// Out, 36 (81 for `TORON_TANGENT_NOMINAL`): the tangent consistent with the step, as in `toron_point_f64`, but not
+    /// symmetric. `TORON_TANGENT_JAUMANN` gives the entries of Abaqus's DDSDDE, but in the order 11 22 33 12 23 31. It
+    /// is computed in double precision, and so are then all other results.
     pub tangent: *mut T,
-    /// In, 1: the strength, in place of that of the properties; if null or 0, that of the properties. Read if `state_new` is not null.
+    /// In, 1: the strength, in place of that of the properties; if null or 0, that of the properties. Read if
+    /// `state_new` is not null.
     pub limit: *const T,
 }
 
-/// A block of points of the linear elastic law. Set `size`, `n`, and what is wanted; the rest is 0: an array that is null is left
-/// out, and an output that is left out is not computed.
+/// A block of points of the linear elastic law. Set `size`, `n`, and what is wanted; the rest is 0: an array that is
+/// null is left out, and an output that is left out is not computed.
 ///
 /// Entries are placed as in `toron_block_f64`; the arrays hold what they hold in `toron_linear_point_f64`.
 #[repr(C)]
@@ -106,22 +107,22 @@ pub struct LinearBlock<T> {
     pub active: *mut T,
     /// Out, a number for each point: its status code.
     pub status: *mut i32,
-    /// Where the entries of these arrays are. That of F holds for both ends, that of the fibre for the second axis too, that of
-    /// the state for the old and the new one.
+    /// Where the entries of these arrays are. That of F holds for both ends, that of the fibre for the second axis too,
+    /// that of the state for the old and the new one.
     pub deformation_gradient_layout: Layout,
     pub fibre_layout: Layout,
     pub axes_layout: Layout,
     pub state_layout: Layout,
     pub stress_layout: Layout,
     pub tangent_layout: Layout,
-    /// In, a number for each point: the strength in place of that of the properties; if null or 0, that of the properties. Read if
-    /// `state_new` is not null.
+    /// In, a number for each point: the strength in place of that of the properties; if null or 0, that of the
+    /// properties. Read if `state_new` is not null.
     pub limit: *const T,
     pub limit_layout: Layout,
 }
 
-/// A strain increment of the linear elastic law, in material axes that the caller updates. Set `size`, and what is wanted; the rest
-/// is 0.
+/// A strain increment of the linear elastic law, in material axes that the caller updates. Set `size`, and what is
+/// wanted; the rest is 0.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct LinearIncrement<T> {
@@ -166,7 +167,8 @@ const _: () = {
 /// What [a caller promises](super#what-a-caller-promises).
 pub unsafe fn point<T: Precision>(law: &LinearElastic<T>, point: *const LinearPoint<T>) -> Result<i32, Error> {
     let mut buffer = MaybeUninit::uninit();
-    // SAFETY: `read` refuses null, and `step` an F that is; how long the arrays of the one point are the C caller promises.
+    // SAFETY: `read` refuses null, and `step` an F that is; how long the arrays of the one point are the C caller
+    // promises.
     unsafe {
         let point = read(point, &mut buffer)?;
         check_density::<T>(point.density, !point.wave_speed.is_null())?;
@@ -254,7 +256,8 @@ impl<T: Precision> LinearBlock<T> {
 /// What [a caller promises](super#what-a-caller-promises).
 pub unsafe fn block<T: Precision>(law: &LinearElastic<T>, block: *const LinearBlock<T>) -> Result<i32, Error> {
     let mut buffer = MaybeUninit::uninit();
-    // SAFETY: `read` refuses null, and `points` and `step` check the layouts; how long the arrays are the C caller promises.
+    // SAFETY: `read` refuses null, and `points` and `step` check the layouts; how long the arrays are the C caller
+    // promises.
     unsafe {
         let block = read(block, &mut buffer)?;
         let points = block.points()?;
@@ -334,8 +337,8 @@ pub unsafe fn axes<T: Scalar>(
 /// What [a caller promises](super#what-a-caller-promises).
 pub unsafe fn increment<T: Scalar>(law: &LinearElastic<T>, increment: *const LinearIncrement<T>) -> Result<i32, Error> {
     let mut buffer = MaybeUninit::uninit();
-    // SAFETY: `read` refuses null, `strain` is checked, and `load` and `store_rounded` pass over null; the arrays are as long as the
-    // C caller promises.
+    // SAFETY: `read` refuses null, `strain` is checked, and `load` and `store_rounded` pass over null; the arrays are
+    // as long as the C caller promises.
     unsafe {
         let increment = read(increment, &mut buffer)?;
         if increment.strain.is_null() {

@@ -1,4 +1,5 @@
-//! The C interface of a law in a library's list: its tables, the prepared law, blocks. `toron_solvers::c_header` writes its header.
+//! The C interface of a law in a library's list: its tables, the prepared law, blocks. `toron_solvers::c_header` writes
+//! its header.
 
 use core::marker::PhantomData;
 use core::mem::MaybeUninit;
@@ -104,7 +105,8 @@ pub struct ListedPoints<N, T> {
 #[cfg(target_pointer_width = "64")]
 const _: () = assert!(size_of::<ListedPoints<(), f64>>() == 5 * 8 + 36 * 8);
 
-// SAFETY: of the fields one is the size, and the others are pointers and numbers, which may be 0; no padding, as has just been seen.
+// SAFETY: of the fields one is the size, and the others are pointers and numbers, which may be 0; no padding, as has
+// just been seen.
 unsafe impl<N: Named<T>, T: Precision> Structure for ListedPoints<N, T> {
     const NAME: &'static str = N::POINTS;
     const ARGUMENT: &'static str = "points";
@@ -114,8 +116,8 @@ impl<N: Named<T>, T: Precision> ListedPoints<N, T> {
     /// The points as the law takes them.
     ///
     /// # Errors
-    /// Components of an array of which some have a pointer and others not; a count, a density, a measure or a level that is not
-    /// allowed; fibre directions for a law that has no fibre.
+    /// Components of an array of which some have a pointer and others not; a count, a density, a measure or a level
+    /// that is not allowed; fibre directions for a law that has no fibre.
     fn checked(&self) -> Result<Points<T>, Error> {
         let (n, leading_dimension) = (self.n, leading_dimension(self.leading_dimension, self.n));
         let layout = Layout::default().or(leading_dimension);
@@ -172,8 +174,9 @@ pub unsafe fn prepare<N: Named<T>, T: Precision>(
 /// `NAME_block_f64` or `_f32`: evaluates the law at a block of points.
 ///
 /// # Safety
-/// `law` is null or points to a prepared law, `points` to a structure with as many bytes as its size says; the arrays have as many values
-/// as the header says, and outputs overlap nothing but, exactly, the old state; `message` is null or has `capacity` bytes.
+/// `law` is null or points to a prepared law, `points` to a structure with as many bytes as its size says; the arrays
+/// have as many values as the header says, and outputs overlap nothing but, exactly, the old state; `message` is null
+/// or has `capacity` bytes.
 pub unsafe fn block<N: Named<T>, T: Precision>(
     law: *const PreparedOf<N, T>,
     points: *const ListedPoints<N, T>,
@@ -182,8 +185,8 @@ pub unsafe fn block<N: Named<T>, T: Precision>(
 ) -> i32 {
     let body = move || {
         let mut buffer = MaybeUninit::uninit();
-        // SAFETY: `numbers` and `read` refuse null, and `checked` and `step` what the law needs and is null; how long the arrays are
-        // the C caller promises.
+        // SAFETY: `numbers` and `read` refuse null, and `checked` and `step` what the law needs and is null; how long
+        // the arrays are the C caller promises.
         unsafe {
             let law = N::Law::of(numbers::<T, _>(law)?);
             let points = read(points, &mut buffer)?;

@@ -74,7 +74,8 @@ pub trait ByStep {}
 impl<M: UserMaterial, T: Precision> ByStep for User<M, T> {}
 impl<T: Precision> ByStep for Frictional<T> {}
 
-/// Whether a law may have this name in a library: capitals, digits and underscores, a capital first. Symbols are made of it.
+/// Whether a law may have this name in a library: capitals, digits and underscores, a capital first. Symbols are made
+/// of it.
 pub const fn is_name(name: &str) -> bool {
     let (name, mut i) = (name.as_bytes(), 0);
     while i < name.len() {

@@ -25,8 +25,8 @@ use crate::law::voigt::Moduli;
 use crate::law::wave_speed;
 
 /// A point of the hyperelastic law or of the law with friction. Set `size`, and what is wanted; the rest is 0: an array
-/// that is null is left out, and an output that is left out is not computed. The arrays of the old and the new state may
-/// be the same.
+/// that is null is left out, and an output that is left out is not computed. The arrays of the old and the new state
+/// may be the same.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct Point<T> {
@@ -44,25 +44,27 @@ pub struct Point<T> {
     pub fibre: *const T,
     /// In, 11 (15 of the law with friction): the old state; if null, all 0.
     pub state_old: *const T,
-    /// Out, as many: the new state. If null, the point does not fail, but stays failed if its old state has the flag set.
+    /// Out, as many: the new state. If null, the point does not fail, but stays failed if its old state has the flag
+    /// set.
     pub state_new: *mut T,
     /// Out, 6: Cauchy stress 11 22 33 12 23 31.
     pub stress: *mut T,
     /// Out, 24: S_el, S_tc, S_td, S_ld, second Piola-Kirchhoff, each 11 22 33 12 23 31.
     pub modes: *mut T,
-    /// Out, 1: an upper bound of the wave speed, to be used with current element lengths; never below the speed along a fibre at
-    /// rest. It is meant for the stable time step; a bulk viscosity computed with it damps more than with the exact speed.
+    /// Out, 1: an upper bound of the wave speed, to be used with current element lengths; never below the speed along a
+    /// fibre at rest. It is meant for the stable time step; a bulk viscosity computed with it damps more than with the
+    /// exact speed.
     pub wave_speed: *mut T,
-    /// Out, 36 (81 for `TORON_TANGENT_NOMINAL`): the tangent, entry (row, column), counted from 0, at 6 row + column (9 row +
-    /// column); a symmetric matrix, but where the fibres of the law with friction slide. Rows and columns are in the order
-    /// 11 22 33 12 23 31, with derivatives with respect to engineering shears; for `TORON_TANGENT_NOMINAL`
-    /// 11 21 31 12 22 32 13 23 33.
+    /// Out, 36 (81 for `TORON_TANGENT_NOMINAL`): the tangent, entry (row, column), counted from 0, at 6 row + column (9
+    /// row + column); a symmetric matrix, but where the fibres of the law with friction slide. Rows and columns are in
+    /// the order 11 22 33 12 23 31, with derivatives with respect to engineering shears; for `TORON_TANGENT_NOMINAL` 11
+    /// 21 31 12 22 32 13 23 33.
     ///
-    /// The call that detects failure returns that of the intact material, later calls return zeros. At a kink (I_el = 0 or I_tc =
-    /// 0) it is that of loading.
+    /// The call that detects failure returns that of the intact material, later calls return zeros. At a kink (I_el = 0
+    /// or I_tc = 0) it is that of loading.
     pub tangent: *mut T,
-    /// In, 1: the true fibre strain at failure, ln(1 + eps_lim), in place of that of the properties; if null or 0, that of the
-    /// properties. Read if `state_new` is not null.
+    /// In, 1: the true fibre strain at failure, ln(1 + eps_lim), in place of that of the properties; if null or 0, that
+    /// of the properties. Read if `state_new` is not null.
     pub limit: *const T,
 }
 
@@ -71,9 +73,9 @@ structures! { Point, "toron_point_f64", "toron_point_f32", "point"; }
 #[cfg(target_pointer_width = "64")]
 const _: () = assert!(size_of::<Point<f64>>() == 3 * 8 + 9 * 8 && size_of::<Point<f32>>() == size_of::<Point<f64>>());
 
-/// The sink for one point: the caller's arrays, those for a tangent included. What is null is not stored, except that `tangent`
-/// must not be null if there is a tangent. Who makes one promises that the others have the values of one point: 6, 11, 4 × 6, 1, and
-/// those of the tangent's measure, 36 or 81.
+/// The sink for one point: the caller's arrays, those for a tangent included. What is null is not stored, except that
+/// `tangent` must not be null if there is a tangent. Who makes one promises that the others have the values of one
+/// point: 6, 11, 4 × 6, 1, and those of the tangent's measure, 36 or 81.
 pub(in crate::host) struct PointAnswer<'a, T> {
     pub stress: *mut T,
     pub state: *mut T,

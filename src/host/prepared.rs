@@ -103,8 +103,8 @@ pub unsafe fn numbers<'a, T: Precision, L: PreparedLaw<T>>(law: *const L) -> Res
     if law.is_null() {
         return Err(Error::Null { name: "law" });
     }
-    // SAFETY: not null, as just checked, and of the form that the trait says: tag, size, the numbers, a last word. Numbers may have any
-    // bytes.
+    // SAFETY: not null, as just checked, and of the form that the trait says: tag, size, the numbers, a last word.
+    // Numbers may have any bytes.
     unsafe {
         let words = law.cast::<u64>();
         let (size, last) = (size_of::<L>() as u64, size_of::<L>() / 8 - 1);
@@ -136,8 +136,8 @@ pub unsafe fn prepare<T: Precision, L: PreparedLaw<T>>(
         // SAFETY: `properties` refuses null, and there are `count` values.
         let values = unsafe { properties(values, count, L::Law::DESCRIPTION.properties) }?;
         let numbers = L::Law::new(values)?.numbers();
-        // SAFETY: not null and of this size, as just checked; a number whose bytes are all 0 is 0. The trait says where the numbers
-        // are.
+        // SAFETY: not null and of this size, as just checked; a number whose bytes are all 0 is 0. The trait says where
+        // the numbers are.
         unsafe {
             law.write_bytes(0, 1);
             let words = law.cast::<u64>();

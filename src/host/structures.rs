@@ -1,7 +1,8 @@
 //! Structures of the C interface that grow: each begins with its size, and what is 0 is left out.
 //!
-//! A caller compiled against an older header passes a shorter structure, and what it lacks is 0. One compiled against a newer
-//! header passes a longer one; if it is not 0 beyond what this library knows, the call is refused, since a request would be ignored.
+//! A caller compiled against an older header passes a shorter structure, and what it lacks is 0. One compiled against a
+//! newer header passes a longer one; if it is not 0 beyond what this library knows, the call is refused, since a
+//! request would be ignored.
 
 use core::mem::MaybeUninit;
 
@@ -46,8 +47,8 @@ pub(super) unsafe fn read<S: Structure>(structure: *const S, buffer: &mut MaybeU
     if structure.is_null() {
         return Err(Error::Null { name: S::ARGUMENT });
     }
-    // SAFETY: not null, as just checked: its first field is its size, and so many bytes are there. One of this version's size is one
-    // whose fields, pointers and numbers, may have any value.
+    // SAFETY: not null, as just checked: its first field is its size, and so many bytes are there. One of this
+    // version's size is one whose fields, pointers and numbers, may have any value.
     unsafe {
         let size = *structure.cast::<size_t>();
         if size == size_of::<S>() {
@@ -71,8 +72,8 @@ unsafe fn read_other<S: Structure>(
     check_size::<S>(size)?;
     let known = size_of::<S>();
     *buffer = MaybeUninit::zeroed();
-    // SAFETY: of the `size` bytes that are there no more are copied than both versions have, and none behind them is read. What is not
-    // copied is 0, which the trait allows.
+    // SAFETY: of the `size` bytes that are there no more are copied than both versions have, and none behind them is
+    // read. What is not copied is 0, which the trait allows.
     unsafe {
         let bytes = structure.cast::<u8>();
         buffer.as_mut_ptr().cast::<u8>().copy_from_nonoverlapping(bytes, size.min(known));
@@ -95,8 +96,8 @@ pub(super) unsafe fn write<S: Structure>(value: &S, structure: *mut S) -> Result
         return Err(Error::Null { name: S::ARGUMENT });
     }
     let (head, known) = (size_of::<size_t>(), size_of::<S>());
-    // SAFETY: not null, as just checked: `size` bytes may be written, of which `common` is no more, and no less than `head`, since a
-    // size is two words at least.
+    // SAFETY: not null, as just checked: `size` bytes may be written, of which `common` is no more, and no less than
+    // `head`, since a size is two words at least.
     unsafe {
         let size = *structure.cast::<size_t>();
         check_size::<S>(size)?;
@@ -111,8 +112,8 @@ pub(super) unsafe fn write<S: Structure>(value: &S, structure: *mut S) -> Result
 /// Names structures in both precisions, and the argument that each is.
 macro_rules! structures {
     ($($structure:ident, $double:literal, $single:literal, $argument:literal;)*) => {$(
-        // SAFETY: of the fields one is the size, and the others are pointers and numbers, which may be 0; that there is no padding
-        // is asserted where the structure is defined.
+        // SAFETY: of the fields one is the size, and the others are pointers and numbers, which may be 0; that there is
+        // no padding is asserted where the structure is defined.
         unsafe impl<T: $crate::law::number::real::Scalar> $crate::host::structures::Structure for $structure<T> {
             const NAME: &'static str = if T::WIDE_RANGE { $double } else { $single };
             const ARGUMENT: &'static str = $argument;

@@ -8,7 +8,8 @@ use crate::law::parameters::{Dimension, Property};
 use crate::law::state::StateVariable;
 use crate::law::status;
 
-/// A row of the tables of properties and state variables. Set `size`; the rest is written. Texts are null-terminated UTF-8.
+/// A row of the tables of properties and state variables. Set `size`; the rest is written. Texts are null-terminated
+/// UTF-8.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct TableRow {
@@ -25,8 +26,8 @@ pub struct TableRow {
     /// 1 if there is a default, else 0; and the default. For state variables the initial value, 0.
     pub has_default: i32,
     pub default_value: f64,
-    /// The least and the greatest allowed value (infinite if there is no bound); minimum_excluded is 1 if the least value
-    /// itself is not allowed.
+    /// The least and the greatest allowed value (infinite if there is no bound); minimum_excluded is 1 if the least
+    /// value itself is not allowed.
     pub minimum: f64,
     pub maximum: f64,
     pub minimum_excluded: i32,

@@ -5,7 +5,8 @@
 
 use crate::law::parameters::Dimension;
 
-/// A base unit in SI units: `factor` · 10^`exponent`, so that the conversion of decimal units adds no rounding of its own.
+/// A base unit in SI units: `factor` · 10^`exponent`, so that the conversion of decimal units adds no rounding of its
+/// own.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Base {
     name: &'static str,
@@ -114,8 +115,8 @@ impl Scale {
     /// The unit of the SI.
     pub const SI: Scale = Scale { exponent: 0, factor: 1.0 };
 
-    /// Converts a value in this unit to another one of the same dimension. Between equal units no bit changes, between units
-    /// that differ by a power of ten there is one rounding.
+    /// Converts a value in this unit to another one of the same dimension. Between equal units no bit changes, between
+    /// units that differ by a power of ten there is one rounding.
     pub fn convert(&self, value: f64, to: &Scale) -> f64 {
         let scaled = if self.factor == to.factor { value } else { value * self.factor / to.factor };
         let exponent = to.exponent - self.exponent;

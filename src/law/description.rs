@@ -22,8 +22,8 @@ pub struct Description {
     /// The directions among the properties: first the fibre, which each point may have its own of, then others. Hosts
     /// that turn a material turn all of them.
     pub directions: &'static [Direction],
-    /// Indices into the state: the latch, the flag for element deletion, and the energies, whose sum is the energy per reference
-    /// volume.
+    /// Indices into the state: the latch, the flag for element deletion, and the energies, whose sum is the energy per
+    /// reference volume.
     pub failed: usize,
     pub alive: usize,
     pub energies: Range<usize>,
@@ -133,7 +133,8 @@ pub const LINEAR_ELASTIC: Description = Description {
 };
 
 impl Description {
-    /// How many entries of F a host keeps behind the state, by columns: those of the start of a step, where it depends on them.
+    /// How many entries of F a host keeps behind the state, by columns: those of the start of a step, where it depends
+    /// on them.
     pub(crate) const fn kept(&self) -> usize {
         if self.reads.old_gradient { 9 } else { 0 }
     }

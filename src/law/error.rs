@@ -53,8 +53,8 @@ pub enum Error {
     Count { code: i32, what: &'static str, found: i64, wanted: i64 },
     /// A property is not finite or out of bounds. `index` counts from 0.
     Property { code: i32, index: usize, property: &'static Property, value: Value },
-    /// A direction among the properties is zero, parallel to another one or out of a plane; `index`, from 0, is that of its first
-    /// component.
+    /// A direction among the properties is zero, parallel to another one or out of a plane; `index`, from 0, is that of
+    /// its first component.
     Direction { code: i32, index: usize, name: &'static str, value: [Value; 3], wanted: &'static str },
     /// A whole number among the arguments is outside its range.
     Range { code: i32, name: &'static str, value: i64, least: i64, greatest: i64 },
@@ -255,7 +255,8 @@ fn describe_point(index: usize, sink: &mut dyn FnMut(&str)) {
     sink(", counted from 0: ");
 }
 
-/// Passes the digits to `sink` one by one. The crate `itoa` is not used: its bounds checks would leave a panic in the program.
+/// Passes the digits to `sink` one by one. The crate `itoa` is not used: its bounds checks would leave a panic in the
+/// program.
 pub(crate) fn describe_integer(value: i64, sink: &mut dyn FnMut(&str)) {
     const DIGITS: [&str; 10] = ["0", "1", "2", "3", "4", "5", "6", "7", "8", "9"];
     if value < 0 {

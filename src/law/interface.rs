@@ -48,8 +48,8 @@ pub unsafe trait Law<T: Precision>: Copy {
     /// that along the fibre: for hosts that compute their time step and contact stiffness from two elastic constants.
     fn bulk_and_shear(&self) -> [T; 2];
 
-    /// What resists the motions of an element, for hosts that take viscosity and hourglass control of it; by default that
-    /// of the isotropic solid of [`bulk_and_shear`](Self::bulk_and_shear).
+    /// What resists the motions of an element, for hosts that take viscosity and hourglass control of it; by default
+    /// that of the isotropic solid of [`bulk_and_shear`](Self::bulk_and_shear).
     fn resistance(&self) -> Resistance {
         Resistance::isotropic(self.bulk_and_shear())
     }

@@ -1,13 +1,14 @@
 //! The linear elastic orthotropic law in common use (thesis, section 4.1), with which the yarn law is compared.
 //!
-//! An objective rate of the Cauchy stress is C : D, with C = diag(E1, E2, E2, G, G, G) on (D11, D22, D33, 2D12, 2D23, 2D31) in
-//! a material frame and zero Poisson ratios. The choice of the frame has a large effect, since the shear stiffness is 1/630 of
-//! that of the fibre: see [`Rotation`]. In the frame the stress is the sum of C times the strain increments; an increment is
-//! the symmetric part of ln(Q1ᵀ F1 F0⁻¹ Q0), so that a stretch along the fibre gives E1 ln λ in any number of steps.
+//! An objective rate of the Cauchy stress is C : D, with C = diag(E1, E2, E2, G, G, G) on (D11, D22, D33, 2D12, 2D23,
+//! 2D31) in a material frame and zero Poisson ratios. The choice of the frame has a large effect, since the shear
+//! stiffness is 1/630 of that of the fibre: see [`Rotation`]. In the frame the stress is the sum of C times the strain
+//! increments; an increment is the symmetric part of ln(Q1ᵀ F1 F0⁻¹ Q0), so that a stretch along the fibre gives E1 ln
+//! λ in any number of steps.
 //!
-//! A small increment keeps its digits: Q1ᵀ F1 F0⁻¹ Q0 − 1 is computed as the sum of Q1ᵀ (F1 − F0) F0⁻¹ Q0 and Q1ᵀ Q0 − 1, the
-//! rotation of the axes, whose symmetric part is −½ (Q1 − Q0)ᵀ(Q1 − Q0). So the rounding of F and Q relative to 1 does not
-//! enter the strain.
+//! A small increment keeps its digits: Q1ᵀ F1 F0⁻¹ Q0 − 1 is computed as the sum of Q1ᵀ (F1 − F0) F0⁻¹ Q0 and Q1ᵀ Q0 −
+//! 1, the rotation of the axes, whose symmetric part is −½ (Q1 − Q0)ᵀ(Q1 − Q0). So the rounding of F and Q relative to
+//! 1 does not enter the strain.
 
 use nalgebra::Matrix3;
 
@@ -32,7 +33,8 @@ pub enum Rotation {
     Fibre,
     /// The rotation R of F = R U: in shear the stiff direction deviates from the fibre.
     Polar,
-    /// The spin, integrated step by step (Jaumann rate, midpoint rule of Hughes and Winget): the caller stores the axes.
+    /// The spin, integrated step by step (Jaumann rate, midpoint rule of Hughes and Winget): the caller stores the
+    /// axes.
     Spin,
 }
 
@@ -46,8 +48,8 @@ pub enum Criterion {
     FibreStress,
 }
 
-/// The properties by name, in any one consistent system of units. Hosts pass the same numbers as an array, in the order of
-/// [`parameters::LINEAR_ELASTIC`](super::parameters::LINEAR_ELASTIC), which also gives their bounds.
+/// The properties by name, in any one consistent system of units. Hosts pass the same numbers as an array, in the order
+/// of [`parameters::LINEAR_ELASTIC`](super::parameters::LINEAR_ELASTIC), which also gives their bounds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Properties<T> {
     /// Young's moduli along and across the fibre, stresses.
@@ -120,8 +122,8 @@ impl LinearElastic {
         self.axes.into()
     }
 
-    /// The same law with other material axes, for a point of a crimped yarn: its fibre direction, and its second axis, or `None`
-    /// for that of the properties; both of any length, the second axis 0 if any will do.
+    /// The same law with other material axes, for a point of a crimped yarn: its fibre direction, and its second axis,
+    /// or `None` for that of the properties; both of any length, the second axis 0 if any will do.
     ///
     /// # Errors
     /// A direction that has no length or is not finite, or a second axis along the fibre.
@@ -136,7 +138,8 @@ impl LinearElastic {
     /// One step, from the deformation gradient `f0` and the old state to the deformation gradient `f1`.
     ///
     /// `axes`, the material axes in space as columns, is read and updated for [`Rotation::Spin`] only (start with
-    /// [`reference_axes`](Self::reference_axes); axes that are not orthonormal are refused); the other frames follow from F.
+    /// [`reference_axes`](Self::reference_axes); axes that are not orthonormal are refused); the other frames follow
+    /// from F.
     pub fn step(
         &self,
         f0: &Matrix3<f64>,
@@ -155,12 +158,12 @@ impl LinearElastic {
         answer.point()
     }
 
-    /// One step, from a strain increment in a material frame that the host keeps: `strain` holds its tensor components 11 22 33
-    /// 12 23 31 (half the engineering shears), `jacobian` is the volume ratio, by which the work is multiplied (1 if it is not
-    /// known).
+    /// One step, from a strain increment in a material frame that the host keeps: `strain` holds its tensor components
+    /// 11 22 33 12 23 31 (half the engineering shears), `jacobian` is the volume ratio, by which the work is multiplied
+    /// (1 if it is not known).
     ///
-    /// The stress is returned in that frame. Its accuracy depends on the frame: if the axes follow the host's polar rotation or
-    /// spin, the stiff direction deviates from a sheared fibre.
+    /// The stress is returned in that frame. Its accuracy depends on the frame: if the axes follow the host's polar
+    /// rotation or spin, the stiff direction deviates from a sheared fibre.
     pub fn increment(
         &self,
         strain: &[f64; 6],
@@ -240,8 +243,9 @@ pub(super) struct Step<'a, R> {
 }
 
 impl<R: Real> LinearElastic<R> {
-    /// Bulk and shear modulus of an isotropic solid whose longitudinal wave speed is the greatest one at rest: K + 4G/3 is the largest
-    /// of E1, E2 and 2G. For hosts that compute their time step and contact stiffness from two elastic constants.
+    /// Bulk and shear modulus of an isotropic solid whose longitudinal wave speed is the greatest one at rest: K + 4G/3
+    /// is the largest of E1, E2 and 2G. For hosts that compute their time step and contact stiffness from two elastic
+    /// constants.
     pub fn bulk_and_shear(&self) -> [R; 2] {
         let modulus = self.modulus_at_rest();
         [R::splat(0.5) * modulus, R::splat(0.375) * modulus]
@@ -266,10 +270,10 @@ impl<R: Real> LinearElastic<R> {
 
     /// ρ0 c² for an upper bound c of the wave speed, given J and the Cauchy stress.
     ///
-    /// For a wave of direction n and polarisation u, unit vectors, the rate of the stress is C : D + Ωσ − σΩ with the spin Ω of the
-    /// material frame, and the terms of the change of area and volume cancel, so that ρ c² = u·(C : D + Ωσ − σΩ)n. Ω has an axial
-    /// vector of at most unit length in every one of the frames, so that its terms are at most twice the largest principal
-    /// stress by its size.
+    /// For a wave of direction n and polarisation u, unit vectors, the rate of the stress is C : D + Ωσ − σΩ with the
+    /// spin Ω of the material frame, and the terms of the change of area and volume cancel, so that ρ c² = u·(C : D +
+    /// Ωσ − σΩ)n. Ω has an axial vector of at most unit length in every one of the frames, so that its terms are at
+    /// most twice the largest principal stress by its size.
     #[inline(always)]
     fn wave_modulus_at(&self, jacobian: R, stress: &[R; 6]) -> R {
         let [s_11, s_22, s_33, s_12, s_23, s_31] = *stress;
@@ -280,7 +284,8 @@ impl<R: Real> LinearElastic<R> {
         (jacobian * (at_rest + (size + size))).max(at_rest)
     }
 
-    /// The material axes for a fibre direction, and for a second axis, or that of the properties; and where they are usable.
+    /// The material axes for a fibre direction, and for a second axis, or that of the properties; and where they are
+    /// usable.
     #[inline(always)]
     pub(super) fn axes_along(&self, fibre: [R; 3], second_axis: Option<[R; 3]>) -> (Matrix<R>, R::Mask) {
         let (frame, usable) = FibreFrame::new(fibre);
@@ -372,7 +377,8 @@ impl<R: Real> LinearElastic<R> {
         let wave_modulus = if wanted.wave_modulus { self.wave_modulus_at(j1, &stress) } else { zero };
         let stress = if wanted.stress { turned(&q1, &stress) } else { stress };
         let mut answer = Answer { stress, state, wave_modulus, axes: *axes, q0, q1, status: zero, taken: able };
-        // If squares of lengths overflow, there are no axes; if a determinant does, its reciprocal is not the same in all lanes.
+        // If squares of lengths overflow, there are no axes; if a determinant does, its reciprocal is not the same in
+        // all lanes.
         let in_range = (square_norm(f0) + square_norm(f1) + (j0.abs() + j1.abs())).lt(R::splat(f64::INFINITY));
         answer.taken = upright & usable & may_have & converged & in_range & answer.sound(old);
         answer.taken = answer.taken & wave_modulus.lt(R::splat(f64::INFINITY));
@@ -433,9 +439,10 @@ impl<R: Real> Answer<R> {
         Failure::intact(old[LINEAR_FAILED]) & probe.le(zero)
     }
 
-    /// For the points that have not taken the step: sets the stress to 0, restores the old state with 0 in place of what is not
-    /// finite, and sets the status. That is `why`, unless it is 0 or the point has failed before; then the code of an old state
-    /// that is not finite; then 0 for a point that has failed before, and else that of an overflow.
+    /// For the points that have not taken the step: sets the stress to 0, restores the old state with 0 in place of
+    /// what is not finite, and sets the status. That is `why`, unless it is 0 or the point has failed before; then the
+    /// code of an old state that is not finite; then 0 for a point that has failed before, and else that of an
+    /// overflow.
     #[inline(always)]
     pub fn keep(&mut self, old: &[R; LINEAR_ELASTIC_STATE], why: R) {
         let (zero, one) = (R::splat(0.0), R::splat(1.0));
@@ -467,8 +474,8 @@ impl Answer<f64> {
     }
 }
 
-/// The material axes from the frame of the fibre direction and a second axis of any length, made orthogonal to the fibre, or 0 if
-/// any will do; and where that axis is usable.
+/// The material axes from the frame of the fibre direction and a second axis of any length, made orthogonal to the
+/// fibre, or 0 if any will do; and where that axis is usable.
 #[inline(always)]
 pub(super) fn axes_of<R: Real>(frame: &FibreFrame<R>, second: [R; 3]) -> (Matrix<R>, R::Mask) {
     let zero = R::splat(0.0);
@@ -482,12 +489,13 @@ pub(super) fn axes_of<R: Real>(frame: &FibreFrame<R>, second: [R; 3]) -> (Matrix
     (selected(any, &[frame.m, frame.t1, frame.t2], &chosen), any | usable)
 }
 
-/// The axes that a caller keeps, made orthonormal, Q (3 − QᵀQ)/2, and where they are nearly so before. The roundings of a step may
-/// lengthen the axes by as much in every step (in single precision by 7e-8), which without the correction would add up.
+/// The axes that a caller keeps, made orthonormal, Q (3 − QᵀQ)/2, and where they are nearly so before. The roundings of
+/// a step may lengthen the axes by as much in every step (in single precision by 7e-8), which without the correction
+/// would add up.
 #[inline(always)]
 fn orthonormal<R: Real>([a, b, c]: &Matrix<R>) -> (Matrix<R>, R::Mask) {
-    /// The most that the norm of QᵀQ − 1 may be: more than what roundings do to corrected axes, or three digits to those of a text
-    /// file. The correction leaves less than its square.
+    /// The most that the norm of QᵀQ − 1 may be: more than what roundings do to corrected axes, or three digits to
+    /// those of a text file. The correction leaves less than its square.
     const DRIFT: f64 = 0.01;
     let (one, half) = (R::splat(1.0), R::splat(-0.5));
     let lengths = [dot(*a, *a) - one, dot(*b, *b) - one, dot(*c, *c) - one];
@@ -507,8 +515,9 @@ fn fibre_axes<R: Real>(f: &Matrix<R>, axes: &Matrix<R>) -> Matrix<R> {
     [e1, e2, cross(e1, e2)]
 }
 
-/// The axes rotated by the spin of the increment 1 + X, by the midpoint rule: with w the skew part of X (2 + X)⁻¹ the rotation
-/// is (1 − w)⁻¹(1 + w) = 1 + 2 (w + w²)/(1 + |w|²), |w| the length of its axial vector, which is exact for a rigid step.
+/// The axes rotated by the spin of the increment 1 + X, by the midpoint rule: with w the skew part of X (2 + X)⁻¹ the
+/// rotation is (1 − w)⁻¹(1 + w) = 1 + 2 (w + w²)/(1 + |w|²), |w| the length of its axial vector, which is exact for a
+/// rigid step.
 #[inline(always)]
 fn rotated_by_spin<R: Real>(axes: &Matrix<R>, increment: &Matrix<R>) -> Matrix<R> {
     let g = half_gradient(increment);
@@ -519,8 +528,9 @@ fn rotated_by_spin<R: Real>(axes: &Matrix<R>, increment: &Matrix<R>) -> Matrix<R
     sum(&sum(axes, factor, &once), factor, &twice)
 }
 
-/// The rotation R of F = R U of the points in `able`, where det F > 0, by Newton's iteration X ← ½(γX + X⁻ᵀ/γ). γ² is the ratio
-/// of the norms, or 1 once X is near R, where scaling would only add a rounding (Higham, SIAM J. Sci. Stat. Comput. 7, 1986).
+/// The rotation R of F = R U of the points in `able`, where det F > 0, by Newton's iteration X ← ½(γX + X⁻ᵀ/γ). γ² is
+/// the ratio of the norms, or 1 once X is near R, where scaling would only add a rounding (Higham, SIAM J. Sci. Stat.
+/// Comput. 7, 1986).
 #[inline(always)]
 fn polar_rotation<R: Real>(f: &Matrix<R>, able: R::Mask) -> Matrix<R> {
     /// With the scaling a few steps suffice for any stretch.
@@ -556,8 +566,8 @@ fn half_gradient<R: Real>(x: &Matrix<R>) -> Matrix<R> {
     scaled(determinant.reciprocal(), &g)
 }
 
-/// ln(1 + X) as 2 artanh(X (2 + X)⁻¹), and where the series has converged. Only the points in `able` determine the number of
-/// terms.
+/// ln(1 + X) as 2 artanh(X (2 + X)⁻¹), and where the series has converged. Only the points in `able` determine the
+/// number of terms.
 #[inline(always)]
 fn logarithm<R: Real>(x: &Matrix<R>, able: R::Mask) -> (Matrix<R>, R::Mask) {
     const TERMS: i32 = 120;

@@ -16,8 +16,8 @@ use super::tangent::Measure;
 use super::voigt::PAIRS;
 
 impl LinearElastic {
-    /// As [`step`](Self::step), with the tangent consistent with the finite step: that of the intact material in the call that
-    /// detects failure, 0 in later calls and if the point cannot be evaluated.
+    /// As [`step`](Self::step), with the tangent consistent with the finite step: that of the intact material in the
+    /// call that detects failure, 0 in later calls and if the point cannot be evaluated.
     pub fn step_with_tangent(
         &self,
         f0: &Matrix3<f64>,
@@ -132,16 +132,17 @@ fn constant<R: Real>(a: &Matrix<f64>) -> Matrix<Dual<R>> {
     to
 }
 
-/// The derivative of the stress at the end of a step: ∂τ_ij/∂L_kl over J for F moved to (1 + L) F. One row for each kl, 11 21
-/// 31 12 22 32 13 23 33, with the components ij, 11 22 33 12 23 31.
+/// The derivative of the stress at the end of a step: ∂τ_ij/∂L_kl over J for F moved to (1 + L) F. One row for each kl,
+/// 11 21 31 12 22 32 13 23 33, with the components ij, 11 22 33 12 23 31.
 ///
-/// It is not symmetric, and with [`Rotation::Spin`], whose axes depend on the step, it is not that of an objective rate.
+/// It is not symmetric, and with [`Rotation::Spin`], whose axes depend on the step, it is not that of an objective
+/// rate.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct LinearTangent(pub [[f64; 6]; 9]);
 
 impl LinearTangent {
-    /// The matrix of a 6×6 measure, row by row, at the deformation gradient `f` and the Cauchy stress (11 22 33 12 23 31) of
-    /// the end of the step; `None` for [`Measure::Nominal`], and for [`Measure::Material`] if F has no inverse.
+    /// The matrix of a 6×6 measure, row by row, at the deformation gradient `f` and the Cauchy stress (11 22 33 12
+    /// 23 31) of the end of the step; `None` for [`Measure::Nominal`], and for [`Measure::Material`] if F has no inverse.
     ///
     /// [`Measure::Jaumann`] is DDSDDE: the motions L are symmetric, without spin.
     pub fn matrix(&self, measure: Measure, f: &Matrix3<f64>, cauchy: &[f64; 6]) -> Option<[[f64; 6]; 6]> {

@@ -1,4 +1,5 @@
-//! The constitutive laws, independent of any host program. They access no files, allocate nothing and need no standard library.
+//! The constitutive laws, independent of any host program. They access no files, allocate nothing and need no standard
+//! library.
 
 pub mod acoustic;
 pub(crate) mod axes;

@@ -38,10 +38,11 @@ pub struct Point<T> {
     pub status: i32,
 }
 
-/// Takes the results of a point while they are still in registers: writing them to memory and copying them from there would
-/// make the processor wait.
+/// Takes the results of a point while they are still in registers: writing them to memory and copying them from there
+/// would make the processor wait.
 pub(crate) trait Sink<T, const N: usize> {
-    /// `inverse_jacobian` is 1/det F if the point has been evaluated with it at hand, `None` at any that keeps its old state.
+    /// `inverse_jacobian` is 1/det F if the point has been evaluated with it at hand, `None` at any that keeps its old
+    /// state.
     fn take(self, point: Point<T>, inverse_jacobian: Option<T>, entries: [T; N]);
 }
 
@@ -65,8 +66,8 @@ impl<T: Real<Mask = bool> + Into<f64>> Hyperelastic<T> {
         self.point_along(&columns, None, state, request)
     }
 
-    /// The law at one point. `f` holds the columns of F; `fibre` is a fibre direction of any length, or `None` for that of the
-    /// properties.
+    /// The law at one point. `f` holds the columns of F; `fibre` is a fibre direction of any length, or `None` for that
+    /// of the properties.
     pub fn point_along(
         &self,
         f: &[[T; 3]; 3],
@@ -77,8 +78,9 @@ impl<T: Real<Mask = bool> + Into<f64>> Hyperelastic<T> {
         self.point_with(f, fibre, state, NoTangent(request)).0
     }
 
-    /// The law at one point and the derivative `tangent`: that of the intact material in the call that detects failure, 0 in
-    /// later calls and if the point cannot be evaluated. A point whose derivative is not finite cannot be evaluated.
+    /// The law at one point and the derivative `tangent`: that of the intact material in the call that detects failure,
+    /// 0 in later calls and if the point cannot be evaluated. A point whose derivative is not finite cannot be
+    /// evaluated.
     pub(super) fn point_with<D: Derivative<N>, const N: usize>(
         &self,
         f: &[[T; 3]; 3],
@@ -107,8 +109,9 @@ impl<T: Real<Mask = bool> + Into<f64>> Hyperelastic<T> {
 
     /// The law at one point and its 6×6 tangent; [`Measure::Nominal`], which is 9×9, gives dS/dE.
     ///
-    /// The call that detects failure gives the tangent of the intact material. The tangent of a point that has failed before or
-    /// cannot be evaluated is 0. If the tangent does not fit the number format, the point cannot be evaluated.
+    /// The call that detects failure gives the tangent of the intact material. The tangent of a point that has failed
+    /// before or cannot be evaluated is 0. If the tangent does not fit the number format, the point cannot be
+    /// evaluated.
     pub fn point_with_moduli(
         &self,
         f: &[[T; 3]; 3],
@@ -133,8 +136,8 @@ impl<T: Real<Mask = bool> + Into<f64>> Hyperelastic<T> {
         self.point_with(f, fibre, state, NineByNine(request))
     }
 
-    /// The law with another failure limit, `limit` = ln(1 + ε_lim), as a point has it that is given one of its own; 0 gives the law
-    /// itself.
+    /// The law with another failure limit, `limit` = ln(1 + ε_lim), as a point has it that is given one of its own; 0
+    /// gives the law itself.
     ///
     /// # Errors
     /// A limit that is negative, NaN or infinite.
@@ -145,7 +148,8 @@ impl<T: Real<Mask = bool> + Into<f64>> Hyperelastic<T> {
         Err(Error::Argument { name: "limit", value: Value::of(limit), wanted: "a finite number, not negative" })
     }
 
-    /// All results at one point without history, and its full 6×6 tangent; the fibre direction is that of the properties.
+    /// All results at one point without history, and its full 6×6 tangent; the fibre direction is that of the
+    /// properties.
     pub fn tangent(&self, f: &Matrix3<T>, measure: Measure) -> (Point<T>, [[T; 6]; 6])
     where
         T: nalgebra::Scalar,
@@ -240,8 +244,8 @@ impl<T: Copy> Columns<T> for &[[T; 3]; 3] {
     }
 }
 
-/// The old state of a point, wherever its entries are. Only the latch is read at every point, and nothing once the sink has taken
-/// the new state, which may be in the same place.
+/// The old state of a point, wherever its entries are. Only the latch is read at every point, and nothing once the sink
+/// has taken the new state, which may be in the same place.
 pub(crate) trait OldState<T> {
     /// An entry, in the order of [`state::HYPERELASTIC`](super::state::HYPERELASTIC).
     fn entry(&self, c: usize) -> T;
@@ -354,8 +358,8 @@ impl<
 }
 
 /// Evaluates a call with the best instructions that the processor has and `level` allows. The status is that of
-/// [`Hyperelastic::point_along`]; the other results differ from its results by no more than four roundings of the input would
-/// change them.
+/// [`Hyperelastic::point_along`]; the other results differ from its results by no more than four roundings of the input
+/// would change them.
 ///
 /// # Errors
 /// The first property that is wrong; the sink is not called.
@@ -445,8 +449,8 @@ struct Inputs<'a, T, R, O> {
 
 /// The law at one point.
 ///
-/// The law is prepared after the kinematics have begun: these are a long chain of dependent operations, and while the processor
-/// waits for them, it executes independent operations that are near in the program.
+/// The law is prepared after the kinematics have begun: these are a long chain of dependent operations, and while the
+/// processor waits for them, it executes independent operations that are near in the program.
 #[inline(always)]
 fn point_in<
     T: Real<Mask = bool> + Into<f64>,
@@ -537,7 +541,8 @@ impl<T: Real<Mask = bool>> Point<T> {
         }
     }
 
-    /// A point without stress that keeps its old state. The latch is set to `failed`; entries that are not finite become 0.
+    /// A point without stress that keeps its old state. The latch is set to `failed`; entries that are not finite
+    /// become 0.
     #[inline(never)]
     fn unchanged(state: &impl OldState<T>, failed: T, wave_modulus: T, status: i32) -> Self {
         let zero = T::splat(0.0);

@@ -1,4 +1,5 @@
-//! What resists the motions of an element at rest: of it explicit hosts take artificial viscosity and hourglass control.
+//! What resists the motions of an element at rest: of it explicit hosts take artificial viscosity and hourglass
+//! control.
 
 /// Moduli, ρ0 c² of waves at rest, and the stiffness against hourglass modes.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,7 +1,7 @@
 //! Status codes and their meanings.
 //!
-//! 0 is success and a negative number an error. The hundreds say what is wrong: −1xx the call, −2xx the properties, −3xx the
-//! point. New codes take numbers that are not in use; no code changes its meaning.
+//! 0 is success and a negative number an error. The hundreds say what is wrong: −1xx the call, −2xx the properties,
+//! −3xx the point. New codes take numbers that are not in use; no code changes its meaning.
 
 /// Everything went well.
 pub const OK: i32 = 0;
@@ -35,8 +35,8 @@ pub const PROPERTY_DIRECTION: i32 = -204;
 pub const FIBRE_OUT_OF_PLANE: i32 = -205;
 /// There are fewer state variables than the law needs.
 pub const STATE_COUNT: i32 = -211;
-/// The deformation gradient has a determinant ≤ 0 (or one that underflows), or maps the fibre to zero length: an inverted
-/// element.
+/// The deformation gradient has a determinant ≤ 0 (or one that underflows), or maps the fibre to zero length: an
+/// inverted element.
 pub const INVERTED: i32 = -301;
 /// The deformation gradient, or the strain increment, has an entry that is NaN or infinite.
 pub const NOT_FINITE: i32 = -302;
@@ -44,7 +44,8 @@ pub const NOT_FINITE: i32 = -302;
 pub const OVERFLOW: i32 = -303;
 /// An old state variable is NaN or infinite.
 pub const STATE_NOT_FINITE: i32 = -304;
-/// The fibre direction given for this point is zero, NaN or infinite, or along the second axis of the linear elastic law.
+/// The fibre direction given for this point is zero, NaN or infinite, or along the second axis of the linear elastic
+/// law.
 pub const FIBRE_DIRECTION: i32 = -305;
 /// The step is too large to integrate: a stretch by a factor of ten or more, or a half-turn.
 pub const INCREMENT_TOO_LARGE: i32 = -306;

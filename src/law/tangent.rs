@@ -289,8 +289,8 @@ impl<R: Real> Deformed<'_, R> {
         }
     }
 
-    /// The rows of F⁻¹. It takes c to m, a to α and b' to β, so that they follow from these and the dual vectors of c, a
-    /// and b'.
+    /// The rows of F⁻¹. It takes c to m, a to α and b' to β, so that they follow from these and the dual vectors of c,
+    /// a and b'.
     #[inline(always)]
     pub(super) fn inverse(self, n: &FibreFrame<R>) -> [[R; 3]; 3] {
         let Kinematics { stretch, images, .. } = self.kinematics;

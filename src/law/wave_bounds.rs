@@ -8,8 +8,8 @@
 //!   than (p − 1) |W′| from |I_tc| = 1 on, where |W′| is p k_tc, and less than (p − 1) p k_tc before;
 //! - distortion: ¼ k_td ((a/sinh a) eᵃ + a) ≤ ¾ k_td cosh a;
 //! - distortion that friction limits to I_te, a = 2 I_te: a eᵃ/sinh a ≤ 1 + 2 a, so that this is ¼ k_td (1 + 3 a) at
-//!   most, and a ≤ 4 (µ p_t + c)/k_td, p_t = ½ |W′|: ¼ k_td + 3 (µ ½ |W′| + c); where the fibres slide, the pressure that
-//!   grows adds µ W″/4;
+//!   most, and a ≤ 4 (µ p_t + c)/k_td, p_t = ½ |W′|: ¼ k_td + 3 (µ ½ |W′| + c); where the fibres slide, the pressure
+//!   that grows adds µ W″/4;
 //! - longitudinal shear: (k_ld/λ²)(2 J_t eᵃ + 4 |P b e|).
 //!
 //! Roots of x are replaced by (1 + x)/2, no less. Of the linear elastic law, which has no Poisson's ratios, A is E1,

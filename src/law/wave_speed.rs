@@ -48,9 +48,9 @@ impl<R: Real> Hyperelastic<R> {
         [R::splat(0.5) * self.k_el, R::splat(0.375) * self.k_el]
     }
 
-    /// What resists the motions of an element. W = k_tc |I_tc|^p + ½ k_td I_td² by one transverse logarithmic strain, of
-    /// which I_tc and I_td are half: with p ≥ 2 its stiffness at |I_tc| = 1 is that across, and less before. I_td is half
-    /// of a shear, too.
+    /// What resists the motions of an element. W = k_tc |I_tc|^p + ½ k_td I_td² by one transverse logarithmic strain,
+    /// of which I_tc and I_td are half: with p ≥ 2 its stiffness at |I_tc| = 1 is that across, and less before. I_td is
+    /// half of a shear, too.
     pub(crate) fn resistance(&self) -> Resistance
     where
         R: Into<f64>,

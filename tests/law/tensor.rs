@@ -104,8 +104,8 @@ fn derivatives_are_right_where_eigenvalues_coincide() {
     }
 }
 
-/// The eigenvalues of a symmetric matrix, the largest first: the roots of its characteristic polynomial in 320 binary digits,
-/// by bisection between those of the polynomial's slope.
+/// The eigenvalues of a symmetric matrix, the largest first: the roots of its characteristic polynomial in 320 binary
+/// digits, by bisection between those of the polynomial's slope.
 fn exact_eigenvalues(a: &Matrix3<f64>) -> [f64; 3] {
     let e = |i: usize, j: usize| exact(a[(i, j)]);
     let (zero, two, three) = (exact(0.0), exact(2.0), exact(3.0));

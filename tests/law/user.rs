@@ -1,5 +1,5 @@
-//! A law of one's own through the safe trait: the standard reinforcing model of `examples/own_law` against exact arithmetic, and a law
-//! that reads all there is to read.
+//! A law of one's own through the safe trait: the standard reinforcing model of `examples/own_law` against exact
+//! arithmetic, and a law that reads all there is to read.
 
 use std::array;
 
@@ -24,8 +24,8 @@ use reinforced_solid::ReinforcedSolid;
 type F = [[f64; 3]; 3];
 const REST: F = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
-/// A solid whose damage never heals, with the distance that its volume has gone as another state variable: it reads the old state and
-/// both F, and has no fibre and no bound of the wave speed.
+/// A solid whose damage never heals, with the distance that its volume has gone as another state variable: it reads the
+/// old state and both F, and has no fibre and no bound of the wave speed.
 #[derive(Clone, Copy, Debug, Default)]
 struct Damaged;
 
@@ -261,7 +261,8 @@ fn fresh<M: UserMaterial>(points: &[F]) -> Given<f64> {
     }
 }
 
-/// F with principal stretches from 1 − `size` to 1 + `size` (any size below 1), at random rotations, and nearly unstrained ones.
+/// F with principal stretches from 1 − `size` to 1 + `size` (any size below 1), at random rotations, and nearly
+/// unstrained ones.
 fn deformations(count: usize, size: f64) -> Vec<F> {
     let mut random = Rng::with_seed(7);
     let mut angle = || 6.3 * random.f64() - 3.0;
@@ -288,7 +289,8 @@ fn reinforced(stretch_lim: f64) -> User<ReinforcedSolid, f64> {
     User::new(&[MU, LAMBDA, K, stretch_lim, x, y, z]).expect("properties that are right")
 }
 
-/// Stress and Jaumann modulus over J of the reinforced solid in exact arithmetic, energy and stretch, for a fibre of any length.
+/// Stress and Jaumann modulus over J of the reinforced solid in exact arithmetic, energy and stretch, for a fibre of
+/// any length.
 struct ExactAnswer {
     stress: [Exact; 6],
     /// Rows and columns 11 22 33 12 23 31, engineering shears.
@@ -452,7 +454,8 @@ fn tangents_are_those_of_exact_arithmetic() {
     }
 }
 
-/// ρ c² of the fastest of many waves, by the tangent, against the bound: that of the law, or that which is computed from the tangent.
+/// ρ c² of the fastest of many waves, by the tangent, against the bound: that of the law, or that which is computed
+/// from the tangent.
 fn fastest_of_the_bound<M: UserMaterial>(law: &User<M, f64>, points: &[F]) -> f64 {
     let given = Given { measure: Some(Measure::Truesdell), waves: true, ..fresh::<M>(points) };
     let answer = run(law, &given, &[]);
@@ -787,8 +790,8 @@ fn dual_numbers_differentiate_every_function() {
     }
 }
 
-/// At 0 a power has the slope of a root: infinite, but 0 of what has no slope there, so that an invariant that is even has a
-/// tangent at rest.
+/// At 0 a power has the slope of a root: infinite, but 0 of what has no slope there, so that an invariant that is even
+/// has a tangent at rest.
 #[test]
 fn powers_of_nothing_have_a_slope() {
     for (exponent, wanted) in [(0.0, 0.0), (0.5, f64::INFINITY), (1.0, 3.0), (2.0, 0.0)] {

@@ -9,11 +9,11 @@ use toron::{Frictional, Hyperelastic, LinearElastic};
 
 /// The hyperelastic law as a UMAT of Abaqus/Standard.
 ///
-/// The arguments are those of a UMAT with the same names: `stress` (`ntens` = `ndi` + `nshr`, out), `statev` (`nstatv` ≥ 11, in and
-/// out), `ddsdde` (`ntens` × `ntens`, out, symmetric, engineering shears; if null, it is not computed), `sse` (out),
-/// `pnewdt` (in and out), `dfgrd1` (9, in), `props` (`nprops` = 11, in, or 12: the
-/// last one is the number of the state variable that holds the point's own limit, ln(1 + eps_lim), or 0), `ndi` = 3, `nshr` = 3, or 1 for plane strain and
-/// axisymmetric solids, whose fibre lies in the plane or normal to it, and `nlgeom`: JSTEP(3) of
+/// The arguments are those of a UMAT with the same names: `stress` (`ntens` = `ndi` + `nshr`, out), `statev` (`nstatv`
+/// ≥ 11, in and out), `ddsdde` (`ntens` × `ntens`, out, symmetric, engineering shears; if null, it is not computed),
+/// `sse` (out), `pnewdt` (in and out), `dfgrd1` (9, in), `props` (`nprops` = 11, in, or 12: the last one is the number
+/// of the state variable that holds the point's own limit, ln(1 + eps_lim), or 0), `ndi` = 3, `nshr` = 3, or 1 for
+/// plane strain and axisymmetric solids, whose fibre lies in the plane or normal to it, and `nlgeom`: JSTEP(3) of
 /// Abaqus, which is not 0 with NLGEOM=YES; without it there is no F. No pointer other than `ddsdde` may be null.
 ///
 /// DDSDDE is the modulus of the Jaumann rate of the Kirchhoff stress, over J. The call that detects failure returns the
@@ -100,12 +100,14 @@ pub unsafe extern "C" fn toron_abaqus_umat_f64(
 
 /// The linear elastic law as a UMAT of Abaqus/Standard.
 ///
-/// The arguments are those of `toron_abaqus_umat_tangent_f64`, and `dfgrd0` (9, in), F at the start of the increment; `nstatv` ≥ 10,
-/// `nprops` = 10, or 11: the last one is the number of the state variable that holds the point's own strength, or 0. The material axes follow the fibre, and the largest principal stress is compared with σ_lim. DDSDDE is not
-/// symmetric: `*USER MATERIAL, UNSYMM`; Abaqus takes its symmetric part otherwise. In plane strain and axisymmetric solids both axes
-/// lie in the plane or normal to it.
+/// The arguments are those of `toron_abaqus_umat_tangent_f64`, and `dfgrd0` (9, in), F at the start of the increment;
+/// `nstatv` ≥ 10, `nprops` = 10, or 11: the last one is the number of the state variable that holds the point's own
+/// strength, or 0. The material axes follow the fibre, and the largest principal stress is compared with σ_lim. DDSDDE
+/// is not symmetric: `*USER MATERIAL, UNSYMM`; Abaqus takes its symmetric part otherwise. In plane strain and
+/// axisymmetric solids both axes lie in the plane or normal to it.
 ///
-/// Returns as `toron_abaqus_umat_tangent_f64` does, and `TORON_INCREMENT_TOO_LARGE` for a step that cannot be integrated.
+/// Returns as `toron_abaqus_umat_tangent_f64` does, and `TORON_INCREMENT_TOO_LARGE` for a step that cannot be
+/// integrated.
 #[unsafe(no_mangle)]
 #[allow(clippy::too_many_arguments)]
 pub unsafe extern "C" fn toron_abaqus_linear_umat_f64(
@@ -147,9 +149,10 @@ pub unsafe extern "C" fn toron_abaqus_linear_umat_f64(
 
 /// The law with friction as a UMAT of Abaqus/Standard.
 ///
-/// The arguments are those of `toron_abaqus_umat_tangent_f64`, and `spd` (out): the energy lost per current volume; `nstatv` ≥ 15,
-/// `nprops` = 13, or 14: the last one is the number of the state variable that holds the point's own limit, or 0. DDSDDE is not
-/// symmetric where the fibres slide: `*USER MATERIAL, UNSYMM`; Abaqus takes its symmetric part otherwise.
+/// The arguments are those of `toron_abaqus_umat_tangent_f64`, and `spd` (out): the energy lost per current volume;
+/// `nstatv` ≥ 15, `nprops` = 13, or 14: the last one is the number of the state variable that holds the point's own
+/// limit, or 0. DDSDDE is not symmetric where the fibres slide: `*USER MATERIAL, UNSYMM`; Abaqus takes its symmetric
+/// part otherwise.
 ///
 /// Returns as `toron_abaqus_umat_tangent_f64` does.
 #[unsafe(no_mangle)]
@@ -193,8 +196,8 @@ pub unsafe extern "C" fn toron_abaqus_frictional_umat_f64(
 
 /// The hyperelastic law as a VUMAT of Abaqus/Explicit, for jobs in double precision.
 ///
-/// `block` holds the VUMAT's arguments; their shapes are given in `toron_vumat_f64`. All pointers are the caller's and not
-/// null. The law reads U, not F, so that the stress is the corotational one that Abaqus wants. In the data check
+/// `block` holds the VUMAT's arguments; their shapes are given in `toron_vumat_f64`. All pointers are the caller's and
+/// not null. The law reads U, not F, so that the stress is the corotational one that Abaqus wants. In the data check
 /// (`step_time` = `total_time` = 0) the answer is elastic and nothing fails. State variable 11, "alive", deletes the
 /// element.
 ///
@@ -223,8 +226,9 @@ pub unsafe extern "C" fn toron_abaqus_vumat_f32(
     unsafe { <Hyperelastic<f32>>::vumat(block, message, capacity) }
 }
 
-/// The linear elastic law as a VUMAT of Abaqus/Explicit, for jobs in double precision: as `toron_abaqus_vumat_f64`, with 10 properties
-/// and 10 state variables or more, of which number 10, "alive", deletes the element. It reads U at both ends of the increment.
+/// The linear elastic law as a VUMAT of Abaqus/Explicit, for jobs in double precision: as `toron_abaqus_vumat_f64`,
+/// with 10 properties and 10 state variables or more, of which number 10, "alive", deletes the element. It reads U at
+/// both ends of the increment.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn toron_abaqus_linear_vumat_f64(
     block: *const Vumat<f64>,
@@ -246,8 +250,9 @@ pub unsafe extern "C" fn toron_abaqus_linear_vumat_f32(
     unsafe { <LinearElastic<f32>>::vumat(block, message, capacity) }
 }
 
-/// The law with friction as a VUMAT of Abaqus/Explicit, for jobs in double precision: as `toron_abaqus_vumat_f64`, with 13 properties
-/// and 15 state variables or more, of which number 15, "alive", deletes the element. `ener_inelas_new` is the energy lost per mass.
+/// The law with friction as a VUMAT of Abaqus/Explicit, for jobs in double precision: as `toron_abaqus_vumat_f64`, with
+/// 13 properties and 15 state variables or more, of which number 15, "alive", deletes the element. `ener_inelas_new` is
+/// the energy lost per mass.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn toron_abaqus_frictional_vumat_f64(
     block: *const Vumat<f64>,

@@ -68,11 +68,11 @@ pub unsafe extern "C" fn toron_frictional_prepare_f32(
     unsafe { prepare(law, size, properties, count, Message { text: message, capacity }) }
 }
 
-/// The law with friction over a step at one point, with or without a tangent: see `toron_point_f64`; its arrays of the state have
-/// 15 values. The step goes from the slip of the old state to the deformation gradient.
+/// The law with friction over a step at one point, with or without a tangent: see `toron_point_f64`; its arrays of the
+/// state have 15 values. The step goes from the slip of the old state to the deformation gradient.
 ///
-/// Returns 0, a −1xx or −2xx code (nothing is written), or a −3xx code (stress, modes and tangent are 0, the wave speed is that of
-/// a yarn at rest, the state is unchanged but for `alive`, which is 1 - failed).
+/// Returns 0, a −1xx or −2xx code (nothing is written), or a −3xx code (stress, modes and tangent are 0, the wave speed
+/// is that of a yarn at rest, the state is unchanged but for `alive`, which is 1 - failed).
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn toron_frictional_point_f64(
     law: *const FrictionalLaw<f64>,
@@ -96,8 +96,8 @@ pub unsafe extern "C" fn toron_frictional_point_f32(
     unsafe { entry(Message { text: message, capacity }, move || frictional::point(&prepared(law)?, point)) }
 }
 
-/// As `toron_frictional_point_f64`, with the properties in the table's order in place of a law that has been prepared. The
-/// results are the same bits.
+/// As `toron_frictional_point_f64`, with the properties in the table's order in place of a law that has been prepared.
+/// The results are the same bits.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn toron_frictional_point_with_properties_f64(
     properties: *const f64,
@@ -123,12 +123,12 @@ pub unsafe extern "C" fn toron_frictional_point_with_properties_f32(
     unsafe { entry(Message { text: message, capacity }, move || frictional::point(&with(properties, count)?, point)) }
 }
 
-/// The law with friction over a step at a block of points, with or without a tangent: see `toron_block_f64`; its arrays of the
-/// failure have 7 components.
+/// The law with friction over a step at a block of points, with or without a tangent: see `toron_block_f64`; its arrays
+/// of the failure have 7 components.
 ///
-/// Returns the worst status code of the points: 0, or the most negative −3xx code (that point carries no stress and keeps
-/// its state; the others are not affected; the message names the first one, without `status` only if its F and fibre still tell
-/// it); or a −1xx or −2xx code, and nothing is written.
+/// Returns the worst status code of the points: 0, or the most negative −3xx code (that point carries no stress and
+/// keeps its state; the others are not affected; the message names the first one, without `status` only if its F and
+/// fibre still tell it); or a −1xx or −2xx code, and nothing is written.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn toron_frictional_block_f64(
     law: *const FrictionalLaw<f64>,
@@ -152,8 +152,8 @@ pub unsafe extern "C" fn toron_frictional_block_f32(
     unsafe { entry(Message { text: message, capacity }, move || frictional::block(&prepared(law)?, block)) }
 }
 
-/// As `toron_frictional_block_f64`, with the properties in the table's order in place of a law that has been prepared. The
-/// results are the same bits.
+/// As `toron_frictional_block_f64`, with the properties in the table's order in place of a law that has been prepared.
+/// The results are the same bits.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn toron_frictional_block_with_properties_f64(
     properties: *const f64,

@@ -27,8 +27,8 @@ unsafe fn read<'a, T>(values: *const T, count: size_t) -> Result<&'a [T], Error>
 /// - `law`: out; `size`: `sizeof *law`.
 /// - `properties`, `count`: the properties in the table's order.
 ///
-/// Returns 0; or `TORON_NULL_ARGUMENT`, `TORON_BAD_SIZE` or a −2xx code, and nothing is written: the message names the wrong
-/// property, its value and the allowed values.
+/// Returns 0; or `TORON_NULL_ARGUMENT`, `TORON_BAD_SIZE` or a −2xx code, and nothing is written: the message names the
+/// wrong property, its value and the allowed values.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn toron_hyperelastic_prepare_f64(
     law: *mut HyperelasticLaw<f64>,
@@ -83,8 +83,8 @@ pub unsafe extern "C" fn toron_hyperelastic_point_f32(
     unsafe { entry(Message { text: message, capacity }, move || points::evaluate(numbers(law)?, point)) }
 }
 
-/// As `toron_hyperelastic_point_f64`, with the properties in the table's order, which are checked in every call, in place of a
-/// law that has been prepared. That takes longer; the results may differ in the last digits.
+/// As `toron_hyperelastic_point_f64`, with the properties in the table's order, which are checked in every call, in
+/// place of a law that has been prepared. That takes longer; the results may differ in the last digits.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn toron_hyperelastic_point_with_properties_f64(
     properties: *const f64,
@@ -112,9 +112,9 @@ pub unsafe extern "C" fn toron_hyperelastic_point_with_properties_f32(
 
 /// The hyperelastic law at a block of points, with or without a tangent: see `toron_block_f64`.
 ///
-/// Returns 0; or the most negative −3xx code of the points (a point with such a code has zero stress and keeps its state; the
-/// other points are not affected), and the message names the first point with that code (without `status` only if its F and fibre
-/// still tell it); or a −1xx or −2xx code, and then nothing is written.
+/// Returns 0; or the most negative −3xx code of the points (a point with such a code has zero stress and keeps its
+/// state; the other points are not affected), and the message names the first point with that code (without `status`
+/// only if its F and fibre still tell it); or a −1xx or −2xx code, and then nothing is written.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn toron_hyperelastic_block_f64(
     law: *const HyperelasticLaw<f64>,
@@ -142,8 +142,8 @@ pub unsafe extern "C" fn toron_hyperelastic_block_f32(
     }
 }
 
-/// As `toron_hyperelastic_block_f64`, with the properties in the table's order, which are checked in every call, in place of a
-/// law that has been prepared. The results are the same bits.
+/// As `toron_hyperelastic_block_f64`, with the properties in the table's order, which are checked in every call, in
+/// place of a law that has been prepared. The results are the same bits.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn toron_hyperelastic_block_with_properties_f64(
     properties: *const f64,
@@ -177,14 +177,15 @@ pub unsafe extern "C" fn toron_hyperelastic_block_with_properties_f32(
     }
 }
 
-/// Stability check: the smallest eigenvalue, over all wave directions, of the acoustic tensor times the reference density.
+/// Stability check: the smallest eigenvalue, over all wave directions, of the acoustic tensor times the reference
+/// density.
 ///
-/// If it is negative, the material has lost ellipticity: wave speeds are imaginary and results depend on the mesh. Without
-/// k_ld it is 0 to rounding in stable states: compare it with −1e-9 k_el.
+/// If it is negative, the material has lost ellipticity: wave speeds are imaginary and results depend on the mesh.
+/// Without k_ld it is 0 to rounding in stable states: compare it with −1e-9 k_el.
 ///
 /// - `point`: its `deformation_gradient` and `fibre` are read.
-/// - `least`: the eigenvalue, out, in units of stress; `direction`: 3 values, out, the unit normal of that wave in global
-///   axes, or null.
+/// - `least`: the eigenvalue, out, in units of stress; `direction`: 3 values, out, the unit normal of that wave in
+///   global axes, or null.
 ///
 /// Returns 0; a −1xx or −3xx code, and nothing is written.
 #[unsafe(no_mangle)]

@@ -38,7 +38,8 @@ unsafe fn with<T: Precision>(values: *const T, count: size_t) -> Result<LinearEl
     LinearElastic::new(unsafe { properties(values, count, &parameters::LINEAR_ELASTIC) }?)
 }
 
-/// Checks the properties of the linear elastic law, and prepares the law from them; as `toron_hyperelastic_prepare_f64`.
+/// Checks the properties of the linear elastic law, and prepares the law from them; as
+/// `toron_hyperelastic_prepare_f64`.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn toron_linear_elastic_prepare_f64(
     law: *mut LinearElasticLaw<f64>,
@@ -69,8 +70,8 @@ pub unsafe extern "C" fn toron_linear_elastic_prepare_f32(
 /// The material axes of the linear elastic law in the undeformed state: the initial value of `axes` for
 /// `TORON_ROTATION_SPIN`.
 ///
-/// - `fibre`, `second_axis`: 3 values each, those of a point, of any length; null: those of the properties. The second axis may
-///   be 0 if any will do.
+/// - `fibre`, `second_axis`: 3 values each, those of a point, of any length; null: those of the properties. The second
+///   axis may be 0 if any will do.
 /// - `axes`: 9 values, out, the three axes one after the other.
 ///
 /// Returns 0, `TORON_NULL_ARGUMENT`, `TORON_NOT_PREPARED`, or `TORON_FIBRE_DIRECTION` if there are no such axes.
@@ -108,8 +109,8 @@ pub unsafe extern "C" fn toron_linear_elastic_axes_f32(
 /// The linear elastic law over a step at one point, from the deformation gradients at both ends: see
 /// `toron_linear_point_f64`.
 ///
-/// Returns 0, a −1xx or −2xx code (nothing is written), or a −3xx code (stress and tangent are 0, the state is unchanged but for
-/// `alive`).
+/// Returns 0, a −1xx or −2xx code (nothing is written), or a −3xx code (stress and tangent are 0, the state is
+/// unchanged but for `alive`).
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn toron_linear_elastic_point_f64(
     law: *const LinearElasticLaw<f64>,
@@ -133,8 +134,8 @@ pub unsafe extern "C" fn toron_linear_elastic_point_f32(
     unsafe { entry(Message { text: message, capacity }, move || linear::point(&prepared(law)?, point)) }
 }
 
-/// As `toron_linear_elastic_point_f64`, with the properties in the table's order in place of a law that has been prepared. The
-/// results are the same bits.
+/// As `toron_linear_elastic_point_f64`, with the properties in the table's order in place of a law that has been
+/// prepared. The results are the same bits.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn toron_linear_elastic_point_with_properties_f64(
     properties: *const f64,
@@ -160,10 +161,11 @@ pub unsafe extern "C" fn toron_linear_elastic_point_with_properties_f32(
     unsafe { entry(Message { text: message, capacity }, move || linear::point(&with(properties, count)?, point)) }
 }
 
-/// The linear elastic law for a strain increment in material axes that the host updates: see `toron_linear_increment_f64`.
+/// The linear elastic law for a strain increment in material axes that the host updates: see
+/// `toron_linear_increment_f64`.
 ///
-/// The result is only as good as the axes: if they follow the polar rotation or the spin, the stiff direction drifts away
-/// from a sheared fibre. Returns the same codes as `toron_linear_elastic_point_f64`.
+/// The result is only as good as the axes: if they follow the polar rotation or the spin, the stiff direction drifts
+/// away from a sheared fibre. Returns the same codes as `toron_linear_elastic_point_f64`.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn toron_linear_elastic_increment_f64(
     law: *const LinearElasticLaw<f64>,
@@ -189,9 +191,9 @@ pub unsafe extern "C" fn toron_linear_elastic_increment_f32(
 
 /// The linear elastic law over a step at a block of points: see `toron_linear_block_f64`.
 ///
-/// Returns the worst status code of the points: 0, or the most negative −3xx code (that point carries no stress and keeps
-/// its state and axes; the others are not affected; the message names the first one, without `status` only if
-/// its F and directions still tell it); or a −1xx or −2xx code, and nothing is written.
+/// Returns the worst status code of the points: 0, or the most negative −3xx code (that point carries no stress and
+/// keeps its state and axes; the others are not affected; the message names the first one, without `status` only if its
+/// F and directions still tell it); or a −1xx or −2xx code, and nothing is written.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn toron_linear_elastic_block_f64(
     law: *const LinearElasticLaw<f64>,
@@ -215,8 +217,8 @@ pub unsafe extern "C" fn toron_linear_elastic_block_f32(
     unsafe { entry(Message { text: message, capacity }, move || linear::block(&prepared(law)?, block)) }
 }
 
-/// As `toron_linear_elastic_block_f64`, with the properties in the table's order in place of a law that has been prepared. The
-/// results are the same bits.
+/// As `toron_linear_elastic_block_f64`, with the properties in the table's order in place of a law that has been
+/// prepared. The results are the same bits.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn toron_linear_elastic_block_with_properties_f64(
     properties: *const f64,

@@ -8,13 +8,13 @@ use toron::{Frictional, Hyperelastic, LinearElastic};
 
 /// The hyperelastic law as a scalar user material of LS-DYNA, in double precision.
 ///
-/// `cm`: at least 11 values, the properties; `sig`: 6 values, the Cauchy stress, out; `hsv`: `nhv` = 11 state variables, in
-/// and out, followed by the 9 entries of F by columns, in; `failel`: out, 1 where the element has failed or could not be
-/// evaluated, else 0. None may be null.
+/// `cm`: at least 11 values, the properties; `sig`: 6 values, the Cauchy stress, out; `hsv`: `nhv` = 11 state
+/// variables, in and out, followed by the 9 entries of F by columns, in; `failel`: out, 1 where the element has failed
+/// or could not be evaluated, else 0. None may be null.
 ///
-/// Returns 0; `TORON_NULL_ARGUMENT`, `TORON_STATE_COUNT`, `TORON_NO_DEFORMATION_GRADIENT` (F = 0 or stored elsewhere: check
-/// IHYPER and NHV on the card) or a −2xx code, and nothing is written; or a −3xx code: the stress is 0, energies and
-/// invariants are unchanged, and the element is marked as failed.
+/// Returns 0; `TORON_NULL_ARGUMENT`, `TORON_STATE_COUNT`, `TORON_NO_DEFORMATION_GRADIENT` (F = 0 or stored elsewhere:
+/// check IHYPER and NHV on the card) or a −2xx code, and nothing is written; or a −3xx code: the stress is 0, energies
+/// and invariants are unchanged, and the element is marked as failed.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn toron_lsdyna_umat_f64(
     cm: *const f64,
@@ -49,8 +49,8 @@ pub unsafe extern "C" fn toron_lsdyna_umat_f32(
 /// The hyperelastic law as a vectorised user material of LS-DYNA, in double precision.
 ///
 /// `cm`: 11 properties or more; `sig1` … `sig6`: `nlq` each, out; `hsvs`: (`nlq`, 20), `nhv` = 11 state variables, in
-/// and out, then F, in; `failels`: `nlq`, out, 1 where an element has failed or could not be evaluated, else 0. Elements
-/// `lft` to `llt`, counted from 1, are evaluated; the others are not touched. No pointer may be null.
+/// and out, then F, in; `failels`: `nlq`, out, 1 where an element has failed or could not be evaluated, else 0.
+/// Elements `lft` to `llt`, counted from 1, are evaluated; the others are not touched. No pointer may be null.
 ///
 /// Returns the worst status: 0; `TORON_NULL_ARGUMENT`, `TORON_BAD_COUNT`, `TORON_BAD_LEADING_DIMENSION`,
 /// `TORON_STATE_COUNT`, `TORON_NO_DEFORMATION_GRADIENT` (of the first element, as in `toron_lsdyna_umat_f64`) or a −2xx
@@ -108,11 +108,11 @@ pub unsafe extern "C" fn toron_lsdyna_umat_vector_f32(
 /// The tangent of the hyperelastic law for LS-DYNA's scalar user routine `utan`, in double precision.
 ///
 /// `cm`: 11 properties or more; `hsv`: `nhv` = 11 state variables, then 9 entries of F, in, as written by the material
-/// routine; `es`: 6 × 6, out, the Truesdell modulus of the Cauchy stress, 11 22 33 12 23 31, engineering shears, symmetric.
-/// None may be null.
+/// routine; `es`: 6 × 6, out, the Truesdell modulus of the Cauchy stress, 11 22 33 12 23 31, engineering shears,
+/// symmetric. None may be null.
 ///
-/// Returns 0; `TORON_NULL_ARGUMENT`, `TORON_STATE_COUNT`, `TORON_NO_DEFORMATION_GRADIENT` or a −2xx code, and nothing is
-/// written; or a −3xx code, and then `es` is 0. For a failed element `es` is 0 as well.
+/// Returns 0; `TORON_NULL_ARGUMENT`, `TORON_STATE_COUNT`, `TORON_NO_DEFORMATION_GRADIENT` or a −2xx code, and nothing
+/// is written; or a −3xx code, and then `es` is 0. For a failed element `es` is 0 as well.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn toron_lsdyna_utan_f64(
     cm: *const f64,
@@ -144,8 +144,9 @@ pub unsafe extern "C" fn toron_lsdyna_utan_f32(
 
 /// The tangent of the hyperelastic law as LS-DYNA's vectorised `utan` wants it, in double precision.
 ///
-/// `cm`, `nhv`, `lft`, `llt`, `nlq` as for `toron_lsdyna_umat_vector_f64`; `hsvs`: (`nlq`, 20), in; `dsave`: (`nlq`, 6, 6), out,
-/// as `es` of `toron_lsdyna_utan_f64`. Elements `lft` to `llt`, counted from 1, are evaluated; the others are not touched.
+/// `cm`, `nhv`, `lft`, `llt`, `nlq` as for `toron_lsdyna_umat_vector_f64`; `hsvs`: (`nlq`, 20), in; `dsave`: (`nlq`, 6,
+/// 6), out, as `es` of `toron_lsdyna_utan_f64`. Elements `lft` to `llt`, counted from 1, are evaluated; the others are
+/// not touched.
 ///
 /// Returns the worst status, as `toron_lsdyna_umat_vector_f64` does; the tangent is 0 for an element that cannot be
 /// evaluated or has failed.
@@ -187,8 +188,9 @@ pub unsafe extern "C" fn toron_lsdyna_utan_vector_f32(
 /// Computes the bulk and shear modulus to be entered as cm(12) and cm(13), to which IBULK = 12 and IG = 13 on the card
 /// refer.
 ///
-/// LS-DYNA computes its time step from K + 4G/3. With these values it equals k_el, and the wave along a stretched fibre is
-/// never faster than √(k_el/ρ). `bulk`, `shear`: one value each, out. Returns 0, `TORON_NULL_ARGUMENT` or a −2xx code.
+/// LS-DYNA computes its time step from K + 4G/3. With these values it equals k_el, and the wave along a stretched fibre
+/// is never faster than √(k_el/ρ). `bulk`, `shear`: one value each, out. Returns 0, `TORON_NULL_ARGUMENT` or a −2xx
+/// code.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn toron_lsdyna_bulk_and_shear_f64(
     values: *const f64,
@@ -204,9 +206,9 @@ pub unsafe extern "C" fn toron_lsdyna_bulk_and_shear_f64(
 
 /// The linear elastic law as a scalar user material of LS-DYNA, in double precision.
 ///
-/// As `toron_lsdyna_umat_f64`, with `cm`: at least 10 values, the properties; `hsv`: `nhv` = 19 variables, the law's 10 state variables
-/// and the 9 entries of F of the last step by columns, in and out, followed by the 9 entries of F, in. The material axes follow the
-/// fibre, and the largest principal stress is compared with σ_lim.
+/// As `toron_lsdyna_umat_f64`, with `cm`: at least 10 values, the properties; `hsv`: `nhv` = 19 variables, the law's 10
+/// state variables and the 9 entries of F of the last step by columns, in and out, followed by the 9 entries of F, in.
+/// The material axes follow the fibre, and the largest principal stress is compared with σ_lim.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn toron_lsdyna_linear_umat_f64(
     cm: *const f64,
@@ -238,8 +240,8 @@ pub unsafe extern "C" fn toron_lsdyna_linear_umat_f32(
     unsafe { <LinearElastic<f32>>::umat(&call, message, capacity) }
 }
 
-/// The linear elastic law as a vectorised user material of LS-DYNA, in double precision: as `toron_lsdyna_umat_vector_f64`, with `hsvs`:
-/// (`nlq`, 28), ordered as `hsv` of `toron_lsdyna_linear_umat_f64`.
+/// The linear elastic law as a vectorised user material of LS-DYNA, in double precision: as
+/// `toron_lsdyna_umat_vector_f64`, with `hsvs`: (`nlq`, 28), ordered as `hsv` of `toron_lsdyna_linear_umat_f64`.
 #[unsafe(no_mangle)]
 #[allow(clippy::too_many_arguments)]
 pub unsafe extern "C" fn toron_lsdyna_linear_umat_vector_f64(
@@ -289,10 +291,11 @@ pub unsafe extern "C" fn toron_lsdyna_linear_umat_vector_f32(
     unsafe { <LinearElastic<f32>>::umat_vector(&call, message, capacity) }
 }
 
-/// The tangent of the linear elastic law for LS-DYNA's scalar user routine `utan`, in double precision: as `toron_lsdyna_utan_f64`, with
-/// `hsv` of `toron_lsdyna_linear_umat_f64`.
+/// The tangent of the linear elastic law for LS-DYNA's scalar user routine `utan`, in double precision: as
+/// `toron_lsdyna_utan_f64`, with `hsv` of `toron_lsdyna_linear_umat_f64`.
 ///
-/// It is that of a further, infinitesimal step from the state that the material routine has written, its symmetric part.
+/// It is that of a further, infinitesimal step from the state that the material routine has written, its symmetric
+/// part.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn toron_lsdyna_linear_utan_f64(
     cm: *const f64,
@@ -322,8 +325,8 @@ pub unsafe extern "C" fn toron_lsdyna_linear_utan_f32(
     unsafe { <LinearElastic<f32>>::utan(&call, message, capacity) }
 }
 
-/// As `toron_lsdyna_linear_utan_f64`, for LS-DYNA's vectorised `utan`: arguments as of `toron_lsdyna_utan_vector_f64`, with `hsvs`:
-/// (`nlq`, 28).
+/// As `toron_lsdyna_linear_utan_f64`, for LS-DYNA's vectorised `utan`: arguments as of `toron_lsdyna_utan_vector_f64`,
+/// with `hsvs`: (`nlq`, 28).
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn toron_lsdyna_linear_utan_vector_f64(
     cm: *const f64,
@@ -359,8 +362,8 @@ pub unsafe extern "C" fn toron_lsdyna_linear_utan_vector_f32(
     unsafe { <LinearElastic<f32>>::utan_vector(&call, message, capacity) }
 }
 
-/// As `toron_lsdyna_bulk_and_shear_f64`, for the linear elastic law: cm(11) and cm(12), IBULK = 11 and IG = 12. K + 4G/3 is the largest of
-/// E1, E2 and 2G.
+/// As `toron_lsdyna_bulk_and_shear_f64`, for the linear elastic law: cm(11) and cm(12), IBULK = 11 and IG = 12. K +
+/// 4G/3 is the largest of E1, E2 and 2G.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn toron_lsdyna_linear_bulk_and_shear_f64(
     values: *const f64,
@@ -376,8 +379,8 @@ pub unsafe extern "C" fn toron_lsdyna_linear_bulk_and_shear_f64(
 
 /// The law with friction as a scalar user material of LS-DYNA, in double precision.
 ///
-/// As `toron_lsdyna_umat_f64`, with `cm`: at least 13 values, the properties; `hsv`: `nhv` = 15 state variables, in and out, followed
-/// by the 9 entries of F by columns, in.
+/// As `toron_lsdyna_umat_f64`, with `cm`: at least 13 values, the properties; `hsv`: `nhv` = 15 state variables, in and
+/// out, followed by the 9 entries of F by columns, in.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn toron_lsdyna_frictional_umat_f64(
     cm: *const f64,
@@ -409,8 +412,8 @@ pub unsafe extern "C" fn toron_lsdyna_frictional_umat_f32(
     unsafe { <Frictional<f32>>::umat(&call, message, capacity) }
 }
 
-/// The law with friction as a vectorised user material of LS-DYNA, in double precision: as `toron_lsdyna_umat_vector_f64`, with `hsvs`:
-/// (`nlq`, 24), ordered as `hsv` of `toron_lsdyna_frictional_umat_f64`.
+/// The law with friction as a vectorised user material of LS-DYNA, in double precision: as
+/// `toron_lsdyna_umat_vector_f64`, with `hsvs`: (`nlq`, 24), ordered as `hsv` of `toron_lsdyna_frictional_umat_f64`.
 #[unsafe(no_mangle)]
 #[allow(clippy::too_many_arguments)]
 pub unsafe extern "C" fn toron_lsdyna_frictional_umat_vector_f64(
@@ -460,11 +463,11 @@ pub unsafe extern "C" fn toron_lsdyna_frictional_umat_vector_f32(
     unsafe { <Frictional<f32>>::umat_vector(&call, message, capacity) }
 }
 
-/// The tangent of the law with friction for LS-DYNA's scalar user routine `utan`, in double precision: as `toron_lsdyna_utan_f64`, with
-/// `hsv` of `toron_lsdyna_frictional_umat_f64`.
+/// The tangent of the law with friction for LS-DYNA's scalar user routine `utan`, in double precision: as
+/// `toron_lsdyna_utan_f64`, with `hsv` of `toron_lsdyna_frictional_umat_f64`.
 ///
-/// It is that of a further, infinitesimal step from the state that the material routine has written, where the fibres hold: that of
-/// unloading where they have slid in the step.
+/// It is that of a further, infinitesimal step from the state that the material routine has written, where the fibres
+/// hold: that of unloading where they have slid in the step.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn toron_lsdyna_frictional_utan_f64(
     cm: *const f64,
@@ -494,8 +497,8 @@ pub unsafe extern "C" fn toron_lsdyna_frictional_utan_f32(
     unsafe { <Frictional<f32>>::utan(&call, message, capacity) }
 }
 
-/// As `toron_lsdyna_frictional_utan_f64`, for LS-DYNA's vectorised `utan`: arguments as of `toron_lsdyna_utan_vector_f64`, with `hsvs`:
-/// (`nlq`, 24).
+/// As `toron_lsdyna_frictional_utan_f64`, for LS-DYNA's vectorised `utan`: arguments as of
+/// `toron_lsdyna_utan_vector_f64`, with `hsvs`: (`nlq`, 24).
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn toron_lsdyna_frictional_utan_vector_f64(
     cm: *const f64,

@@ -8,9 +8,10 @@ use toron::host::openradioss::{read_card_f32, read_card_f64, write_line_f32, wri
 
 /// The starter's routine of a user material of OpenRadioss, `LECMUSERnn`, in double precision.
 ///
-/// `number`: nn, 1 for the hyperelastic law, 2 for the linear elastic one and 3 for that with friction; `values`: `count` numbers
-/// of the card behind the density, the law's properties and then the options; `uparam`: `maxuparam` values, out; `nuparam`, `nuvar`: out; `parmat`: out, 1
-/// value, the modulus of the fastest wave at rest. None may be null.
+/// `number`: nn, 1 for the hyperelastic law, 2 for the linear elastic one and 3 for that with friction; `values`:
+/// `count` numbers of the card behind the density, the law's properties and then the options; `uparam`: `maxuparam`
+/// values, out; `nuparam`, `nuvar`: out; `parmat`: out, 1 value, the modulus of the fastest wave at rest. None may be
+/// null.
 ///
 /// Returns 0, or a code with which the starter is to be stopped, and nothing is written: a −1xx code
 /// (`TORON_BAD_ARGUMENT` for a number or an option among them) or a −2xx code.
@@ -33,12 +34,12 @@ pub unsafe extern "C" fn toron_openradioss_lecm_f64(
     unsafe { read_card_f64(&card, message, capacity) }
 }
 
-/// A line of what the starter's listing says of a material of OpenRadioss: what its elements need, the values of the card, and
-/// the names of the user variables.
+/// A line of what the starter's listing says of a material of OpenRadioss: what its elements need, the values of the
+/// card, and the names of the user variables.
 ///
-/// `uparam`: `nuparam` values, as `toron_openradioss_lecm_f64` has written them; `line`: counted from 0; `text`: at most `capacity`
-/// bytes, out, with the terminating null. Returns 0, `TORON_UNKNOWN_NAME` behind the last line, or another code if `uparam` is not
-/// such an array.
+/// `uparam`: `nuparam` values, as `toron_openradioss_lecm_f64` has written them; `line`: counted from 0; `text`: at
+/// most `capacity` bytes, out, with the terminating null. Returns 0, `TORON_UNKNOWN_NAME` behind the last line, or
+/// another code if `uparam` is not such an array.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn toron_openradioss_listing_f64(
     uparam: *const f64,
@@ -54,11 +55,12 @@ pub unsafe extern "C" fn toron_openradioss_listing_f64(
 
 /// The engine's routine of a user material of OpenRadioss, `LUSERnn`, for solids, in double precision.
 ///
-/// `nel` elements; `uparam`: `nuparam` values; `time`: 0 in the first cycle; `ngl`: `nel` numbers of elements for messages, or null;
-/// `rho0`: the reference density, 1 value; `fpsxx` … `fpsxz`: `nel` each, the deformation gradient; `signxx` … `signzx`: `nel` each,
-/// out, the Cauchy stress; `sigvxx` … `sigvzx` and `viscmax`: out, 0, or null; `soundsp`: `nel`, out, a bound of the wave speed;
-/// `uvar`: (`nel`, `nuvar`), in and out; `off`: `nel`, in and out, 0 where a point has failed or cannot be evaluated; `nodes`:
-/// (`nel`, 8, 3), what MAT_SOLID_GET_NOD_X gives, or null; read at time 0 if the fibre comes from the nodes.
+/// `nel` elements; `uparam`: `nuparam` values; `time`: 0 in the first cycle; `ngl`: `nel` numbers of elements for
+/// messages, or null; `rho0`: the reference density, 1 value; `fpsxx` … `fpsxz`: `nel` each, the deformation gradient;
+/// `signxx` … `signzx`: `nel` each, out, the Cauchy stress; `sigvxx` … `sigvzx` and `viscmax`: out, 0, or null;
+/// `soundsp`: `nel`, out, a bound of the wave speed; `uvar`: (`nel`, `nuvar`), in and out; `off`: `nel`, in and out, 0
+/// where a point has failed or cannot be evaluated; `nodes`: (`nel`, 8, 3), what MAT_SOLID_GET_NOD_X gives, or null;
+/// read at time 0 if the fibre comes from the nodes.
 ///
 /// A point with `off` below 1 has no stress and keeps its state; `off` never rises. The variable `deleted` says why it
 /// is out: 1 failed, 2 by the solver, or the −3xx code of the reason why it could not be evaluated.

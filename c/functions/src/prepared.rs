@@ -4,9 +4,9 @@ use toron::host::prepared::PreparedLaw;
 use toron::law::prepared::{PreparedFrictional, PreparedHyperelastic, PreparedLinearElastic};
 use toron::{Frictional, Hyperelastic, LinearElastic};
 
-/// The hyperelastic law, prepared by `toron_hyperelastic_prepare_f64` or `_f32`: numbers only, without a pointer. It may be
-/// copied, shared by threads and sent to other processes of the same byte order, and needs no release. Its content is the
-/// library's own; its size is the same in all versions of this interface.
+/// The hyperelastic law, prepared by `toron_hyperelastic_prepare_f64` or `_f32`: numbers only, without a pointer. It
+/// may be copied, shared by threads and sent to other processes of the same byte order, and needs no release. Its
+/// content is the library's own; its size is the same in all versions of this interface.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct HyperelasticLaw<T> {

@@ -88,7 +88,8 @@ unsafe fn preset<T: Precision>(
     unsafe { look_up(message, write) }
 }
 
-/// The number of properties of a law (`TORON_HYPERELASTIC`, `TORON_LINEAR_ELASTIC`, `TORON_FRICTIONAL`), or `TORON_UNKNOWN_NAME`.
+/// The number of properties of a law (`TORON_HYPERELASTIC`, `TORON_LINEAR_ELASTIC`, `TORON_FRICTIONAL`), or
+/// `TORON_UNKNOWN_NAME`.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn toron_property_count(law: i32, message: *mut c_char, capacity: size_t) -> i32 {
     // SAFETY: the caller's arguments, as lib.rs says.
@@ -168,10 +169,10 @@ pub unsafe extern "C" fn toron_state_index(
 
 /// The properties and the reference density of a preset, in the units of the user's model.
 ///
-/// - `preset`: "kevlar-km2-600" or "kevlar-km2-600-linear"; `units`: a unit of length, one of mass and one of time, joined
-///   by "-", such as "m-kg-s" (or "si"), "mm-tonne-s", "mm-kg-ms", "cm-g-us".
-/// - `properties`: array for the properties; `count` must equal the law's number of properties. `density`: one value, out, or
-///   null.
+/// - `preset`: "kevlar-km2-600" or "kevlar-km2-600-linear"; `units`: a unit of length, one of mass and one of time,
+///   joined by "-", such as "m-kg-s" (or "si"), "mm-tonne-s", "mm-kg-ms", "cm-g-us".
+/// - `properties`: array for the properties; `count` must equal the law's number of properties. `density`: one value,
+///   out, or null.
 ///
 /// Returns 0, `TORON_UNKNOWN_NAME`, `TORON_NULL_ARGUMENT` or `TORON_PROPERTY_COUNT`.
 #[unsafe(no_mangle)]

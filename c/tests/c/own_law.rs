@@ -1,4 +1,5 @@
-//! A law of one's own in C, `examples/own_law`: its header, its functions against the same law in Rust, its machine code and its speed.
+//! A law of one's own in C, `examples/own_law`: its header, its functions against the same law in Rust, its machine
+//! code and its speed.
 
 use std::fmt::Write as _;
 use std::io::Write as _;
@@ -146,8 +147,8 @@ fn openradioss_loads_the_law() {
     }
 }
 
-/// Nanoseconds a point, AVX2, of a block of 1000 points, and of a plain loop, as gcc makes it with -O2 and with all that it has, which gives up
-/// the order of operations and NaN.
+/// Nanoseconds a point, AVX2, of a block of 1000 points, and of a plain loop, as gcc makes it with -O2 and with all
+/// that it has, which gives up the order of operations and NaN.
 #[test]
 #[ignore = "needs a machine without other work"]
 fn a_block_takes_a_third_of_a_plain_loop() {

@@ -240,7 +240,8 @@ impl<T: Number> ElementBlock<T> {
     fn call_law(&mut self, medium: &Medium<T>, scratch: &mut Scratch<T>, options: StepOptions) -> i32 {
         match &medium.entry {
             Entry::Hyperelastic(law) => self.solver_block(medium, scratch, options).arrays().call(Given::Prepared(law)),
-            // The slip is remembered whether elements may fail or not, and the kernels are compiled for all of the state.
+            // The slip is remembered whether elements may fail or not, and the kernels are compiled for all of the
+            // state.
             Entry::Frictional(law) => {
                 let all = SolverBlock { energies: true, failure: true, ..self.solver_block(medium, scratch, options) };
                 all.call_frictional(law)
@@ -327,8 +328,8 @@ impl<T: Number> ElementBlock<T> {
     /// reference step, which stands for Δt in the damping. Which elements have collapsed.
     ///
     /// With the law's bound A |h m|² + B |h|² of the stiffness against a gradient h, motions along and across the fibre
-    /// have the stiffnesses (A + B) m·S m and B S_t at most, S being that of [`Measures`], and each its own damping; the
-    /// largest eigenvalue of the pair is that of a 2 × 2 matrix.
+    /// have the stiffnesses (A + B) m·S m and B S_t at most, S being that of [`Measures`], and each its own damping;
+    /// the largest eigenvalue of the pair is that of a 2 × 2 matrix.
     #[inline(always)]
     fn bound_step(&mut self, medium: &Medium<T>, scratch: &mut Scratch<T>, options: StepOptions) {
         let (one, four) = (Lanes::constant(1.0), Lanes::constant(4.0));
@@ -493,8 +494,8 @@ impl<T: Number> ElementBlock<T> {
         matches!(medium.entry, Entry::Solid(_)).then(|| self.variable(SOLID_VON_MISES, i))
     }
 
-    /// Logarithmic strain along the fibre, or the first axis: the invariant, the linear elastic law's stress along it over
-    /// E1, or from the deformation gradient; a solid does not keep it.
+    /// Logarithmic strain along the fibre, or the first axis: the invariant, the linear elastic law's stress along it
+    /// over E1, or from the deformation gradient; a solid does not keep it.
     pub fn elongation(&self, medium: &Medium<T>, i: usize) -> f64 {
         match &medium.entry {
             Entry::Hyperelastic(_) | Entry::Frictional(_) => self.variable(INVARIANTS, i),

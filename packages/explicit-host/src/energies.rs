@@ -96,8 +96,8 @@ impl Balance {
     }
 }
 
-/// Computing time. That of the parts is wall time, which is longer where the machine has other work; the law's is summed over
-/// threads.
+/// Computing time. That of the parts is wall time, which is longer where the machine has other work; the law's is
+/// summed over threads.
 #[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 pub struct Cost {
     pub steps: u64,

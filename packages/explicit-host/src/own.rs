@@ -105,8 +105,8 @@ impl<T: Number> OwnEntry<T> {
     }
 }
 
-/// Adds ½ P : ΔF of the step to the first row, where an element takes part and has any stress; P by columns is in the rows
-/// behind it.
+/// Adds ½ P : ΔF of the step to the first row, where an element takes part and has any stress; P by columns is in the
+/// rows behind it.
 fn add_work<T: Number>(
     [n, stride]: [usize; 2],
     [f_old, f]: [&[T]; 2],

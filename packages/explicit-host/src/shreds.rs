@@ -1,11 +1,11 @@
 //! How the mass of a node is shared by its elements, and mass that is lent to what is torn.
 //!
-//! Whatever the shares, no body has a higher frequency than the highest of its elements, each against its shares. A thin
-//! element at a yarn's edge swings faster than its neighbours, and gets more of the nodes that it has with them. A node
-//! keeps the mass of the elements that it has lost, so that those left there swing against more than their own.
-//! An element beside a hole that is squeezed or drawn out may take the step far below the first one. Its nodes may get
-//! mass, where no whole element is: one all of whose nodes have all their elements. Momentum is kept; what that takes of
-//! the kinetic energy is a term of the balance.
+//! Whatever the shares, no body has a higher frequency than the highest of its elements, each against its shares. A
+//! thin element at a yarn's edge swings faster than its neighbours, and gets more of the nodes that it has with them. A
+//! node keeps the mass of the elements that it has lost, so that those left there swing against more than their own. An
+//! element beside a hole that is squeezed or drawn out may take the step far below the first one. Its nodes may get
+//! mass, where no whole element is: one all of whose nodes have all their elements. Momentum is kept; what that takes
+//! of the kinetic energy is a term of the balance.
 
 use super::body::Body;
 use super::lanes::Number;

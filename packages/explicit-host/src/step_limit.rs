@@ -163,7 +163,8 @@ impl<T: Number> Body<T> {
         });
     }
 
-    /// The element with the largest rate above this one: the rate, block and place; `most` is the largest rate of contact.
+    /// The element with the largest rate above this one: the rate, block and place; `most` is the largest rate of
+    /// contact.
     fn worst_element(&self, most: f64, least: f64) -> Option<(f64, usize, usize)> {
         let (mut limit, mut worst) = (least, None);
         for (number, block) in self.blocks.iter().enumerate() {

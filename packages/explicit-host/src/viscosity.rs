@@ -129,7 +129,8 @@ impl<T: Number> Viscosity<T> {
                 - (r33 + old_r33) * d33
                 - two * (r23 + old_r23) * d23;
             dissipated = dissipated + half * half * work * shapes.volumes(first);
-            // The two act on motions at right angles. Across, of a gradient g of the velocity the form is ν (tr g)² + 2 η
+            // The two act on motions at right angles. Across, of a gradient g of the velocity the form is ν (tr g)² + 2
+            // η
             // |dev sym g|²; with the section's spread, its largest eigenvalue is one of a 2 × 2 matrix, or η times the
             // trace of a shear.
             let [trace, area] = [Lanes::at(&measures.trace_across, first), Lanes::at(&measures.area_across, first)];
@@ -278,8 +279,8 @@ mod tests {
         }
     }
 
-    /// The section's form ν (tr g)² + 2 η |dev sym g|² for gradients g of the velocity, spread by S: its largest eigenvalue
-    /// from its 4 × 4 matrix.
+    /// The section's form ν (tr g)² + 2 η |dev sym g|² for gradients g of the velocity, spread by S: its largest
+    /// eigenvalue from its 4 × 4 matrix.
     #[test]
     fn no_motion_across_the_fibre_is_damped_more_than_the_bound() {
         let nodes: Vec<[f64; 3]> = (0..8)

@@ -110,8 +110,8 @@ fn viscoelastic() -> &'static OwnLaw {
     Box::leak(Box::new(OwnLaw::new::<ViscoelasticSolid>("VISCOELASTIC", 4).expect("a name and a number")))
 }
 
-/// σ11 of the viscoelastic solid with μ = 3, Λ = 7, μ₁ = 11, τ = 2.5 at these stretches, a time after a sudden step, half of
-/// which counts.
+/// σ11 of the viscoelastic solid with μ = 3, Λ = 7, μ₁ = 11, τ = 2.5 at these stretches, a time after a sudden step,
+/// half of which counts.
 fn relaxed(stretches: [f64; 3], time: f64) -> f64 {
     let j: f64 = stretches.iter().product();
     let growth = stretches[0] * stretches[0] - 1.0;

@@ -54,8 +54,8 @@ fn refused(laws: Laws, text: &str) -> String {
 const KEVLAR: &str =
     "k_el = 82341.0\nk_tc = 1055.0\np = 2.2\nk_td = 649.74\neps_lim = 0.0458\nalpha = 1.8\nbeta = 0.0\n";
 
-/// The library's law behind the interface of one's own has the same bits in every sample, up to the break and behind it,
-/// since the kernels, the bound of the step, viscosity and hourglass control are the same.
+/// The library's law behind the interface of one's own has the same bits in every sample, up to the break and behind
+/// it, since the kernels, the bound of the step, viscosity and hourglass control are the same.
 #[test]
 fn the_library_s_law_as_one_s_own_has_the_same_bits() {
     let keys = "speed = 130.0\nend = 0.03\n";

@@ -116,8 +116,8 @@ pub fn compile(file: &Path, folder: &Path, options: &Options) -> Result<Built, E
     Ok(Built { library, checked, counted, by, warnings, form, objects, options: options.clone() })
 }
 
-/// The routines of Abaqus for a law that is a library already; without a compiler of C they are not there, which is said
-/// when one is called.
+/// The routines of Abaqus for a law that is a library already; without a compiler of C they are not there, which is
+/// said when one is called.
 fn library_of_utilities(folder: &Path) {
     let (source, library) = (folder.join("utilities.c"), folder.join(LIBRARY_OF_UTILITIES));
     if std::fs::write(&source, UTILITIES).is_ok() {

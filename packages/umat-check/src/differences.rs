@@ -30,9 +30,9 @@ const HALVINGS_OF_STEPS: usize = 2;
 /// Columns of the extrapolation.
 const ORDERS: usize = 4;
 
-/// Steps by halves over which a jump of the slope stays, if it is that of a kink, or grows to twice as much with each, if
-/// the state is on a branch that is narrower than the step; within this part. Where the stress is smooth the jump falls
-/// to a half at least, and noise has no sign.
+/// Steps by halves over which a jump of the slope stays, if it is that of a kink, or grows to twice as much with each,
+/// if the state is on a branch that is narrower than the step; within this part. Where the stress is smooth the jump
+/// falls to a half at least, and noise has no sign.
 const KINK: usize = 4;
 const ALIKE: f64 = 0.75;
 

@@ -54,7 +54,8 @@ pub fn wrong_entries(
     places.filter(is_wrong).collect()
 }
 
-/// By what factor an iteration of Newton's method with this modulus reduces an error, at best: the spectral radius of 1 - D⁻¹T.
+/// By what factor an iteration of Newton's method with this modulus reduces an error, at best: the spectral radius of
+/// 1 - D⁻¹T.
 pub fn contraction(modulus: &Modulus, truth: &Modulus, components: usize) -> Option<f64> {
     let square = |entries: &Modulus| DMatrix::from_fn(components, components, |i, j| entries[i][j]);
     let step = square(modulus).lu().solve(&square(truth))?;

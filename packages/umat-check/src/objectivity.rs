@@ -114,8 +114,8 @@ fn objective(session: &mut Session, reads: Reads, asked: &dyn Fn(&mut Session) -
 
 const NOT_OBJECTIVE: &str = "not objective";
 
-/// What a law of this kind may lack: only tensors in the states of a law of increments have to be turned, and only such a
-/// law needs axes that turn.
+/// What a law of this kind may lack: only tensors in the states of a law of increments have to be turned, and only such
+/// a law needs axes that turn.
 fn advice(material: &Material, reads: Reads) -> &'static str {
     match (reads == Reads::Total, material.initial.len() < material.components.min(3)) {
         (true, _) => "",

@@ -1,4 +1,5 @@
-//! A UMAT that calls the user's own and returns DDSDDE by differences: what a job runs with until the tangent is mended.
+//! A UMAT that calls the user's own and returns DDSDDE by differences: what a job runs with until the tangent is
+//! mended.
 
 use std::path::Path;
 

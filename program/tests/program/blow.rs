@@ -1,5 +1,5 @@
-//! Properties of a yarn from the history of a blow: those that made the history come back, a fit that is begun again makes
-//! no run twice, and wrong files are named.
+//! Properties of a yarn from the history of a blow: those that made the history come back, a fit that is begun again
+//! makes no run twice, and wrong files are named.
 
 use std::path::{Path, PathBuf};
 

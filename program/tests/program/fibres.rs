@@ -170,8 +170,9 @@ fn works(samples: &[PressedSample]) -> Vec<f64> {
         .collect()
 }
 
-/// Rows without friction bear q = p_t/2 by dilatancy alone: discs that climb over two below them widen the section three
-/// times as fast as they lower it. Until then nothing is lost: the walls' stresses, by their strains, are what is stored.
+/// Rows without friction bear q = p_t/2 by dilatancy alone: discs that climb over two below them widen the section
+/// three times as fast as they lower it. Until then nothing is lost: the walls' stresses, by their strains, are what is
+/// stored.
 #[test]
 fn rows_are_tested_between_sides_that_keep_a_pressure() {
     let scene = scene("biaxial.toml");

@@ -12,10 +12,11 @@
 //! | F inverted or not finite | state kept, PNEWDT ≤ ¼ | point failed and deleted |
 //! | tangent | DDSDDE(ntens, ntens): the Jaumann rate of τ, over J | none |
 //!
-//! Solids: three-dimensional ones (NDI = 3, NSHR = 3), plane-strain and axisymmetric ones (3, 1). Plane stress is (2, 1) in Standard
-//! and refused; in Explicit it is (3, 1) too. The symbols `umat_` and `vumat_` that Abaqus looks for are in `fortran-shim/`, and in the
-//! libraries of `abaqus/`. A material with 10 properties and 10 state variables has the linear elastic law there, one with 13 or 14
-//! properties the law with friction, every other one the hyperelastic law; (3, 1) in Explicit must be announced by the material's name, which ends in `_PSTRAIN` or `_AXIS`. In a library of
+//! Solids: three-dimensional ones (NDI = 3, NSHR = 3), plane-strain and axisymmetric ones (3, 1). Plane stress is
+//! (2, 1) in Standard and refused; in Explicit it is (3, 1) too. The symbols `umat_` and `vumat_` that Abaqus looks for are
+//! in `fortran-shim/`, and in the libraries of `abaqus/`. A material with 10 properties and 10 state variables has the
+//! linear elastic law there, one with 13 or 14 properties the law with friction, every other one the hyperelastic law;
+//! (3, 1) in Explicit must be announced by the material's name, which ends in `_PSTRAIN` or `_AXIS`. In a library of
 //! laws of one's own the material's name begins with that of its law.
 
 mod umat;

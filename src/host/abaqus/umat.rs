@@ -29,8 +29,8 @@ use crate::law::voigt::Moduli;
 /// The value that PNEWDT is lowered to if a point cannot be evaluated.
 const CUTBACK: f64 = 0.25;
 
-/// The arguments of a UMAT that the laws use, with Abaqus's names. Who makes one promises that every array that is not null has as many
-/// values as its field says, valid for what it is used for.
+/// The arguments of a UMAT that the laws use, with Abaqus's names. Who makes one promises that every array that is not
+/// null has as many values as its field says, valid for what it is used for.
 #[derive(Clone, Copy, Debug)]
 pub struct Umat {
     /// Out, `ntens` = `ndi` + `nshr`: Cauchy stress.
@@ -46,8 +46,8 @@ pub struct Umat {
     /// In, 9: F by columns at the start of the increment, for a law that reads it, and at its end.
     pub dfgrd0: *const f64,
     pub dfgrd1: *const f64,
-    /// In, `nprops`: the law's properties, and behind them the number of the state variable with the point's failure limit, if there is
-    /// one.
+    /// In, `nprops`: the law's properties, and behind them the number of the state variable with the point's failure
+    /// limit, if there is one.
     pub props: *const f64,
     pub nprops: i32,
     pub nstatv: i32,
@@ -60,8 +60,8 @@ pub struct Umat {
     pub circumstances: Circumstances<f64>,
 }
 
-/// When an increment is, from Abaqus's TIME, at its start, and DTIME, and how warm at its end, from TEMP and DTEMP, in `temperature`; what
-/// is null is not known.
+/// When an increment is, from Abaqus's TIME, at its start, and DTIME, and how warm at its end, from TEMP and DTEMP, in
+/// `temperature`; what is null is not known.
 ///
 /// # Safety
 /// TIME is null or has 2 values, the others 1.
@@ -121,7 +121,8 @@ impl Umat {
     /// The card names no variable that may hold it, or it means nothing.
     fn limit<L: Law<f64>>(&self) -> Result<f64, Error> {
         let (count, kept) = (property_count(self.nprops, L::DESCRIPTION.properties)?, L::DESCRIPTION.state.len());
-        // SAFETY: `law` has found that neither array is null and that the counts are not negative: `nprops` and `nstatv` values.
+        // SAFETY: `law` has found that neither array is null and that the counts are not negative: `nprops` and
+        // `nstatv` values.
         unsafe {
             let place = limit_variable::place::<f64, L>(self.props, count, kept, self.nstatv as usize)?;
             limit_variable::check(
@@ -144,7 +145,8 @@ pub trait StandardLaw: Law<f64> {
         unsafe { entry(Message { text: message, capacity }, || step::<Self>(call)) }
     }
 
-    /// The UMAT, and SPD: of a law that loses energy, what it has lost per current volume. Another law leaves SPD as it is.
+    /// The UMAT, and SPD: of a law that loses energy, what it has lost per current volume. Another law leaves SPD as it
+    /// is.
     ///
     /// # Safety
     /// As for [`umat`](Self::umat); `spd` is null or can be written.
@@ -194,8 +196,9 @@ impl StandardLaw for Hyperelastic<f64> {
 }
 
 impl Umat {
-    /// Whether nothing is missing or wrong in a call for a point in three dimensions with the hyperelastic law and a card of so many
-    /// `constants`: every argument is looked at only if something is, or if the element is two-dimensional.
+    /// Whether nothing is missing or wrong in a call for a point in three dimensions with the hyperelastic law and a
+    /// card of so many `constants`: every argument is looked at only if something is, or if the element is
+    /// two-dimensional.
     #[inline(always)]
     fn is_usual(&self, constants: usize) -> bool {
         let usual = (self.ndi ^ 3) | (self.nshr ^ 3) | (self.nprops ^ constants as i32) == 0;
@@ -289,7 +292,8 @@ impl Results<'_> {
                 *self.call.stress.add(4).cast() = [s31, s23];
             }
             let Some(inverse_jacobian) = inverse_jacobian else { return self.keep(point) };
-            // The sum of the energies of a point that can be evaluated fits the number format; a check here took 6 % of the call.
+            // The sum of the energies of a point that can be evaluated fits the number format; a check here took 6 % of
+            // the call.
             let energy = sum_of_energies(point);
             let current = energy * inverse_jacobian;
             *self.call.statev.cast() = point.state;
@@ -297,8 +301,8 @@ impl Results<'_> {
         }
     }
 
-    /// Stores the state and the energy of a point that may have failed before, with an F and old energies that mean nothing, and the
-    /// status of one that cannot be evaluated.
+    /// Stores the state and the energy of a point that may have failed before, with an F and old energies that mean
+    /// nothing, and the status of one that cannot be evaluated.
     #[cold]
     #[inline(never)]
     fn keep(&self, point: &Point<f64>) {
@@ -427,7 +431,8 @@ unsafe fn step<L: Law<f64>>(call: &Umat) -> Result<i32, Error> {
 /// # Safety
 /// As for [`StandardLaw::umat_with_losses`].
 unsafe fn step_with_losses<L: Law<f64>>(call: &Umat, lost: usize, spd: *mut f64) -> Result<i32, Error> {
-    // SAFETY: the arrays are those that `Umat` promises; `step` has refused those that are null and counts that are too small.
+    // SAFETY: the arrays are those that `Umat` promises; `step` has refused those that are null and counts that are too
+    // small.
     unsafe {
         let code = step::<L>(call)?;
         if code == status::OK && !spd.is_null() {

@@ -25,10 +25,9 @@ use crate::law::status;
 pub struct Vumat<T> {
     /// The size of this structure.
     pub size: size_t,
-    /// Numbers of points, of direct components (3), of shear components (3; 1 for plane strain and axisymmetric solids, which the
-    /// caller has to tell from plane stress: Abaqus passes the same numbers), of state variables (the law's, or
-    /// more) and of properties (the law's, or
-    /// one more).
+    /// Numbers of points, of direct components (3), of shear components (3; 1 for plane strain and axisymmetric solids,
+    /// which the caller has to tell from plane stress: Abaqus passes the same numbers), of state variables (the law's,
+    /// or more) and of properties (the law's, or one more).
     pub nblock: i32,
     pub ndir: i32,
     pub nshr: i32,
@@ -43,7 +42,8 @@ pub struct Vumat<T> {
     pub props: *const T,
     /// In, 1: current density at the middle of the step.
     pub density: *const T,
-    /// In, 6 (or 4, as all tensors of plane elements): increment of strain, tensor components; read in the data check only.
+    /// In, 6 (or 4, as all tensors of plane elements): increment of strain, tensor components; read in the data check
+    /// only.
     pub strain_inc: *const T,
     /// In, 6 components each: the right stretch U at the start and at the end of the increment, 11 22 33 12 23 31.
     pub stretch_old: *const T,
@@ -120,11 +120,12 @@ unsafe fn vumat<L: Law<T>, T: Precision>(
         // SAFETY: arrays of `nblock` points, which are not null, with the components that `Vumat` says.
         unsafe { check_limits::<L, T>(block, limit, n) }?;
     }
-    // SAFETY: arrays of `nblock` points, which are not null, with the components that `Vumat` says; here and in the functions below.
+    // SAFETY: arrays of `nblock` points, which are not null, with the components that `Vumat` says; here and in the
+    // functions below.
     unsafe {
         for i in 0..n {
-            // State variables beyond those of the law are copied as they are, and the inelastic energy is kept, or 0 where
-            // it is not finite.
+            // State variables beyond those of the law are copied as they are, and the inelastic energy is kept, or 0
+            // where it is not finite.
             for c in L::DESCRIPTION.state.len()..block.nstatev as usize {
                 at!(block.state_new, block, c, i) = at!(block.state_old, block, c, i);
             }
@@ -163,10 +164,10 @@ fn finite<T: Precision>(energy: T) -> T {
     if (energy * zero).le(zero) { energy } else { zero }
 }
 
-/// The data check: before there is any deformation, Abaqus determines the elastic wave speed from the stress due to fictitious
-/// strains. It gets that of an isotropic solid with the law's [`bulk_and_shear`](Law::bulk_and_shear), whose longitudinal wave is
-/// the law's fastest at rest: the yarn law itself has no transverse stiffness there. A point whose numbers are not finite is deleted, as
-/// in a step. Returns the worst status.
+/// The data check: before there is any deformation, Abaqus determines the elastic wave speed from the stress due to
+/// fictitious strains. It gets that of an isotropic solid with the law's [`bulk_and_shear`](Law::bulk_and_shear), whose
+/// longitudinal wave is the law's fastest at rest: the yarn law itself has no transverse stiffness there. A point whose
+/// numbers are not finite is deleted, as in a step. Returns the worst status.
 ///
 /// # Safety
 /// As for [`vumat`], with `n` points.
@@ -256,8 +257,8 @@ unsafe fn stretched<L: Law<T>, T: Precision>(
             level,
             ..Points::without_arrays(CHUNK.min(n - start), n)
         };
-        // SAFETY: the rows have the points from `start` on, of which no more than CHUNK are evaluated; the new state may replace the
-        // old one exactly.
+        // SAFETY: the rows have the points from `start` on, of which no more than CHUNK are evaluated; the new state
+        // may replace the old one exactly.
         worst = worst.min(unsafe { law.step(&points) }?);
         for (i, &code) in (start..n).zip(&codes) {
             // SAFETY: i < n, and `step` has written the new state.
@@ -314,8 +315,8 @@ pub trait ExplicitLaw<T: Precision>: Law<T> {
     /// The VUMAT. Returns the worst status code, with a message of at most `capacity` bytes unless `message` is null.
     ///
     /// # Safety
-    /// `block` is null or points to as many bytes as its size says, its arrays that are not null have the sizes that its fields say, and
-    /// `message` is null or has `capacity` bytes.
+    /// `block` is null or points to as many bytes as its size says, its arrays that are not null have the sizes that
+    /// its fields say, and `message` is null or has `capacity` bytes.
     #[inline(never)]
     unsafe fn vumat(block: *const Vumat<T>, message: *mut c_char, capacity: size_t) -> i32 {
         // SAFETY: null or a structure of its size, with arrays as long as its fields say; the message is the caller's.

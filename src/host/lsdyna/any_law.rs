@@ -15,10 +15,12 @@ const CHUNK: usize = 64;
 /// Evaluates the law at the elements in place, and marks those as failed that have failed or could not be evaluated.
 ///
 /// # Safety
-/// `cm` has the law's properties; the history and results of the elements may be written, and F is behind their history.
+/// `cm` has the law's properties; the history and results of the elements may be written, and F is behind their
+/// history.
 unsafe fn evaluate<T: Precision, L: History<T>>(cm: *const T, nhv: i32, elements: &Elements<T>) -> Result<i32, Error> {
     let Elements { leading_dimension: stride, first, count, .. } = *elements;
-    // SAFETY: `cm` has the properties, and the first of the elements, of which `law` asks only if there is one, NHV + 9 variables.
+    // SAFETY: `cm` has the properties, and the first of the elements, of which `law` asks only if there is one, NHV + 9
+    // variables.
     let law: L = unsafe { law(cm, nhv, count, |j| *elements.variable(j, first)) }?;
     let (mut worst, mut done) = (status::OK, 0);
     while done < count {
@@ -40,7 +42,8 @@ unsafe fn evaluate<T: Precision, L: History<T>>(cm: *const T, nhv: i32, elements
             status: codes.as_mut_ptr(),
             ..Points::without_arrays(n, stride)
         };
-        // SAFETY: rows with the n elements from `start` on; the new state is in the place of the old one, and `codes` has n ≤ CHUNK.
+        // SAFETY: rows with the n elements from `start` on; the new state is in the place of the old one, and `codes`
+        // has n ≤ CHUNK.
         worst = worst.min(unsafe { law.step(&points) }?);
         let codes = codes.get(..n).unwrap_or(&codes);
         if L::DESCRIPTION.reads.old_gradient {
@@ -83,8 +86,9 @@ pub(super) unsafe fn scalar<T: Precision, L: History<T>>(call: &Umat<T>) -> Resu
     unsafe { evaluate::<T, L>(cm, nhv, &elements) }
 }
 
-/// The tangents of `count` elements from `first` on: of a step to F from the state that the material routine has written, and where
-/// the law depends on F at the start, of a further, infinitesimal step. The symmetric part, which LS-DYNA wants.
+/// The tangents of `count` elements from `first` on: of a step to F from the state that the material routine has
+/// written, and where the law depends on F at the start, of a further, infinitesimal step. The symmetric part, which
+/// LS-DYNA wants.
 ///
 /// # Safety
 /// `cm` has the law's properties, `hsvs` the histories and F of the elements; `dsave` may be written.
@@ -96,7 +100,8 @@ unsafe fn tangents<T: Precision, L: History<T>>(
     dsave: *mut T,
 ) -> Result<i32, Error> {
     let row = |variable: usize, start: usize| hsvs.wrapping_add(variable.wrapping_mul(stride).wrapping_add(start));
-    // SAFETY: `cm` has the properties, and the first of the elements, of which `law` asks only if there is one, NHV + 9 variables.
+    // SAFETY: `cm` has the properties, and the first of the elements, of which `law` asks only if there is one, NHV + 9
+    // variables.
     let law: L = unsafe { law(cm, nhv, count, |j| *row(j, first)) }?;
     let mut worst = status::OK;
     for i in first..first + count {

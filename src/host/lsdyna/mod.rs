@@ -40,8 +40,9 @@ use crate::law::number::real::Scalar;
 use crate::law::number::vector::dot;
 use crate::law::status;
 
-/// The arguments of a scalar material routine, `umat41`. Who makes these structures promises that every array that is not null has as
-/// many values as its field says, valid for what it is used for; behind the history, `nhv` variables, are the 9 entries of F by columns.
+/// The arguments of a scalar material routine, `umat41`. Who makes these structures promises that every array that is
+/// not null has as many values as its field says, valid for what it is used for; behind the history, `nhv` variables,
+/// are the 9 entries of F by columns.
 #[derive(Clone, Copy, Debug)]
 pub struct Umat<T> {
     /// In: the law's properties, or more.
@@ -55,7 +56,8 @@ pub struct Umat<T> {
     pub failel: *mut c_int,
 }
 
-/// The arguments of a vectorised one, `umat41v`: arrays are (`nlq`, components), and elements `lft` to `llt`, counted from 1, are evaluated.
+/// The arguments of a vectorised one, `umat41v`: arrays are (`nlq`, components), and elements `lft` to `llt`, counted
+/// from 1, are evaluated.
 #[derive(Clone, Copy, Debug)]
 pub struct UmatVector<T> {
     pub cm: *const T,
@@ -92,8 +94,9 @@ pub struct UtanVector<T> {
     pub dsave: *mut T,
 }
 
-/// A law as a user material of LS-DYNA. Its history is the law's state, the entries of F that are kept for it, and, behind these, F.
-/// The routines return the worst status code, with a message of at most `capacity` bytes unless `message` is null.
+/// A law as a user material of LS-DYNA. Its history is the law's state, the entries of F that are kept for it, and,
+/// behind these, F. The routines return the worst status code, with a message of at most `capacity` bytes unless
+/// `message` is null.
 pub trait UserRoutines<T: Precision>: History<T> {
     /// The material routine.
     ///
@@ -184,7 +187,8 @@ impl<T: Scalar> Elements<T> {
         self.history.wrapping_add(j.wrapping_mul(self.leading_dimension).wrapping_add(i))
     }
 
-    /// Marks those of the elements from `start` on as failed that have failed or whose status says that they could not be evaluated.
+    /// Marks those of the elements from `start` on as failed that have failed or whose status says that they could not
+    /// be evaluated.
     ///
     /// # Safety
     /// `codes` has the status of elements of the block, whose history and `failed` may be written.
@@ -265,8 +269,8 @@ fn no_gradient<T: Precision, L: History<T>>() -> Error {
     Error::Setting { code: status::NO_DEFORMATION_GRADIENT, text: L::NO_GRADIENT }
 }
 
-/// The law with the properties of the card. Refuses a history that cannot be this law's: `first(j)` is hsv(j + 1) of the first of
-/// `count` elements, j below NHV + 9.
+/// The law with the properties of the card. Refuses a history that cannot be this law's: `first(j)` is hsv(j + 1) of
+/// the first of `count` elements, j below NHV + 9.
 ///
 /// # Safety
 /// `cm` has the law's properties.
@@ -286,8 +290,8 @@ unsafe fn law<T: Precision, L: History<T>>(
     Ok(law)
 }
 
-/// Whether the history of an element can be that of this law, with F behind the state variables: `history(j)` is hsv(j + 1), j
-/// below NHV + 9.
+/// Whether the history of an element can be that of this law, with F behind the state variables: `history(j)` is
+/// hsv(j + 1), j below NHV + 9.
 ///
 /// LS-DYNA passes the card's NHV to no routine. With IHYPER = 0 there is no F; if NHV is another one, F is at another
 /// place, behind zeros. Before the first call of an element, F is a rotation or nearly one, which its columns show.
@@ -318,8 +322,8 @@ fn is_plausible<T: Precision, L: Law<T>>(history: impl Fn(usize) -> T) -> bool {
     }
     let [failed, alive] = [L::DESCRIPTION.failed, L::DESCRIPTION.alive].map(h);
     if [failed, alive].iter().all(|flag| [0.0, 1.0].contains(flag)) && failed + alive > 0.0 {
-        // Entries of a first F at another place may look like such flags; then there are zeros where F is read. Only the F of
-        // a collapsed element has a row or column of zeros as well.
+        // Entries of a first F at another place may look like such flags; then there are zeros where F is read. Only
+        // the F of a collapsed element has a row or column of zeros as well.
         let zeros = |first: usize, stride: usize| (0..3).all(|i| h(first + i * stride) == 0.0);
         let collapsed = (0..3).any(|k| zeros(f + 3 * k, 1) || zeros(f + k, 3));
         let keeps_one = L::DESCRIPTION.reads.old_gradient && is_at(L::DESCRIPTION.state.len());

@@ -66,8 +66,8 @@ pub unsafe extern "C" fn hyperelastic_in_plane(view: *mut BehaviourDataView) -> 
 /// As for [`MgisLaw::integrate`]; no pointer that is needed is null.
 #[inline(always)]
 unsafe fn evaluate(view: &BehaviourDataView, options: Options, plane: bool) -> Result<i32, Error> {
-    // SAFETY: `integrate` has found these arrays not to be null; they have the values of the tables. The state is in cells, since the
-    // new one may replace it.
+    // SAFETY: `integrate` has found these arrays not to be null; they have the values of the tables. The state is in
+    // cells, since the new one may replace it.
     let (source, state, f) = unsafe {
         (
             slice::from_raw_parts(view.s1.material_properties, HYPERELASTIC_PROPERTIES),
@@ -125,7 +125,8 @@ struct ToHost<'a> {
 }
 
 impl ToHost<'_> {
-    /// Writes the results, given whether the operator is finite, and the operator by `operator`; nothing if there is an error.
+    /// Writes the results, given whether the operator is finite, and the operator by `operator`; nothing if there is an
+    /// error.
     #[inline(always)]
     fn put(self, point: &Point<f64>, finite: bool, operator: impl FnOnce(&Results<'_>)) {
         let results = self.results;

@@ -14,9 +14,10 @@
 //! | failure | stress and tangent 0, `failed` 1, `alive` 0, the energies kept |
 //! | F inverted, not finite, … | −1 and a message, nothing written, rdt ≤ ¼ |
 //!
-//! Everything is global: the behaviours are isotropic to MGIS, and the fibre direction is one of their properties. The elastic, the
-//! secant and the tangent operator are the same: the derivative of the stress that is returned. Temperature and time step are not
-//! read. The linear elastic law has axes that follow the fibre, and fails by its largest principal stress.
+//! Everything is global: the behaviours are isotropic to MGIS, and the fibre direction is one of their properties. The
+//! elastic, the secant and the tangent operator are the same: the derivative of the stress that is returned.
+//! Temperature and time step are not read. The linear elastic law has axes that follow the fibre, and fails by its
+//! largest principal stress.
 
 mod hyperelastic;
 mod operator;

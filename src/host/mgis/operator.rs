@@ -1,4 +1,5 @@
-//! Tangents and stresses in MFront's orders: symmetric tensors 11 22 33 √2·12 √2·13 √2·23, others 11 22 33 12 21 13 31 23 32.
+//! Tangents and stresses in MFront's orders: symmetric tensors 11 22 33 √2·12 √2·13 √2·23, others 11 22 33 12 21 13 31
+//! 23 32.
 
 use core::f64::consts::SQRT_2;
 
@@ -63,8 +64,8 @@ pub(super) fn kirchhoff_by_increment(
     by_rows(jaumann, stress, [0.0; 6], &product(&cofactors(f1).1, &transposed(f0)))
 }
 
-/// The derivative c : D + Wσ − σW − tr L `volume` with respect to L, times `right`, by rows. The components of the stress and
-/// of its derivatives stand side by side, which lets the compiler use vectors.
+/// The derivative c : D + Wσ − σW − tr L `volume` with respect to L, times `right`, by rows. The components of the
+/// stress and of its derivatives stand side by side, which lets the compiler use vectors.
 ///
 /// The columns for L_km and L_mk are those of c plus and minus w_km, w_km being that of the spin.
 #[inline(always)]

@@ -48,20 +48,22 @@ impl Stress {
 pub(super) struct Results<'a> {
     pub view: &'a BehaviourDataView,
     pub options: Options,
-    /// Whether this is a plane hypothesis: then the first 4 components of a symmetric tensor count, and the first 5 of another one.
+    /// Whether this is a plane hypothesis: then the first 4 components of a symmetric tensor count, and the first 5 of
+    /// another one.
     pub plane: bool,
 }
 
 impl Results<'_> {
-    /// Writes the new state of a step that is integrated, and its stress; whether its values are finite has been checked.
+    /// Writes the new state of a step that is integrated, and its stress; whether its values are finite has been
+    /// checked.
     ///
     /// # Safety
     /// The view is what [`BehaviourDataView`] says; arrays that are needed are not null.
     #[inline(always)]
     pub unsafe fn store_step<S: Copy>(&self, stress: &Stress, state: &S, energy: f64) {
         let s1 = &self.view.s1;
-        // SAFETY: `integrate` has found these arrays not to be null, and the energy is checked; a stress has 6 or 9 values, in the
-        // plane 4 or 5, and the state is the law's.
+        // SAFETY: `integrate` has found these arrays not to be null, and the energy is checked; a stress has 6 or 9
+        // values, in the plane 4 or 5, and the state is the law's.
         unsafe {
             match (stress, self.plane) {
                 (Stress::Symmetric(values), false) => *s1.thermodynamic_forces.cast() = *values,
@@ -83,7 +85,8 @@ impl Results<'_> {
     #[inline(always)]
     pub unsafe fn store_operator<const COLUMNS: usize, const ROWS: usize>(&self, rows: &[[f64; COLUMNS]; ROWS]) {
         let in_plane = |count: usize| if count == 6 { 4 } else { 5 };
-        // SAFETY: K is not null, and has as many values as the operator: ROWS × COLUMNS, or in the plane those of the first 4 or 5.
+        // SAFETY: K is not null, and has as many values as the operator: ROWS × COLUMNS, or in the plane those of the
+        // first 4 or 5.
         unsafe {
             if !self.plane {
                 *self.view.k.cast() = *rows;

@@ -96,8 +96,8 @@ unsafe fn of_law<L: Law<f64>>(view: *mut BehaviourDataView, plane: bool) -> i32 
 /// As for [`MgisLaw::integrate`]; no pointer that is needed is null.
 #[inline(never)]
 unsafe fn evaluate<L: Law<f64>>(view: &BehaviourDataView, options: Options, plane: bool) -> Result<i32, Error> {
-    // SAFETY: `integrate` has found these arrays not to be null; they have the values of the tables. The state is copied, since the new
-    // one may replace it.
+    // SAFETY: `integrate` has found these arrays not to be null; they have the values of the tables. The state is
+    // copied, since the new one may replace it.
     let (properties, old, f0) = unsafe {
         (
             slice::from_raw_parts(view.s1.material_properties, L::DESCRIPTION.properties.len()),
@@ -131,8 +131,8 @@ unsafe fn evaluate<L: Law<f64>>(view: &BehaviourDataView, options: Options, plan
         return Ok(status::OVERFLOW);
     }
     let results = Results { view, options, plane };
-    // SAFETY: `integrate` has found the arrays not to be null, and there is a density only where the speed has a place; the results
-    // have the request's and the hypothesis's sizes.
+    // SAFETY: `integrate` has found the arrays not to be null, and there is a density only where the speed has a place;
+    // the results have the request's and the hypothesis's sizes.
     unsafe {
         match &rows {
             Rows::None => (),

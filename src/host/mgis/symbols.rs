@@ -1,4 +1,5 @@
-//! The values of a behaviour's data symbols, from the law's tables at compile time. The package `toron-solvers` gives them their names.
+//! The values of a behaviour's data symbols, from the law's tables at compile time. The package `toron-solvers` gives
+//! them their names.
 
 use core::ffi::{CStr, c_char};
 
@@ -68,8 +69,8 @@ pub const fn texts<const N: usize>(names: &'static [[u8; NAME]; N]) -> [Text; N]
     texts
 }
 
-/// C's `long double` on x86-64: the x87 registers' ten bytes (a sign, 15 bits of exponent, 64 of significand with its leading one),
-/// and six of padding.
+/// C's `long double` on x86-64: the x87 registers' ten bytes (a sign, 15 bits of exponent, 64 of significand with its
+/// leading one), and six of padding.
 #[repr(C, align(16))]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct LongDouble([u8; 16]);
@@ -89,8 +90,8 @@ impl LongDouble {
     }
 }
 
-/// The least and the greatest allowed value of a property. The least one itself is excluded where the table says so, for which the
-/// symbols have no word.
+/// The least and the greatest allowed value of a property. The least one itself is excluded where the table says so,
+/// for which the symbols have no word.
 pub const fn bounds(table: &[Property], name: &str) -> [LongDouble; 2] {
     let Property { minimum, maximum, .. } = table[place(table, name)];
     [LongDouble::new(minimum), LongDouble::new(maximum)]

@@ -28,9 +28,9 @@ pub struct StateView {
     pub external_state_variables: *const f64,
 }
 
-/// The data of a call. MGIS promises that every pointer that is not null points to as many values as its field says, valid for what
-/// they are used for: F and stress those of the hypothesis, properties and state variables those that the symbols of the behaviour tell.
-/// Only the state at the end may be in the place of that at the start.
+/// The data of a call. MGIS promises that every pointer that is not null points to as many values as its field says,
+/// valid for what they are used for: F and stress those of the hypothesis, properties and state variables those that
+/// the symbols of the behaviour tell. Only the state at the end may be in the place of that at the start.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct BehaviourDataView {

@@ -29,7 +29,8 @@ const ROUNDINGS: f64 = 64.0;
 pub struct Brick(pub [[f64; 3]; 8]);
 
 impl Brick {
-    /// ∂x/∂ξ at a place of the reference cube, by columns; at the centre, half of the way from each face to the opposite one.
+    /// ∂x/∂ξ at a place of the reference cube, by columns; at the centre, half of the way from each face to the
+    /// opposite one.
     pub fn jacobian(&self, place: [f64; 3]) -> Matrix<f64> {
         let mut columns = [[0.0; 3]; 3];
         for (node, corner) in self.0.iter().zip(&CORNERS) {
@@ -40,7 +41,8 @@ impl Brick {
         columns
     }
 
-    /// Whether an element of this volume is integrated by one point, the centre: those of eight points have a part of it each.
+    /// Whether an element of this volume is integrated by one point, the centre: those of eight points have a part of
+    /// it each.
     pub fn has_one_point(&self, volume: f64) -> bool {
         let [a, b, c] = self.jacobian([0.0; 3]);
         let whole = 8.0 * dot(a, cross(b, c));
@@ -61,8 +63,8 @@ impl Brick {
         [0, 1, 2].map(|i| a[i] + b[i] + c[i])
     }
 
-    /// Whether the diagonals of its eight points are that of the centre: of an undeformed element that is not even, F at a point
-    /// takes the centre's diagonal to another place than that of the deformed one, which may be a box.
+    /// Whether the diagonals of its eight points are that of the centre: of an undeformed element that is not even, F
+    /// at a point takes the centre's diagonal to another place than that of the deformed one, which may be a box.
     pub fn is_even(&self) -> bool {
         let here = self.diagonal_at([0.0; 3]);
         self.unevenness(here) <= ALLOWED * length(here)
@@ -75,8 +77,8 @@ impl Brick {
     }
 
     /// Whether the diagonal of this element may be where F takes that of the undeformed one. Of one point, F is that of
-    /// the centre; of eight points, of an element that was [even](Self::is_even), it may differ from it by what the diagonal does
-    /// from point to point.
+    /// the centre; of eight points, of an element that was [even](Self::is_even), it may differ from it by what the
+    /// diagonal does from point to point.
     pub fn has_diagonal(&self, taken: [f64; 3], one_point: bool, rounding: f64) -> bool {
         let here = self.diagonal_at([0.0; 3]);
         let largest = self.0.iter().flatten().fold(0.0, |largest: f64, x| largest.max(libm::fabs(*x)));
@@ -156,7 +158,8 @@ mod tests {
         let of_a_point = bent.diagonal_at([POINT; 3]);
         assert!(bent.has_diagonal(of_a_point, false, 1e-16) && !bent.has_diagonal(of_a_point, true, 1e-16));
         assert!(!bent.has_diagonal(diagonal.map(|x| 3.0 * x), false, 1e-16));
-        // A brick of a crimped yarn, whose end faces are tilted, pulled straight: F at its points takes the diagonal elsewhere.
+        // A brick of a crimped yarn, whose end faces are tilted, pulled straight: F at its points takes the diagonal
+        // elsewhere.
         let tilted = |by: f64| Brick(CORNERS.map(|[x, y, z]| [x + by * x * y, 0.5 * y, 0.5 * z]));
         assert!(!tilted(0.05).is_even() && tilted(0.0).is_even());
         let mut wedge = brick();

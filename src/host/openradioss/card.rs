@@ -12,8 +12,8 @@ use super::laws::{Laws, Material, SolidLaw};
 /// What the elements of these laws need, for the listing and for the message where F is missing.
 pub const NEEDS: &str = "/PROP/TYPE14 (/PROP/SOLID) with Isolid = 1, Ismstr = 10, Iframe = 1";
 
-/// `deleted` of a point that has failed, and of one whose element the solver or another point has taken out. Where a point could
-/// not be evaluated, `deleted` is the negative status code.
+/// `deleted` of a point that has failed, and of one whose element the solver or another point has taken out. Where a
+/// point could not be evaluated, `deleted` is the negative status code.
 pub const BY_FAILURE: f64 = 1.0;
 pub const BY_SOLVER: f64 = 2.0;
 
@@ -97,8 +97,8 @@ impl Layout {
         OPTIONS.iter().take(self.options).chain(self.has_own_option.then_some(&OWN_OPTION))
     }
 
-    /// Indices into UVAR, from 0, behind the law's state: the fibre's three components of a law that has a fibre, `deleted`, and the
-    /// nine of the old F.
+    /// Indices into UVAR, from 0, behind the law's state: the fibre's three components of a law that has a fibre,
+    /// `deleted`, and the nine of the old F.
     pub fn fibre(&self) -> usize {
         self.law.state.len()
     }

@@ -18,8 +18,9 @@ use crate::host::entry_points::{check_pointers, from_entry, start_at_rest};
 /// The solver's groups have no more elements; longer ones are evaluated in parts.
 const CHUNK: usize = 128;
 
-/// A group of elements as the engine passes it to a material, one integration point of each. Who makes one promises that every pointer
-/// is null or has as many values as its field says, those without a number NEL, and that the outputs overlap nothing else.
+/// A group of elements as the engine passes it to a material, one integration point of each. Who makes one promises
+/// that every pointer is null or has as many values as its field says, those without a number NEL, and that the outputs
+/// overlap nothing else.
 #[derive(Clone, Copy, Debug)]
 pub struct Group<T> {
     /// NEL, NUPARAM, NUVAR.
@@ -66,8 +67,8 @@ pub fn needs_nodes(cycle: i32) -> bool {
 /// Evaluates the material at a group.
 ///
 /// # Errors
-/// What stops the run: an argument that is missing, counts or numbers of another material, no deformation gradient, a fibre
-/// direction that has no length. A point that fails or cannot be evaluated is no error: its element is taken out.
+/// What stops the run: an argument that is missing, counts or numbers of another material, no deformation gradient, a
+/// fibre direction that has no length. A point that fails or cannot be evaluated is no error: its element is taken out.
 ///
 /// # Safety
 /// The group is what [`Group`] says.
@@ -110,7 +111,8 @@ const NO_GRADIENT_IN_SINGLE: &str = "the solver passes no deformation gradient (
 const OTHER_AXES: &str = "F is not in the global axes, as the nodes show; the elements of this material need \
     /PROP/TYPE14 (not TYPE6) with Isolid = 1, Ismstr = 10, Iframe = 1";
 
-/// What the run stops with if fibre_from is 1 and elements are flat in the direction of the fibre: yarns are meshed with long ones.
+/// What the run stops with if fibre_from is 1 and elements are flat in the direction of the fibre: yarns are meshed
+/// with long ones.
 const NODE_ORDER: &str = "fibre_from = 1, and this group's elements are less than half as long from nodes 1 to 4 to nodes 5 to 8 as across: \
     nodes 1 to 4 must be a section of the yarn; if they are, give the directions as initial values (fibre_from = 2)";
 
@@ -121,12 +123,13 @@ const OF_SINGLE: &str = "the solver's numbers are of single precision, and this 
     libtoron_openradioss_sp.so";
 
 impl<T: Precision> Group<T> {
-    /// What the run stops with if the solver's numbers are of the other precision: in the first cycle F is 1. 1 in double precision is, in
-    /// single precision, 0 and 1.875, and two numbers 1 in single precision are 0.0078125 and a bit in double precision.
+    /// What the run stops with if the solver's numbers are of the other precision: in the first cycle F is 1. 1 in
+    /// double precision is, in single precision, 0 and 1.875, and two numbers 1 in single precision are 0.0078125 and a
+    /// bit in double precision.
     unsafe fn other_precision(&self) -> Option<&'static str> {
         let mut diagonal = self.deformation_gradient.iter().take(3);
-        // SAFETY: F has NEL values, and the second one is read only if there are two. The solver's arrays have its vector length, so that
-        // those of the other precision have these bytes too.
+        // SAFETY: F has NEL values, and the second one is read only if there are two. The solver's arrays have its
+        // vector length, so that those of the other precision have these bytes too.
         unsafe {
             if size_of::<T>() == size_of::<f32>() {
                 let is_double = |&f: &*const T| (*f).into() == 0.0 && (*f.add(1)).into() == 1.875;
@@ -138,8 +141,8 @@ impl<T: Precision> Group<T> {
         }
     }
 
-    /// Whether the first element's F is 0: the solver passes none. Of one element this is what a library for single precision reads where
-    /// the solver's F is 1 in double precision.
+    /// Whether the first element's F is 0: the solver passes none. Of one element this is what a library for single
+    /// precision reads where the solver's F is 1 in double precision.
     unsafe fn has_no_gradient(&self) -> bool {
         // SAFETY: there is a first element.
         self.deformation_gradient.iter().all(|&f| unsafe { *f }.into() == 0.0)
@@ -466,8 +469,8 @@ impl<T: Precision> Group<T> {
     /// Evaluates the group in parts and marks the points that are out.
     ///
     /// # Errors
-    /// Those of `part`, which gets the first element, the number of elements and room for their status codes; a fibre direction
-    /// that has no length.
+    /// Those of `part`, which gets the first element, the number of elements and room for their status codes; a fibre
+    /// direction that has no length.
     unsafe fn in_chunks(
         &self,
         layout: &Layout,
@@ -492,7 +495,8 @@ impl<T: Precision> Group<T> {
     /// before are so already.
     ///
     /// # Errors
-    /// A fibre direction that has no length, a limit that means nothing: nothing has deformed them, so that the model is wrong.
+    /// A fibre direction that has no length, a limit that means nothing: nothing has deformed them, so that the model
+    /// is wrong.
     #[cold]
     unsafe fn mark(&self, layout: &Layout, first: usize, codes: &[i32]) -> Result<(), Error> {
         for (i, &code) in (first..).zip(codes) {

@@ -1,5 +1,5 @@
-//! The entries of the C interface, for the shims of the solver's SDK. The order of the solver's arguments stands where the symbols are
-//! exported; here they are structures.
+//! The entries of the C interface, for the shims of the solver's SDK. The order of the solver's arguments stands where
+//! the symbols are exported; here they are structures.
 
 use core::slice;
 
@@ -14,7 +14,8 @@ use super::engine::{Group, evaluate};
 use super::laws::{Laws, MyReal};
 use super::starter::{listing, read};
 
-/// The arguments of the starter's routine, `LECMUSERnn`. Who makes one promises that each pointer is null or valid for what is said.
+/// The arguments of the starter's routine, `LECMUSERnn`. Who makes one promises that each pointer is null or valid for
+/// what is said.
 #[derive(Clone, Copy, Debug)]
 pub struct MaterialCard<T> {
     /// nn.

@@ -16,7 +16,8 @@ use super::engine::Group;
 
 /// A law as a material of solids.
 pub trait SolidLaw<T: Precision>: Law<T> {
-    /// How many of [`OPTIONS`] its card has: the first one is for a law with a fibre, the others for the linear elastic law.
+    /// How many of [`OPTIONS`] its card has: the first one is for a law with a fibre, the others for the linear elastic
+    /// law.
     const OPTIONS: usize;
 
     /// Whether its card has [`OWN_OPTION`](super::card::OWN_OPTION) behind them.
@@ -111,7 +112,8 @@ pub trait MyReal: Precision {
     const TORON: Laws<Self>;
 }
 
-// An impl for each type and not a generic one, so that the groups are compiled in this crate and not in the crates that use it.
+// An impl for each type and not a generic one, so that the groups are compiled in this crate and not in the crates that
+// use it.
 macro_rules! toron_laws {
     ($($t:ty)*) => {$(
         impl SolidLaw<$t> for Hyperelastic<$t> {

@@ -13,7 +13,8 @@
 //! | failure | OFF = 0, `deleted` = 1; a point that cannot be evaluated: OFF = 0, `deleted` = its status code |
 //! | time step | SOUNDSP, in every cycle: the law's bound of the wave speed |
 //!
-//! Elements with `/PROP/TYPE14` (`/PROP/SOLID`), Isolid = 1 (or 17), Iframe = 1, Ismstr = 10: F and stress are then in global axes.
+//! Elements with `/PROP/TYPE14` (`/PROP/SOLID`), Isolid = 1 (or 17), Iframe = 1, Ismstr = 10: F and stress are then in
+//! global axes.
 
 mod brick;
 pub mod card;

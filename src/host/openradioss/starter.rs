@@ -13,7 +13,8 @@ pub struct Read<T> {
     /// NUPARAM and NUVAR.
     pub parameters: usize,
     pub variables: usize,
-    /// PARMAT(1): the modulus of the fastest wave at rest, from which the first time step and contact stiffnesses are computed.
+    /// PARMAT(1): the modulus of the fastest wave at rest, from which the first time step and contact stiffnesses are
+    /// computed.
     pub modulus: T,
 }
 
@@ -71,7 +72,8 @@ fn give_a_direction<T: Precision>(layout: &Layout, uparam: &mut [T]) {
     }
 }
 
-/// A line, from 0, of what the starter's listing says of a material: passed to `sink` piece by piece. False behind the last line.
+/// A line, from 0, of what the starter's listing says of a material: passed to `sink` piece by piece. False behind the
+/// last line.
 ///
 /// # Errors
 /// UPARAM is not what [`read`] has written.

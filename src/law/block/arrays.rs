@@ -35,8 +35,8 @@ pub struct Arrays<'a, T> {
     pub energies: Option<&'a mut [T]>,
     /// 4: strain invariants of the modes, in the same order.
     pub invariants: Option<&'a mut [T]>,
-    /// 3: the failure index, 1 from the call on that finds it at 1 or above, else 0, and "alive", which is 1 less that. A point
-    /// that has failed has no stress. `None`: no point fails.
+    /// 3: the failure index, 1 from the call on that finds it at 1 or above, else 0, and "alive", which is 1 less that.
+    /// A point that has failed has no stress. `None`: no point fails.
     pub failure: Option<&'a mut [T]>,
     /// 24: second Piola–Kirchhoff stress of each mode, 11 22 33 12 23 31.
     pub modes: Option<&'a mut [T]>,

@@ -1,6 +1,6 @@
-//! Points copied to a small block of their own, evaluated there, and their results copied back: those that do not fill a register,
-//! and those that are not next to each other in memory. They go through the same operations as all others, so that the result of a
-//! point does not depend on where it is.
+//! Points copied to a small block of their own, evaluated there, and their results copied back: those that do not fill
+//! a register, and those that are not next to each other in memory. They go through the same operations as all others,
+//! so that the result of a point does not depend on where it is.
 
 use core::mem::MaybeUninit;
 use core::ops::Range;
@@ -12,8 +12,9 @@ use super::run::Kernels;
 use crate::law::number::real::{Lanes, Scalar, WIDEST};
 use crate::law::status;
 
-/// How many numbers a point of every law takes in copies: F, fibre, limit, temperature, stress, wave speed and `active`;
-/// and with modes and the largest tangent. A law's state is added to them, and what else its points have, see [`Kernels::Else`].
+/// How many numbers a point of every law takes in copies: F, fibre, limit, temperature, stress, wave speed and
+/// `active`; and with modes and the largest tangent. A law's state is added to them, and what else its points have, see
+/// [`Kernels::Else`].
 const FEW: usize = 9 + 3 + 1 + 1 + 6 + 1 + 1;
 const ALL: usize = FEW + 24 + 81;
 
@@ -59,7 +60,8 @@ impl<const COUNT: usize> Group<COUNT> {
     /// Copies `components` components from the block; nothing if it has none.
     ///
     /// # Safety
-    /// `from` is null or an array with these components at every offset, `to` an array of COUNT points with these components.
+    /// `from` is null or an array with these components at every offset, `to` an array of COUNT points with these
+    /// components.
     #[inline(always)]
     unsafe fn copy_in<T: Copy>(&self, from: *const T, to: *mut T, components: usize) {
         if from.is_null() {
@@ -85,7 +87,8 @@ impl<const COUNT: usize> Group<COUNT> {
         }
     }
 
-    /// Copies `components` components back to the block. Lanes without a point of their own store the last point's value again.
+    /// Copies `components` components back to the block. Lanes without a point of their own store the last point's
+    /// value again.
     ///
     /// # Safety
     /// As for [`copy_in`](Self::copy_in), in the other direction.
@@ -222,8 +225,9 @@ unsafe fn copied<T: Precision, L: Kernels<T>, const COUNT: usize, const ROWS: us
     let Strides { deformation_gradient, fibre, limit, axes, state, stress, modes, tangent } = points.strides;
     let state = copies.group(state, points.leading_dimension);
     let axes = copies.group(axes, points.axes_leading_dimension);
-    // SAFETY: each array of `of_copies` has been taken from `memory`, with space for COUNT points of all its components; it is there if
-    // the points have that array; the offsets are those of points of the range. A number whose bytes are all 0 is 0.
+    // SAFETY: each array of `of_copies` has been taken from `memory`, with space for COUNT points of all its
+    // components; it is there if the points have that array; the offsets are those of points of the range. A number
+    // whose bytes are all 0 is 0.
     unsafe {
         let of_f = copies.group(deformation_gradient, 0);
         if needs.reads.old_gradient {
@@ -268,8 +272,8 @@ unsafe fn copied<T: Precision, L: Kernels<T>, const COUNT: usize, const ROWS: us
     }
 }
 
-/// Runs a kernel on copies of all points, at least one and fewer than a register `R` holds; the other lanes repeat the last one.
-/// `ROWS` is the number of [`rows`] of the law. Returns the kernel's result.
+/// Runs a kernel on copies of all points, at least one and fewer than a register `R` holds; the other lanes repeat the
+/// last one. `ROWS` is the number of [`rows`] of the law. Returns the kernel's result.
 ///
 /// # Safety
 /// The points are valid, see [`Points`], and next to each other; the processor has the instructions of `R`.
@@ -283,9 +287,9 @@ pub(super) unsafe fn padded<T: Scalar, R: Lanes<T>, const ROWS: usize>(
     let mut codes = [status::OK; WIDEST];
     let copies = points.in_memory(memory.as_mut_ptr().cast(), R::COUNT, codes.as_mut_ptr(), needs);
     let (state, count) = (points.leading_dimension, points.n);
-    // Loops and no closures, which would be called, without the processor's instructions.
-    // SAFETY: `memory` has a register for each component, at which the arrays of `copies` begin; `count` values of each component of
-    // the valid points are read and written, of the arrays that are not null.
+    // Loops and no closures, which would be called, without the processor's instructions. SAFETY: `memory` has a
+    // register for each component, at which the arrays of `copies` begin; `count` values of each component of the valid
+    // points are read and written, of the arrays that are not null.
     unsafe {
         if needs.reads.old_gradient {
             columns_in::<T, R, 9>(&points.f_old, &copies.f_old, count);
@@ -367,7 +371,8 @@ unsafe fn filled<T: Scalar, R: Lanes<T>>(array: *const T, count: usize) -> R {
 /// Copies `count` values of the columns of a matrix or a vector to registers; nothing if there is no such array.
 ///
 /// # Safety
-/// The columns are null, or have `count` values each, one at least and fewer than COUNT, and a register of their own to go to.
+/// The columns are null, or have `count` values each, one at least and fewer than COUNT, and a register of their own to
+/// go to.
 #[inline(always)]
 unsafe fn columns_in<T: Scalar, R: Lanes<T>, const N: usize>(from: &[*const T; N], to: &[*const T; N], count: usize) {
     if from[0].is_null() {
@@ -379,7 +384,8 @@ unsafe fn columns_in<T: Scalar, R: Lanes<T>, const N: usize>(from: &[*const T; N
     }
 }
 
-/// Copies the first `count` lanes of `columns` registers, one after the other from `from` on, to columns that are `next` apart.
+/// Copies the first `count` lanes of `columns` registers, one after the other from `from` on, to columns that are
+/// `next` apart.
 ///
 /// # Safety
 /// There are as many registers, and each column has space for `count` values, fewer than COUNT.

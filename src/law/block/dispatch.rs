@@ -221,7 +221,8 @@ unsafe fn dispatch_frictional<T: Precision>(level: Level, law: &Frictional<T>, b
     }
 }
 
-/// Runs a kernel of the law with friction that is compiled for what solvers ask in every step, or else the general kernel.
+/// Runs a kernel of the law with friction that is compiled for what solvers ask in every step, or else the general
+/// kernel.
 ///
 /// # Safety
 /// As for [`run`].

@@ -375,7 +375,8 @@ impl<T: Scalar, R: Lanes<T>, A: GroupAxes<R>> Group<'_, T, R, A> {
         }
     }
 
-    /// Whether any of the fibres have slid before, and their axes, whose roots then come beside those of the kinematics.
+    /// Whether any of the fibres have slid before, and their axes, whose roots then come beside those of the
+    /// kinematics.
     #[inline(always)]
     unsafe fn recall_slip(&self, stages: &mut Stages<'_, R, Kept<R, A>>) {
         let mut slid = R::never();

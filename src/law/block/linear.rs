@@ -47,8 +47,8 @@ unsafe fn evaluate<T: Scalar, R: Lanes<T>>(law: &LinearElastic<R>, block: &Point
         state: !block.state_new[0].is_null(),
         wave_modulus: !block.wave_speed.is_null(),
     };
-    // SAFETY: i + COUNT ≤ n, and every pointer that is read or written here has been found not to be null, F apart, which
-    // `check` requires: in a valid block each of its components has n values.
+    // SAFETY: i + COUNT ≤ n, and every pointer that is read or written here has been found not to be null, F apart,
+    // which `check` requires: in a valid block each of its components has n values.
     unsafe {
         let (f0, f1) = (gradient(&block.f_old, i), gradient(&block.f_new, i));
         let axes = if block.axes.is_null() { f0 } else { columns(block.axes, block.axes_leading_dimension, i) };
@@ -134,8 +134,8 @@ unsafe fn store<T, R: Lanes<T>>(values: &[R], array: *mut T, stride: usize, i: u
     }
 }
 
-/// The block of a law with tangents, point by point: their iterations and inverses are not written in lanes. Returns the worst
-/// status code.
+/// The block of a law with tangents, point by point: their iterations and inverses are not written in lanes. Returns
+/// the worst status code.
 ///
 /// Everything is computed in double precision. Results that do not fit T are an overflow.
 ///
@@ -154,7 +154,8 @@ pub(super) unsafe fn with_tangents<T: Scalar>(law: &LinearElastic<T>, block: &Po
 /// # Safety
 /// As for [`with_tangents`], with i < n.
 unsafe fn point_with_tangent<T: Scalar>(law: &LinearElastic, block: &Points<T>, i: usize) -> i32 {
-    // SAFETY: it is called with arrays of the block that are not null, and with the place of a component that they have at point i.
+    // SAFETY: it is called with arrays of the block that are not null, and with the place of a component that they have
+    // at point i.
     let load = |array: *const T, at: usize| -> f64 { unsafe { *array.add(at) }.into() };
     let all = |[a, b, c, d, e, f, g, h, k]: [*const T; 9]| -> Matrix<f64> {
         [[a, b, c], [d, e, f], [g, h, k]].map(|column| column.map(|component| load(component, i)))

@@ -1,7 +1,7 @@
 //! Many points at once: the same law over component-major arrays.
 //!
-//! Component c of point i is at `c * leading_dimension + i`, as LS-DYNA (nlq), Abaqus (nblock) and OpenRadioss (nel) lay their
-//! arrays out. Arrays that a caller does not pass are neither read, computed nor written.
+//! Component c of point i is at `c * leading_dimension + i`, as LS-DYNA (nlq), Abaqus (nblock) and OpenRadioss (nel)
+//! lay their arrays out. Arrays that a caller does not pass are neither read, computed nor written.
 //!
 //! | array | components |
 //! |---|---|
@@ -17,10 +17,10 @@
 //! | `tangent` | of the `measure`: 6×6 or 9×9, entry (row, column) at 6 row + column or 9 row + column; all of it, symmetric or not |
 //! | `active` | 1, or 0 if the point has failed or cannot be evaluated |
 //!
-//! [`Points`] has a pointer for each component of F, of the directions and of the stress, and a leading dimension for each other group of
-//! arrays; [`Arrays`] has the slices of the hyperelastic law.
-//! Points need not be next to each other ([`Strides`]): those of an array with a row for each point, as NumPy keeps them, are copied
-//! part by part to component-major arrays, and their results back.
+//! [`Points`] has a pointer for each component of F, of the directions and of the stress, and a leading dimension for
+//! each other group of arrays; [`Arrays`] has the slices of the hyperelastic law. Points need not be next to each other
+//! ([`Strides`]): those of an array with a row for each point, as NumPy keeps them, are copied part by part to
+//! component-major arrays, and their results back.
 
 mod arrays;
 #[cfg(target_arch = "x86_64")]

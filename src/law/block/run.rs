@@ -1,5 +1,5 @@
-//! The way of points to the kernels of a law: checked, copied where they are not next to each other, their old state in the place of
-//! the new one where the kernels want it there.
+//! The way of points to the kernels of a law: checked, copied where they are not next to each other, their old state in
+//! the place of the new one where the kernels want it there.
 
 use core::ptr::{null, null_mut};
 
@@ -113,7 +113,8 @@ pub(crate) unsafe fn evaluate<T: Precision, L: Kernels<T>>(law: &L, points: &Poi
             points.keep_old_state_of_one(&needs.parts);
             return Ok(law.run(points));
         }
-        // An old state in other arrays is copied part by part, so that the copy is still in the first-level cache when it is read.
+        // An old state in other arrays is copied part by part, so that the copy is still in the first-level cache when
+        // it is read.
         let mut worst = status::OK;
         for first in (0..points.n).step_by(COPIED) {
             let mut part = points.from(first);
@@ -128,8 +129,9 @@ pub(crate) unsafe fn evaluate<T: Precision, L: Kernels<T>>(law: &L, points: &Poi
 /// The number of points that are evaluated again at a time to find one at fault.
 const SEARCHED: usize = 32;
 
-/// The first of the points, which have been evaluated, that has this status code; `None` if that can no longer be told: nothing is
-/// stored, and what depends on the old state, on axes that have been turned, or on the size of a result is not seen.
+/// The first of the points, which have been evaluated, that has this status code; `None` if that can no longer be told:
+/// nothing is stored, and what depends on the old state, on axes that have been turned, or on the size of a result is
+/// not seen.
 ///
 /// # Safety
 /// As for [`evaluate`], for the same points, after it.

@@ -1,5 +1,5 @@
-//! A number with its derivative, for the tangents of laws that have none of their own: forward differentiation, in any number type
-//! of the library.
+//! A number with its derivative, for the tangents of laws that have none of their own: forward differentiation, in any
+//! number type of the library.
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -8,8 +8,9 @@ use super::real::{Real, assigning};
 
 /// x + x′ ε with ε² = 0.
 ///
-/// The elementary functions differentiate by their rules and not through their polynomials, whose derivatives have fewer correct
-/// digits. A comparison compares the values; at a kink the derivative is that of the branch which the value takes.
+/// The elementary functions differentiate by their rules and not through their polynomials, whose derivatives have
+/// fewer correct digits. A comparison compares the values; at a kink the derivative is that of the branch which the
+/// value takes.
 #[derive(Clone, Copy, Debug)]
 pub struct Dual<R> {
     /// x.

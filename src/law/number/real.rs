@@ -39,8 +39,8 @@ macro_rules! assigning {
 }
 pub(super) use assigning;
 
-/// A real number, or several of them side by side; what a law's formulas are written over. Documented is what formulas need; the rest is
-/// what the library's own are made of.
+/// A real number, or several of them side by side; what a law's formulas are written over. Documented is what formulas
+/// need; the rest is what the library's own are made of.
 ///
 /// `mul_add` may be fused where the processor does so; every other operation is the correctly rounded one of IEEE 754.
 pub trait Real:
@@ -66,8 +66,8 @@ pub trait Real:
     /// The least and the greatest exponent of two, with a margin of 20 to the ends of the range.
     const EXPONENTS: (f64, f64);
     #[doc(hidden)]
-    /// The least and the greatest square of a stretch or of an area ratio for which the law is evaluated: no intermediate
-    /// result overflows or underflows.
+    /// The least and the greatest square of a stretch or of an area ratio for which the law is evaluated: no
+    /// intermediate result overflows or underflows.
     const SQUARES: (f64, f64);
     #[doc(hidden)]
     /// Whether the range is so wide that no stress except that of the longitudinal shear can overflow.
@@ -132,7 +132,8 @@ pub trait Real:
         self
     }
     #[doc(hidden)]
-    /// Two numbers in one, to compute with at the cost of one; `self` in a type without room for a second (`PAIRS` is false).
+    /// Two numbers in one, to compute with at the cost of one; `self` in a type without room for a second (`PAIRS` is
+    /// false).
     #[inline(always)]
     fn pair(self, _other: Self) -> Self {
         self
@@ -144,7 +145,8 @@ pub trait Real:
         [self; 2]
     }
     #[doc(hidden)]
-    /// `self/divisor`, correctly rounded, given the divisor's correctly rounded reciprocal; none of them very small or large.
+    /// `self/divisor`, correctly rounded, given the divisor's correctly rounded reciprocal; none of them very small or
+    /// large.
     #[inline(always)]
     fn quotient(self, divisor: Self, _reciprocal: Self) -> Self {
         self / divisor
@@ -165,16 +167,17 @@ pub trait Real:
     fn exp(self) -> Self {
         elementary::exp(self)
     }
-    /// x^q to within 1.5 + 2 |q| ulp, for |q| up to 1000; 0 where it is nearly as small as the least normal number (below 2^−1001, in
-    /// single precision 2^−105), ∞ above them. NaN for x < 0 and for infinite x; a subnormal x counts as 0.
+    /// x^q to within 1.5 + 2 |q| ulp, for |q| up to 1000; 0 where it is nearly as small as the least normal number
+    /// (below 2^−1001, in single precision 2^−105), ∞ above them. NaN for x < 0 and for infinite x; a subnormal x
+    /// counts as 0.
     #[inline(always)]
     fn powf(self, exponent: Self) -> Self {
         elementary::powf(self, exponent)
     }
 }
 
-/// The number type of a caller's arrays: f32 or f64. Sealed, since the block kernel relies on their representation: all bytes 0
-/// is the number 0.
+/// The number type of a caller's arrays: f32 or f64. Sealed, since the block kernel relies on their representation: all
+/// bytes 0 is the number 0.
 pub trait Scalar: Real<Mask = bool> + Into<f64> + PartialEq + sealed::Sealed {}
 
 mod sealed {

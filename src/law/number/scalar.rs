@@ -16,8 +16,8 @@ fn two_product(a: f64, b: f64) -> (f64, f64) {
     (product, ((a_high * b_high - product) + a_high * b_low + a_low * b_high) + a_low * b_low)
 }
 
-/// The square root by the processor's instruction. That of libm is written for SSE2 and, called among AVX instructions, waits
-/// for the upper halves of the registers.
+/// The square root by the processor's instruction. That of libm is written for SSE2 and, called among AVX instructions,
+/// waits for the upper halves of the registers.
 #[cfg(target_arch = "x86_64")]
 #[inline(always)]
 fn root(x: f64) -> f64 {

@@ -1,5 +1,5 @@
-//! Functions of symmetric tensors for laws in formulas: inverse, square root, logarithm, exponential, polar decomposition,
-//! eigenvalues.
+//! Functions of symmetric tensors for laws in formulas: inverse, square root, logarithm, exponential, polar
+//! decomposition, eigenvalues.
 //!
 //! Each but the last is a fixed number of products and inverses, without eigenvectors, so that it has a derivative
 //! everywhere, also where eigenvalues coincide, as they do at rest. The eigenvalues themselves have none there; what is
@@ -125,8 +125,8 @@ fn sorted<R: Real>(a: R, b: R) -> (R, R) {
     (R::select(swap, b, a), R::select(swap, a, b))
 }
 
-/// Unit eigenvectors of a symmetric matrix, as numbers that do not change (Jacobi's rotations, J. reine angew. Math. 30,
-/// 1846).
+/// Unit eigenvectors of a symmetric matrix, as numbers that do not change (Jacobi's rotations, J. reine angew. Math.
+/// 30, 1846).
 #[inline(always)]
 fn eigenvectors<R: Real>(a: &Matrix<R>) -> Matrix<R> {
     let (zero, one) = (R::splat(0.0), R::splat(1.0));

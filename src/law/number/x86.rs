@@ -1,15 +1,20 @@
 //! The lanes of x86-64: SSE2, which every such processor has, AVX2 with FMA, and AVX-512.
 //!
-//! Each type is a register of numbers and every operation one or a few instructions, as [`Real`] documents. They may only
-//! run after the dispatch of a block or a call, or a test, has checked that the processor has the instructions.
+//! Each type is a register of numbers and every operation one or a few instructions, as [`Real`] documents. They may
+//! only run after the dispatch of a block or a call, or a test, has checked that the processor has the instructions.
 // The intrinsics of SSE2 are safe functions on x86-64, so that the `unsafe` of the macros is unused for them.
 #![allow(unused_unsafe)]
+
+pub(crate) mod products;
 
 use core::arch::x86_64::*;
 use core::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
 use super::real::{Lanes, Real, Single, assigning};
 use super::series::{EXP_F32, EXP_F64, HALF_ARTANH_F32, HALF_ARTANH_F64, LN_F32, LN_F64};
+use products::{
+    corrected_quotient, fused_difference, newton_reciprocal, reciprocal_series, split_difference, widened_difference,
+};
 
 /// A register type with its arithmetic. `$f` is the register of numbers, `$i` the one of their bits.
 macro_rules! register {
@@ -39,7 +44,8 @@ macro_rules! register {
         #[derive(Clone, Copy)]
         pub struct $name($f);
 
-        // SAFETY (all of the impls below): these types are used only after the processor's instructions have been checked.
+        // SAFETY (all of the impls below): these types are used only after the processor's instructions have been
+        // checked.
         impl Add for $name {
             type Output = Self;
             #[inline(always)]
@@ -214,8 +220,8 @@ macro_rules! register {
         }
 
         impl $name {
-            /// [`Real::split_exponent`] by integer arithmetic on the bits: shifted, the exponent field changes at ¾ instead of
-            /// at a power of two.
+            /// [`Real::split_exponent`] by integer arithmetic on the bits: shifted, the exponent field changes at ¾
+            /// instead of at a power of two.
             #[inline(always)]
             #[allow(dead_code)]
             fn split_bits(self) -> (Self, Self) {
@@ -253,19 +259,22 @@ macro_rules! register {
             const COUNT: usize = $count;
             #[inline(always)]
             unsafe fn load(from: *const $t) -> Self {
-                // SAFETY: the dispatch has checked for the instructions; `from` points to COUNT values, which this instruction loads.
+                // SAFETY: the dispatch has checked for the instructions; `from` points to COUNT values, which this
+                // instruction loads.
                 $name(unsafe { $load(from) })
             }
             #[inline(always)]
             unsafe fn store(self, to: *mut $t) {
-                // SAFETY: the dispatch has checked for the instructions; `to` has space for COUNT values, which this instruction stores.
+                // SAFETY: the dispatch has checked for the instructions; `to` has space for COUNT values, which this
+                // instruction stores.
                 unsafe { $store(to, self.0) }
             }
             $(
                 #[inline(always)]
                 unsafe fn store_where(self, $wm: $mask, $wto: *mut $t) {
                     let $wx = self.0;
-                    // SAFETY: the dispatch has checked for the instructions; `to` points to COUNT values, and no others are stored.
+                    // SAFETY: the dispatch has checked for the instructions; `to` points to COUNT values, and no others
+                    // are stored.
                     unsafe { $store_where }
                 }
             )?
@@ -273,14 +282,16 @@ macro_rules! register {
                 #[inline(always)]
                 unsafe fn load_first($ffrom: *const $t, $fcount: usize, fill: Self) -> Self {
                     let $fill = fill.0;
-                    // SAFETY: the dispatch has checked for the instructions; `from` points to `count` values, and no others are loaded.
+                    // SAFETY: the dispatch has checked for the instructions; `from` points to `count` values, and no
+                    // others are loaded.
                     $name(unsafe { $load_first })
                 }
             )?
             #[inline(always)]
             unsafe fn store_integers(self, $to_int: *mut i32) {
                 let $x = self.0;
-                // SAFETY: the dispatch has checked for the instructions; `to` has space for COUNT integers, and no more are stored.
+                // SAFETY: the dispatch has checked for the instructions; `to` has space for COUNT integers, and no more
+                // are stored.
                 unsafe { $store_integers }
             }
             #[inline(always)]
@@ -329,94 +340,9 @@ wide_mask!(Mask32x4(__m128), _mm_and_ps _mm_or_ps _mm_xor_ps, _mm_castsi128_ps(_
 wide_mask!(Mask64x4(__m256d), _mm256_and_pd _mm256_or_pd _mm256_xor_pd, _mm256_castsi256_pd(_mm256_set1_epi64x(-1)));
 wide_mask!(Mask32x8(__m256), _mm256_and_ps _mm256_or_ps _mm256_xor_ps, _mm256_castsi256_ps(_mm256_set1_epi32(-1)));
 
-/// a b − c d with a fused multiply-add: the rounding error of one product is known exactly (Kahan).
-#[inline(always)]
-fn fused_difference<R: Real>(a: R, b: R, c: R, d: R) -> R {
-    let product = c * d;
-    let error = (-c).mul_add(d, product);
-    a.mul_add(b, -product) + error
-}
-
-/// x/d, correctly rounded, given the correctly rounded reciprocal of d: the remainder of a product is exact with a fused
-/// multiply-add (Markstein, IBM J. Res. Dev. 34(1), 1990).
-#[inline(always)]
-fn corrected_quotient<R: Real>(x: R, divisor: R, reciprocal: R) -> R {
-    let quotient = x * reciprocal;
-    (-quotient).mul_add(divisor, x).mul_add(reciprocal, quotient)
-}
-
-// 1/x in AVX-512, correctly rounded as by a division, from an approximation y of 14 bits. With r = 1 − x y the reciprocal is y
-// (1 + r + r² + r³ …). Three terms of the series (one in f32) leave an error of r⁴ ≤ 2^−56 (f32: r² ≤ 2^−28), less than an
-// eighth of a unit in the last place, before the last sum, whose magnitude is rounded upwards. Then follows a Newton step, which
-// is exact but for δ², δ being the relative error of the value that it starts from (after Markstein, IBM J. Res. Dev. 34(1),
-// 1990). If 1/x is very close to halfway between two numbers, the sum is the larger one, and δ² is too small to carry the step
-// across the middle; from the smaller one it would do so for a mantissa of all ones. Elsewhere no middle is near enough to be
-// crossed. The sum takes the magnitudes of its terms, because upwards is towards zero for a negative number.
-
-/// The first `TERMS` terms of r + r² + …, with r = 1 − x y.
-#[inline(always)]
-pub(crate) fn reciprocal_series<R: Real, const TERMS: u8>(x: R, y: R) -> R {
-    let r = (-x).mul_add(y, R::splat(1.0));
-    let mut series = r;
-    for _ in 1..TERMS {
-        series = series.mul_add(r, r);
-    }
-    series
-}
-
-/// A Newton step for 1/x from y.
-#[inline(always)]
-pub(crate) fn newton_reciprocal<R: Real>(x: R, y: R) -> R {
-    (-x).mul_add(y, R::splat(1.0)).mul_add(y, y)
-}
-
-/// The exponent of x times this is the k for which x/2^k is in [¾, 1½); the rounding of the product is such that this holds at
-/// the limits of the interval too.
+/// The exponent of x times this is the k for which x/2^k is in [¾, 1½); the rounding of the product is such that this
+/// holds at the limits of the interval too.
 const FOUR_THIRDS: f64 = 4.0 / 3.0;
-
-/// The 26 leading bits of each number.
-#[inline(always)]
-fn leading_half(x: F64x2) -> F64x2 {
-    // SAFETY: as in `register!`: the processor has the instructions.
-    F64x2(unsafe { _mm_and_pd(x.0, _mm_castsi128_pd(_mm_set1_epi64x(!0x7ff_ffff))) })
-}
-
-/// A product and its rounding error, by the same operations as the scalar.
-#[inline(always)]
-fn two_product(a: F64x2, b: F64x2) -> (F64x2, F64x2) {
-    let (a_high, b_high) = (leading_half(a), leading_half(b));
-    let (a_low, b_low) = (a - a_high, b - b_high);
-    let product = a * b;
-    (product, ((a_high * b_high - product) + a_high * b_low + a_low * b_high) + a_low * b_low)
-}
-
-/// a b − c d without a fused multiply-add, by the same operations as the scalar.
-#[inline(always)]
-fn split_difference(a: F64x2, b: F64x2, c: F64x2, d: F64x2) -> F64x2 {
-    let ((p, p_error), (q, q_error)) = (two_product(a, b), two_product(c, d));
-    (p - q) + (p_error - q_error)
-}
-
-/// a b − c d of two numbers in single precision, through double precision.
-#[inline(always)]
-fn widened_half(a: __m128, b: __m128, c: __m128, d: __m128) -> __m128 {
-    // SAFETY: as in `register!`: the processor has the instructions.
-    unsafe {
-        let (a, b, c, d) = (_mm_cvtps_pd(a), _mm_cvtps_pd(b), _mm_cvtps_pd(c), _mm_cvtps_pd(d));
-        _mm_cvtpd_ps(_mm_sub_pd(_mm_mul_pd(a, b), _mm_mul_pd(c, d)))
-    }
-}
-
-/// a b − c d in single precision, through double precision as for the scalar.
-#[inline(always)]
-fn widened_difference(a: F32x4, b: F32x4, c: F32x4, d: F32x4) -> F32x4 {
-    let (F32x4(a), F32x4(b), F32x4(c), F32x4(d)) = (a, b, c, d);
-    // SAFETY: as in `register!`: the processor has the instructions.
-    F32x4(unsafe {
-        let high = widened_half(_mm_movehl_ps(a, a), _mm_movehl_ps(b, b), _mm_movehl_ps(c, c), _mm_movehl_ps(d, d));
-        _mm_movelh_ps(widened_half(a, b, c, d), high)
-    })
-}
 
 register! {
     /// 2 numbers of double precision, SSE2.
@@ -476,7 +402,8 @@ register! {
     reciprocal (x) Self::splat(1.0) / x;
     quotient (x, divisor, r) corrected_quotient(x, divisor, r);
     series HALF_ARTANH_F64 LN_F64 EXP_F64;
-    // A blend of bytes: a select would be compiled to a masked store, which AMD's processors before Zen 4 execute in microcode.
+    // A blend of bytes: a select would be compiled to a masked store, which AMD's processors before Zen 4 execute in
+    // microcode.
     store_where (mask, x, to) {
         let old = _mm256_castpd_si256(_mm256_loadu_pd(to));
         let new = _mm256_blendv_epi8(old, _mm256_castpd_si256(x), _mm256_castpd_si256(mask.0));
@@ -588,8 +515,8 @@ register! {
 }
 
 register! {
-    /// One point of double precision, AVX2 with FMA, by the same operations as [`F64x4`]. Unlike with `f64`, a select is never
-    /// compiled to a branch, and the compiler does not rearrange the operations.
+    /// One point of double precision, AVX2 with FMA, by the same operations as [`F64x4`]. Unlike with `f64`, a select
+    /// is never compiled to a branch, and the compiler does not rearrange the operations.
     F64Point: f64 as u64 x 1 in __m128d / __m128i;
     mask Mask64x2;
     arithmetic _mm_set1_pd _mm_add_pd _mm_sub_pd _mm_mul_pd _mm_div_pd _mm_sqrt_pd _mm_max_pd _mm_min_pd;

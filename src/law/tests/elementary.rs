@@ -16,7 +16,7 @@ use crate::law::number::real::{Lanes, Real};
 use crate::law::number::registers::Registers;
 use crate::law::number::twice::Twice;
 #[cfg(target_arch = "x86_64")]
-use crate::law::number::x86;
+use crate::law::number::x86::{self, products};
 
 /// A reference for double precision: enough digits for its error not to matter, few enough to be quick.
 type Reference = FBig<HalfEven, 2>;
@@ -725,7 +725,7 @@ struct Series<const TERMS: u8>;
 #[cfg(target_arch = "x86_64")]
 impl<const TERMS: u8> Function<2, 1> for Series<TERMS> {
     fn of<R: Real>(&self, [x, y]: [R; 2]) -> [R; 1] {
-        [x86::reciprocal_series::<R, TERMS>(x, y)]
+        [products::reciprocal_series::<R, TERMS>(x, y)]
     }
 }
 
@@ -734,7 +734,7 @@ struct NewtonStep;
 #[cfg(target_arch = "x86_64")]
 impl Function<2, 1> for NewtonStep {
     fn of<R: Real>(&self, [x, y]: [R; 2]) -> [R; 1] {
-        [x86::newton_reciprocal(x, y)]
+        [products::newton_reciprocal(x, y)]
     }
 }
 

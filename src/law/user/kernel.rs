@@ -96,8 +96,8 @@ impl<R: Real, S: Array<R>> Input<R, S> {
         }
     }
 
-    /// Where the step is taken, since the point has not failed before and can be evaluated; and where det F is positive. An entry of F
-    /// that is not finite makes det F not finite.
+    /// Where the step is taken, since the point has not failed before and can be evaluated; and where det F is
+    /// positive. An entry of F that is not finite makes det F not finite.
     #[inline(always)]
     pub fn taken(
         &self,
@@ -131,8 +131,8 @@ impl<R: Real, S: Array<R>> Input<R, S> {
         (check.le(zero) & not_inverted & self.usable & Failure::intact(self.failed), not_inverted)
     }
 
-    /// Restores the old state where a step has not been taken, with 0 in place of what is not finite, sets the stress to 0, the wave
-    /// modulus to that at rest, and the status to the reason: 0 for a point that has failed before.
+    /// Restores the old state where a step has not been taken, with 0 in place of what is not finite, sets the stress
+    /// to 0, the wave modulus to that at rest, and the status to the reason: 0 for a point that has failed before.
     #[inline(always)]
     pub fn restore(
         &self,
@@ -213,8 +213,8 @@ impl<M: UserMaterial, T: Precision> User<M, T> {
     unsafe fn sweeps(&self, level: Level, points: &Points<T>) -> i32 {
         let n = points.n;
         let whole = |count: usize, first: usize| n - (n - first) % count;
-        // SAFETY: the ranges are points of the block, and whole registers where `sweep` asks for that; the processor has the level's
-        // instructions.
+        // SAFETY: the ranges are points of the block, and whole registers where `sweep` asks for that; the processor
+        // has the level's instructions.
         unsafe {
             match level {
                 #[cfg(target_arch = "x86_64")]
@@ -242,8 +242,8 @@ unsafe fn avx512<M: UserMaterial, T: Precision>(law: &User<M, T>, points: &Point
     unsafe { sweep::<M, T, T::Avx512>(law, points, range) }
 }
 
-/// Two registers at a time, since the operations of one wait for one another; then one, and the last points one by one, by the same
-/// operations.
+/// Two registers at a time, since the operations of one wait for one another; then one, and the last points one by one,
+/// by the same operations.
 ///
 /// # Safety
 /// As for [`sweep`], with any number of points, on a processor that has these instructions.
@@ -308,9 +308,9 @@ pub(super) fn wave_modulus<M: UserMaterial, R: Real>(constants: &M::Constants<R>
     M::wave_modulus(constants, &step, &M::respond(constants, &step)).unwrap_or(R::splat(0.0))
 }
 
-/// Evaluates the points of a register from `i` on. Returns their status codes. `USUAL`: the block has stress and both states, and
-/// neither fibres nor wave speeds; if one of the points has failed before or cannot be evaluated, nothing is stored, and the answer is
-/// `None`.
+/// Evaluates the points of a register from `i` on. Returns their status codes. `USUAL`: the block has stress and both
+/// states, and neither fibres nor wave speeds; if one of the points has failed before or cannot be evaluated, nothing
+/// is stored, and the answer is `None`.
 ///
 /// # Safety
 /// As for [`sweep`], for these points.

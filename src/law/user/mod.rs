@@ -1,17 +1,18 @@
-//! A law of your own, in safe Rust: its tables, and its stress as a function of F and of the old state. The hosts take it as they take
-//! the library's laws.
+//! A law of your own, in safe Rust: its tables, and its stress as a function of F and of the old state. The hosts take
+//! it as they take the library's laws.
 //!
-//! The formulas are written once, over [`Real`]: a call evaluates them in both precisions, several points at a time in the
-//! processor's registers, and with derivatives for the tangent. What every law needs is done here: the properties are checked by their
-//! table, an F that is inverted or not finite and a result that does not fit the number format are reported by a status, and a point
-//! that has failed stays failed and has no stress.
+//! The formulas are written once, over [`Real`]: a call evaluates them in both precisions, several points at a time in
+//! the processor's registers, and with derivatives for the tangent. What every law needs is done here: the properties
+//! are checked by their table, an F that is inverted or not finite and a result that does not fit the number format are
+//! reported by a status, and a point that has failed stays failed and has no stress.
 //!
 //! # Speed
 //!
 //! The formulas must be inlined into the kernels: `#[inline(always)]` on [`constants`](UserMaterial::constants),
-//! [`respond`](UserMaterial::respond), [`wave_modulus`](UserMaterial::wave_modulus) and every function that they call, operators, and
-//! the functions of [`vector`] on vectors and matrices. A closure, and `map` or `from_fn` on an array, is a function of its own, which may be called for each lane: such a
-//! law is right, but several times slower. `docs/guides/own-law.md` has a test for it.
+//! [`respond`](UserMaterial::respond), [`wave_modulus`](UserMaterial::wave_modulus) and every function that they call,
+//! operators, and the functions of [`vector`] on vectors and matrices. A closure, and `map` or `from_fn` on an array,
+//! is a function of its own, which may be called for each lane: such a law is right, but several times slower.
+//! `docs/guides/own-law.md` has a test for it.
 
 mod kernel;
 mod tangent;
@@ -46,15 +47,17 @@ use super::status;
 
 /// A law in formulas: implemented by a type without content, which stands for the law.
 ///
-/// The stress must be that of an objective law: F → QF with a rotation Q turns it to QσQᵀ. Conversions between tangents rely on it, and
-/// Abaqus/Explicit, which passes the right stretches in place of F. So directions and tensors in the state are those of the reference
-/// placement, and a law that reads F at the start must not depend on a rotation of that F alone.
+/// The stress must be that of an objective law: F → QF with a rotation Q turns it to QσQᵀ. Conversions between tangents
+/// rely on it, and Abaqus/Explicit, which passes the right stretches in place of F. So directions and tensors in the
+/// state are those of the reference placement, and a law that reads F at the start must not depend on a rotation of
+/// that F alone.
 pub trait UserMaterial: Copy + Default + Send + Sync + 'static {
     /// The law's tables, and what hosts have to know of them.
     const DESCRIPTION: Description;
     /// `[R; N]`, N the number of properties.
     type Properties<R: Real>: Array<R>;
-    /// `[R; N]`, N the number of state variables without the last two, `failed` and `alive`, which are kept for the law.
+    /// `[R; N]`, N the number of state variables without the last two, `failed` and `alive`, which are kept for the
+    /// law.
     type State<R: Real>: Array<R>;
     /// What is computed from the properties once for all points of a call.
     type Constants<R: Real>: Copy;
@@ -68,9 +71,9 @@ pub trait UserMaterial: Copy + Default + Send + Sync + 'static {
         Ok(())
     }
 
-    /// The properties as the formulas use them, in plain arithmetic, once where the law is prepared: an angle may become its
-    /// cosine. By default they are those that have been checked, as they are; the directions are always those of the
-    /// properties themselves.
+    /// The properties as the formulas use them, in plain arithmetic, once where the law is prepared: an angle may
+    /// become its cosine. By default they are those that have been checked, as they are; the directions are always
+    /// those of the properties themselves.
     fn prepare(properties: &Self::Properties<f64>) -> Self::Properties<f64> {
         *properties
     }
@@ -82,9 +85,9 @@ pub trait UserMaterial: Copy + Default + Send + Sync + 'static {
     /// [`Real::select`].
     fn respond<R: Real>(constants: &Self::Constants<R>, step: &Step<R, Self::State<R>>) -> Response<R, Self::State<R>>;
 
-    /// ρ0 c² for an upper bound c of the speed of every wave at the end of a step, from which explicit solvers compute their time
-    /// step. `None`: the bound is computed from the tangent of every point, without vector registers, and the speed may be √3 times that
-    /// of the fastest wave.
+    /// ρ0 c² for an upper bound c of the speed of every wave at the end of a step, from which explicit solvers compute
+    /// their time step. `None`: the bound is computed from the tangent of every point, without vector registers, and
+    /// the speed may be √3 times that of the fastest wave.
     fn wave_modulus<R: Real>(
         _constants: &Self::Constants<R>,
         _step: &Step<R, Self::State<R>>,
@@ -94,14 +97,15 @@ pub trait UserMaterial: Copy + Default + Send + Sync + 'static {
     }
 
     /// What resists the motions of an element at rest, from the [prepared](Self::prepare) properties: `impact` takes
-    /// artificial viscosity and hourglass control of it. `None`: that of an isotropic solid in which no wave is slower than
-    /// the law's fastest one, which holds a section too stiff if the fibres are much stiffer than it.
+    /// artificial viscosity and hourglass control of it. `None`: that of an isotropic solid in which no wave is slower
+    /// than the law's fastest one, which holds a section too stiff if the fibres are much stiffer than it.
     fn resistance(_properties: &Self::Properties<f64>) -> Option<Resistance> {
         None
     }
 }
 
-/// An array of numbers `[R; N]`, as a type without its length. Sealed: the hosts copy a state as the numbers that it is made of.
+/// An array of numbers `[R; N]`, as a type without its length. Sealed: the hosts copy a state as the numbers that it is
+/// made of.
 pub trait Array<R>: Copy + AsRef<[R]> + AsMut<[R]> + sealed::Sealed {
     /// N.
     const LENGTH: usize;
@@ -125,10 +129,11 @@ impl<R: Copy, const N: usize> Array<R> for [R; N] {
 /// What a law is evaluated from.
 #[derive(Clone, Copy, Debug)]
 pub struct Step<R, S> {
-    /// F at the start of the step, by columns; that at its end where the description says that the law does not read it.
+    /// F at the start of the step, by columns; that at its end where the description says that the law does not read
+    /// it.
     pub f_old: Matrix<R>,
-    /// F at its end, by columns, and det F, accurate to a few roundings. At points where it is not positive, or F not finite, the
-    /// results do not count.
+    /// F at its end, by columns, and det F, accurate to a few roundings. At points where it is not positive, or F not
+    /// finite, the results do not count.
     pub f: Matrix<R>,
     pub jacobian: R,
     /// The unit vector of the fibre direction in the reference placement; of a law without fibre the first axis.
@@ -164,8 +169,8 @@ impl<R: Real, S> Step<R, S> {
 /// What a law answers.
 #[derive(Clone, Copy, Debug)]
 pub struct Response<R: Real, S> {
-    /// Cauchy stress 11 22 33 12 23 31, in global axes. It is that of the intact material where `failed` holds for the first time; it is
-    /// set to 0 in later calls.
+    /// Cauchy stress 11 22 33 12 23 31, in global axes. It is that of the intact material where `failed` holds for the
+    /// first time; it is set to 0 in later calls.
     pub stress: [R; 6],
     /// The new state variables, without `failed` and `alive`.
     pub state: S,
@@ -345,8 +350,8 @@ impl<M: UserMaterial, T: Precision> User<M, T> {
     }
 }
 
-// SAFETY: the state has a number for each row of the table, which `new` checks at compile time, and the kernels access what
-// `Points` says.
+// SAFETY: the state has a number for each row of the table, which `new` checks at compile time, and the kernels access
+// what `Points` says.
 unsafe impl<M: UserMaterial, T: Precision> Law<T> for User<M, T> {
     const DESCRIPTION: Description = M::DESCRIPTION;
     type State = UserState<M::State<T>, T>;

@@ -1,5 +1,5 @@
-//! The tangent of a law in formulas, by forward differentiation of its stress, and from it a bound of the wave speed where the law has
-//! none.
+//! The tangent of a law in formulas, by forward differentiation of its stress, and from it a bound of the wave speed
+//! where the law has none.
 
 use super::kernel::{Input, Outcome, wave_modulus};
 use super::{Array, Response, Step, User, UserMaterial};
@@ -24,8 +24,8 @@ struct Answer<S> {
 }
 
 impl<M: UserMaterial, T: Precision> User<M, T> {
-    /// Evaluates the points with their tangents, in double precision whatever that of the arrays is. Results that do not fit T are an
-    /// overflow. Returns the worst status code.
+    /// Evaluates the points with their tangents, in double precision whatever that of the arrays is. Results that do
+    /// not fit T are an overflow. Returns the worst status code.
     ///
     /// # Safety
     /// As for [`Kernels::run`](crate::law::block::Kernels::run).
@@ -101,8 +101,8 @@ impl<M: UserMaterial> User<M, f64> {
             self.answer(&input, points.measure, at_rest, !points.wave_speed.is_null(), level);
         let (entries, size) = by_rows(&tangent, points.measure, &input.f.into(), &outcome.stress);
         let entries = if points.tangent.is_null() { &[][..] } else { entries.get(..size * size).unwrap_or_default() };
-        // Rounded to T, a number that does not fit is not finite. A tangent of 0 that is converted with an F which is not finite is
-        // not 0.
+        // Rounded to T, a number that does not fit is not finite. A tangent of 0 that is converted with an F which is
+        // not finite is not 0.
         let fits = |x: f64| (T::splat(x).into() * 0.0) == 0.0;
         let taken = outcome.active == 1.0 || (outcome.status == 0.0 && input.failed < 0.5);
         let results = outcome.stress.iter().chain(outcome.own.as_ref()).chain(entries);
@@ -244,9 +244,9 @@ fn overflowed<M: UserMaterial>() -> Response<f64, M::State<f64>> {
 
 /// A bound of ρ c² for waves in the current placement, from ∂τ/∂L over J for the six strains and the Cauchy stress.
 ///
-/// For a direction n and a polarisation u, unit vectors, ρ c² = u·(c : D + Wσ − σW) n − (u·σn)(u·n) with D and W the symmetric and the
-/// skew part of u⊗n. Neither is longer than 1: the first part is at most the norm of c on symmetric tensors, and the others are at most
-/// the largest principal stress by its size, each.
+/// For a direction n and a polarisation u, unit vectors, ρ c² = u·(c : D + Wσ − σW) n − (u·σn)(u·n) with D and W the
+/// symmetric and the skew part of u⊗n. Neither is longer than 1: the first part is at most the norm of c on symmetric
+/// tensors, and the others are at most the largest principal stress by its size, each.
 fn acoustic_bound(tangent: &LinearTangent, &[s_11, s_22, s_33, s_12, s_23, s_31]: &[f64; 6]) -> f64 {
     let weight = |c: usize| if c < 3 { 1.0 } else { core::f64::consts::SQRT_2 };
     let (mut rows, mut columns) = ([0.0_f64; 6], [0.0_f64; 6]);

@@ -1,7 +1,7 @@
 //! The standard reinforcing model: a compressible neo-Hookean solid with one family of fibres.
 //!
-//! W = ½ μ (I1 − 3) − μ ln J + ½ Λ (ln J)² + ½ k (I4 − 1)² per reference volume, with I1 = tr FᵀF, I4 = a·a and a = Fm, the image of
-//! the unit fibre direction m; it fails where the stretch of the fibre reaches a limit.
+//! W = ½ μ (I1 − 3) − μ ln J + ½ Λ (ln J)² + ½ k (I4 − 1)² per reference volume, with I1 = tr FᵀF, I4 = a·a and a = Fm,
+//! the image of the unit fibre direction m; it fails where the stretch of the fibre reaches a limit.
 
 pub mod plastic;
 pub mod viscoelastic;
@@ -88,8 +88,8 @@ impl UserMaterial for ReinforcedSolid {
         Response { failed: c.limit.le(square), ..Response::new(stress, [energy, square.sqrt()]) }
     }
 
-    /// For a direction n and a polarisation u, unit vectors, ρ0 c² is at most (Λ (1 − ln J) + μ)(n·u)² + μ n·bn + 4k (a·n)²(a·u)² +
-    /// 2k (I4 − 1)(a·n)²; no eigenvalue of b exceeds the largest sum of a row.
+    /// For a direction n and a polarisation u, unit vectors, ρ0 c² is at most (Λ (1 − ln J) + μ)(n·u)² + μ n·bn + 4k
+    /// (a·n)²(a·u)² + 2k (I4 − 1)(a·n)²; no eigenvalue of b exceeds the largest sum of a row.
     #[inline(always)]
     fn wave_modulus<R: Real>(c: &Constants<R>, step: &Step<R, [R; 2]>, _: &Response<R, [R; 2]>) -> Option<R> {
         let (zero, one) = (R::splat(0.0), R::splat(1.0));

@@ -1,19 +1,19 @@
 //! A metal by von Mises: Hencky's elasticity, and a yield stress that grows with the plastic strain.
 //!
-//! F = F_e F_p with det F_p = 1 and b = F_e F_eᵀ. W = ½ K (ln J)² + G |dev ½ ln b|² per reference volume, so that τ = K ln J 1 +
-//! 2G dev ½ ln b, and plastic flow along dev τ where q = √(3/2) |dev τ| reaches the yield stress
+//! F = F_e F_p with det F_p = 1 and b = F_e F_eᵀ. W = ½ K (ln J)² + G |dev ½ ln b|² per reference volume, so that τ = K
+//! ln J 1 + 2G dev ½ ln b, and plastic flow along dev τ where q = √(3/2) |dev τ| reaches the yield stress
 //!
 //! ```text
 //! y(α) = y_0 + (y_s − y_0)(1 − exp(−δα)) + h α                          (Voce, J. Inst. Met. 74, 1948)
 //! ```
 //!
-//! α being the equivalent plastic strain. With the exponential of the flow over a step (Weber and Anand, Comput. Methods Appl. Mech.
-//! Engrg. 79, 1990; Simo, ibid. 99, 1992) the return is that of small strains, in ½ ln b with C_p⁻¹ held: α grows by the root x of
-//! q − 3G x = y(α + x), and dev τ shrinks by 1 − 3G x/q. Newton's steps from 0 fall short of x and never pass it, since y
-//! is concave.
+//! α being the equivalent plastic strain. With the exponential of the flow over a step (Weber and Anand, Comput.
+//! Methods Appl. Mech. Engrg. 79, 1990; Simo, ibid. 99, 1992) the return is that of small strains, in ½ ln b with C_p⁻¹
+//! held: α grows by the root x of q − 3G x = y(α + x), and dev τ shrinks by 1 − 3G x/q. Newton's steps from 0 fall
+//! short of x and never pass it, since y is concave.
 //!
-//! The state has C_p⁻¹ − 1, a tensor of the reference placement, which no host turns. Of the plastic work y dα the part y_0 dα is lost; what
-//! the yield stress has grown by is counted as stored.
+//! The state has C_p⁻¹ − 1, a tensor of the reference placement, which no host turns. Of the plastic work y dα the part
+//! y_0 dα is lost; what the yield stress has grown by is counted as stored.
 
 use toron::user::parameters::{NUMBER, Property, STRESS, positive, positive_or_zero};
 use toron::user::state::{ALIVE, ENERGY_DENSITY, FAILED, StateVariable, variable};

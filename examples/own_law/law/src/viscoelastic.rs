@@ -1,14 +1,15 @@
 //! A viscoelastic solid: a compressible neo-Hookean one beside a Maxwell branch, whose stress relaxes.
 //!
-//! Second Piola–Kirchhoff stress S = μ (1 − C⁻¹) + Λ ln J C⁻¹ + Q, C = FᵀF. The branch has the stress E = μ₁ (1 − C⁻¹) at once, and
-//! loses it at the rate of its relaxation time τ, Q' + Q/τ = E'; with E linear in time over a step of length Δt, to second order in
-//! Δt/τ (Simo, Comput. Methods Appl. Mech. Engrg. 60, 1987),
+//! Second Piola–Kirchhoff stress S = μ (1 − C⁻¹) + Λ ln J C⁻¹ + Q, C = FᵀF. The branch has the stress E = μ₁ (1 − C⁻¹)
+//! at once, and loses it at the rate of its relaxation time τ, Q' + Q/τ = E'; with E linear in time over a step of
+//! length Δt, to second order in Δt/τ (Simo, Comput. Methods Appl. Mech. Engrg. 60, 1987),
 //!
 //! ```text
 //! Q ← exp(−Δt/τ) Q + exp(−½Δt/τ) (E − E_old)
 //! ```
 //!
-//! Q and E are tensors of the reference placement, which no host turns. After a sudden stretch that is held, Q is E exp(−t/τ) exactly.
+//! Q and E are tensors of the reference placement, which no host turns. After a sudden stretch that is held, Q is E
+//! exp(−t/τ) exactly.
 
 use toron::user::parameters::{Dimension, Property, STRESS, positive, positive_or_zero};
 use toron::user::state::{ALIVE, FAILED, StateVariable, variable};

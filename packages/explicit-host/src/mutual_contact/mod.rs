@@ -357,9 +357,9 @@ impl MutualContact {
         }
     }
 
-    /// Gives every body what others' nodes exert on its faces, and the springs of it: no eigenvalue of M⁻¹K is larger than
-    /// the largest sum over a row of sizes. A spring between a node and a face has the sizes 1 and, over the corners,
-    /// again 1.
+    /// Gives every body what others' nodes exert on its faces, and the springs of it: no eigenvalue of M⁻¹K is larger
+    /// than the largest sum over a row of sizes. A spring between a node and a face has the sizes 1 and, over the
+    /// corners, again 1.
     fn collect<T: Number>(&mut self, bodies: &mut [Body<T>]) {
         let sides = &self.sides;
         bodies.par_iter_mut().enumerate().for_each(|(number, body)| {

@@ -9,9 +9,9 @@ use super::surface::Surface;
 use crate::friction::coulomb_return;
 use crate::vector::{Vector, add, dot};
 
-/// A node that is no farther from a face's surface than this many times its motion against it in the last step may touch
-/// it, or let it go, soon. It counts so many times in the length of steps: springs that come and go within a step would
-/// make energy.
+/// A node that is no farther from a face's surface than this many times its motion against it in the last step may
+/// touch it, or let it go, soon. It counts so many times in the length of steps: springs that come and go within a step
+/// would make energy.
 const AHEAD: f64 = 4.0;
 const COMING_AND_GOING: f64 = 2.0;
 

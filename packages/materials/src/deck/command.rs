@@ -42,7 +42,8 @@ pub struct Arguments {
     /// input.
     #[arg(long, value_name = "FILE", conflicts_with = "preset")]
     properties: Option<PathBuf>,
-    /// hyperelastic, linear-elastic or frictional: which built-in preset to take, or what law that of --preset must be of.
+    /// hyperelastic, linear-elastic or frictional: which built-in preset to take, or what law that of --preset must be
+    /// of.
     #[arg(long)]
     law: Option<String>,
     /// The deck's units, for instance mm-tonne-s; may be left out for a file, which has its own.

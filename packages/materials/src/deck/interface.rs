@@ -1,5 +1,5 @@
-//! Under which names and numbers the hosts find a law, and what they store for it. Counts of properties and state variables are
-//! those of the law's tables.
+//! Under which names and numbers the hosts find a law, and what they store for it. Counts of properties and state
+//! variables are those of the law's tables.
 
 use toron::host::laws::LibraryLaw;
 use toron::host::openradioss::MyReal;
@@ -9,7 +9,8 @@ use crate::material::laws::{LawName, Names};
 /// A law as the hosts find it.
 #[derive(Debug)]
 pub struct Interface {
-    /// What Abaqus's names of materials begin with; `None` where the counts of properties and state variables tell the laws apart.
+    /// What Abaqus's names of materials begin with; `None` where the counts of properties and state variables tell the
+    /// laws apart.
     pub abaqus: Option<&'static str>,
     /// LS-DYNA's number of the material, and with it of the routine: `umat41`.
     pub ls_dyna: u32,

@@ -1,7 +1,8 @@
 //! LS-DYNA: `*MAT_USER_DEFINED_MATERIAL_MODELS`, eight fields of ten columns a line.
 //!
-//! Free format and long fields would not say more: a field between commas may not be longer than its columns, and long lines are
-//! not readable. A number keeps nine characters and a blank before it; what that rounds is named in a comment.
+//! Free format and long fields would not say more: a field between commas may not be longer than its columns, and long
+//! lines are not readable. A number keeps nine characters and a blank before it; what that rounds is named in a
+//! comment.
 
 use nalgebra::{Matrix3, Vector3};
 
@@ -15,7 +16,8 @@ pub const NUMBERS: [u32; 8] = [41, 43, 44, 45, 47, 48, 49, 50];
 const FIELDS: usize = 8;
 const COLUMNS: usize = 10;
 
-/// The fibre direction: one for the material, in global axes, or that of the material axes, by AOPT = 2 or as the elements have them.
+/// The fibre direction: one for the material, in global axes, or that of the material axes, by AOPT = 2 or as the
+/// elements have them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Fibre {
     Global,

@@ -1,5 +1,5 @@
-//! `toron deck`: a material's card, ready to be pasted into a solver's deck. A file for each host; what they share, the material
-//! and its comments, is in `material`, and how each law is found by each host in `interface`.
+//! `toron deck`: a material's card, ready to be pasted into a solver's deck. A file for each host; what they share, the
+//! material and its comments, is in `material`, and how each law is found by each host in `interface`.
 
 pub mod abaqus;
 mod calculix;

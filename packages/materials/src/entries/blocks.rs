@@ -89,8 +89,8 @@ impl<'a, T: BlockPrecision> SolverBlock<'a, T> {
         self.of_state(HYPERELASTIC_STATE)
     }
 
-    /// The law with friction over a step at the points through `toron_frictional_block_f64` or `_f32`, with its 15 state
-    /// variables; returns the entry's code.
+    /// The law with friction over a step at the points through `toron_frictional_block_f64` or `_f32`, with its 15
+    /// state variables; returns the entry's code.
     ///
     /// # Panics
     /// As for [`arrays`](Self::arrays).

@@ -31,8 +31,8 @@ pub struct OwnBlock<'a, T> {
     pub status: &'a mut [i32],
 }
 
-/// A law, prepared, that evaluates blocks: which one is chosen once a block, and all that its points need is compiled for
-/// it.
+/// A law, prepared, that evaluates blocks: which one is chosen once a block, and all that its points need is compiled
+/// for it.
 pub trait BlockLaw<T>: Send + Sync {
     /// A step at the points; returns the worst status code, or that of a call that is refused.
     ///
@@ -67,8 +67,8 @@ impl<T: BlockPrecision, L: Law<T> + Send + Sync> BlockLaw<T> for L {
             status: status.as_mut_ptr(),
             ..Points::without_arrays(n, stride)
         };
-        // SAFETY: the arrays have the sizes that have just been checked; the new state replaces the old one exactly, and no
-        // other array overlaps another one.
+        // SAFETY: the arrays have the sizes that have just been checked; the new state replaces the old one exactly,
+        // and no other array overlaps another one.
         unsafe { Law::step(self, &points) }.unwrap_or_else(|error| error.code())
     }
 }

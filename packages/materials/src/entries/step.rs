@@ -316,7 +316,8 @@ impl<L: Stepped<STATE>, const STATE: usize> Step<'_, L, STATE> {
         cm[..Self::PROPERTIES].copy_from_slice(self.properties);
         let [bulk, shear] = [Self::PROPERTIES, Self::PROPERTIES + 1].map(|i| &raw mut cm[i]);
         let (values, count) = (self.properties.as_ptr(), self.properties.len());
-        // SAFETY: the arrays have the sizes that the entry asks for. Bad properties are the material routine's to report.
+        // SAFETY: the arrays have the sizes that the entry asks for. Bad properties are the material routine's to
+        // report.
         unsafe { Precise::<L, f64>::card_moduli(values, count, bulk, shear, null_mut(), 0) };
         cm
     }
@@ -343,7 +344,8 @@ impl<L: Stepped<STATE>, const STATE: usize> Step<'_, L, STATE> {
         answer
     }
 
-    /// The element amid others of a vector, elements `lft` to `llt` of `nlq`; what stands before them is not the vector's.
+    /// The element amid others of a vector, elements `lft` to `llt` of `nlq`; what stands before them is not the
+    /// vector's.
     pub fn lsdyna_vector(&self) -> Answer<STATE> {
         let (n, at, stride) = place(self.line);
         let first = self.line % 3;
@@ -402,8 +404,8 @@ impl<L: Stepped<STATE>, const STATE: usize> Step<'_, L, STATE> {
         }
         let [s11, s22, s33, s12, s13, s23] = host.stress;
         let stress = library_order([s11, s22, s33, s12 / SQRT_2, s13 / SQRT_2, s23 / SQRT_2]);
-        // MGIS gets √2 times the components 12, 13 and 23, on both sides. The quotient, rounded, is mostly the number that
-        // has been multiplied.
+        // MGIS gets √2 times the components 12, 13 and 23, on both sides. The quotient, rounded, is mostly the number
+        // that has been multiplied.
         let factor = |i: usize, j: usize| match (i < 3, j < 3) {
             (true, true) => 1.0,
             (false, false) => 2.0,
@@ -413,11 +415,11 @@ impl<L: Stepped<STATE>, const STATE: usize> Step<'_, L, STATE> {
         (Answer { stress, state: host.state, ..self.refused(status::OK) }, self.tangent.then(material))
     }
 
-    /// The second Piola–Kirchhoff stress through CalculiX, in place of the Cauchy stress, and the symmetric part of dS/dE,
-    /// tensor components; both 11 22 33 12 13 23.
+    /// The second Piola–Kirchhoff stress through CalculiX, in place of the Cauchy stress, and the symmetric part of
+    /// dS/dE, tensor components; both 11 22 33 12 13 23.
     pub fn calculix(&self) -> (Answer<STATE>, [[f64; 6]; 6]) {
-        // CalculiX gets a smaller increment and no code: it is the point entry's. For wrong properties the entry would end
-        // the process.
+        // CalculiX gets a smaller increment and no code: it is the point entry's. For wrong properties the entry would
+        // end the process.
         let status = Step { tangent: true, ..*self }.point::<f64>(false).status;
         let mut host =
             CalculixPoint::<STATE> { state_old: *self.state, state: *self.state, ..CalculixPoint::new(*self.f) };

@@ -24,8 +24,8 @@ use toron_shared::toml_error::shortened;
 pub enum Law {
     /// One step from rest: F, m and params with kel, ktc, p, ktd, kld, eps_lim, alpha, beta.
     Hyperelastic,
-    /// Steps one after the other: "path", several F, or F, one; m; params by the names of the law's table; "before", slip_1, slip_2,
-    /// i_te and w_fr at the start, 0 if left out. The answer has "after", what each step leaves.
+    /// Steps one after the other: "path", several F, or F, one; m; params by the names of the law's table; "before",
+    /// slip_1, slip_2, i_te and w_fr at the start, 0 if left out. The answer has "after", what each step leaves.
     Frictional,
 }
 

@@ -74,7 +74,8 @@ pub fn lines(entry: Entry, tangent: bool) -> Result<(), Error> {
     lines::standard(|input, output| evaluate(entry, tangent, input, output))
 }
 
-/// Evaluates the path of every line of `input`; with `tangent` DDSDDE of its last step too, where the entry has a tangent.
+/// Evaluates the path of every line of `input`; with `tangent` DDSDDE of its last step too, where the entry has a
+/// tangent.
 ///
 /// # Errors
 /// Reading or writing fails. A line that cannot be read is answered by a line with its status.

@@ -205,8 +205,8 @@ impl Material {
         }
     }
 
-    /// What counts as a small stress is measured by this: the largest of the properties that are a stress, or the bulk modulus of a
-    /// law of which nothing is known.
+    /// What counts as a small stress is measured by this: the largest of the properties that are a stress, or the bulk
+    /// modulus of a law of which nothing is known.
     pub fn stress_scale(&self) -> f64 {
         if let Law::Own(own) = &self.law {
             return own.bulk_and_shear()[0];
@@ -283,7 +283,8 @@ impl Material {
         memory.state[self.law.name().description().failed] != 0.0
     }
 
-    /// Energy per reference volume: the sum of the four modes', or the linear elastic law's work; 0 of a law that counts none.
+    /// Energy per reference volume: the sum of the four modes', or the linear elastic law's work; 0 of a law that
+    /// counts none.
     pub fn energy(&self, memory: &Memory) -> f64 {
         memory.state[self.law.name().description().energies.clone()].iter().sum()
     }
@@ -299,8 +300,8 @@ impl Material {
         !self.law.name().description().energies.is_empty()
     }
 
-    /// 1 at the failure limit, 0 without one. The linear elastic law's is its criterion's stress over σ_lim. None of a law that
-    /// tells nothing but whether it has failed.
+    /// 1 at the failure limit, 0 without one. The linear elastic law's is its criterion's stress over σ_lim. None of a
+    /// law that tells nothing but whether it has failed.
     pub fn failure_index(&self, memory: &Memory) -> Option<f64> {
         match &self.law {
             Law::Hyperelastic { .. } => Some(memory.state[FAILURE_INDEX]),
@@ -316,8 +317,8 @@ impl Material {
         }
     }
 
-    /// The terms of the hyperelastic law's failure index: I_el/I_lim, α⟨−I_tc⟩, β I_td; their sum counts in tension only. None of
-    /// other laws.
+    /// The terms of the hyperelastic law's failure index: I_el/I_lim, α⟨−I_tc⟩, β I_td; their sum counts in tension
+    /// only. None of other laws.
     pub fn failure_terms(&self, memory: &Memory) -> Option<[f64; 3]> {
         let Law::Hyperelastic { properties: hyperelastic::Properties { eps_lim, alpha, beta, .. }, .. } = self.law
         else {

@@ -1,4 +1,5 @@
-//! A law of one's own, as a program of its own has it: its names in files and solvers, and its evaluation behind one interface.
+//! A law of one's own, as a program of its own has it: its names in files and solvers, and its evaluation behind one
+//! interface.
 
 use std::fmt;
 use std::ptr::{null, null_mut};
@@ -43,7 +44,8 @@ type Prepare = fn(&[f64]) -> Result<Arc<dyn Prepared>, Error>;
 
 impl OwnLaw {
     /// # Errors
-    /// The name is not made of capitals, digits and underscores with a capital first, or the number is not from 1 to 99.
+    /// The name is not made of capitals, digits and underscores with a capital first, or the number is not from 1 to
+    /// 99.
     pub fn new<M>(symbol: &'static str, number: i32) -> Result<OwnLaw, String>
     where
         M: Material<f64> + Material<f32>,
@@ -181,8 +183,8 @@ impl Own {
         self.prepared.resistance()
     }
 
-    /// The stiffness of a bar along the fibre, or the first axis, that is hardly stretched: that of the tangent where no
-    /// stress changes across. None where it is not positive.
+    /// The stiffness of a bar along the fibre, or the first axis, that is hardly stretched: that of the tangent where
+    /// no stress changes across. None where it is not positive.
     pub fn youngs_modulus(&self) -> Option<f64> {
         let mut point = self.at_rest(1, 1, Some(Measure::Jaumann));
         // At rest itself a fibre that bears tension alone has no stiffness yet.
@@ -347,7 +349,8 @@ impl<L: Law<f64> + Send + Sync> Prepared for L {
             None => fibred,
             Some(measure) => Points { tangent: tangent.as_mut_ptr(), measure: *measure, ..fibred },
         };
-        // SAFETY: `at_rest` has made the arrays with so many components of `stride` numbers each, and none overlaps another one.
+        // SAFETY: `at_rest` has made the arrays with so many components of `stride` numbers each, and none overlaps
+        // another one.
         let worst = unsafe { Law::step(self, &call) };
         wave_modulus.iter_mut().for_each(|speed| *speed *= *speed);
         worst

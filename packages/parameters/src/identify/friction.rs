@@ -42,8 +42,8 @@ struct Point {
 }
 
 impl Point {
-    /// The standard error of q less that of the line; noise of a section with free sides moves it along q = p_t, by 1 − µ
-    /// of that off the line. What slides under pressure has its error scaled.
+    /// The standard error of q less that of the line; noise of a section with free sides moves it along q = p_t, by 1 −
+    /// µ of that off the line. What slides under pressure has its error scaled.
     fn off_line(&self, mu: f64, scale: f64) -> f64 {
         self.error * if self.is_free { 1.0 - mu } else { scale }
     }

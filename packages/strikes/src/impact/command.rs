@@ -19,8 +19,8 @@ use toron_shared::file_names::{STRAINS, YARN};
 /// The plot of all cases.
 const COMPARISON: [&str; 2] = ["residual-speed.svg", "residual-speed.png"];
 
-/// Runs the cases of a scene, of a program with these laws, and writes what came of them to the directory `output`. With `restart`, cases go on from
-/// their checkpoints there.
+/// Runs the cases of a scene, of a program with these laws, and writes what came of them to the directory `output`.
+/// With `restart`, cases go on from their checkpoints there.
 ///
 /// # Errors
 /// As for [`command::run`].

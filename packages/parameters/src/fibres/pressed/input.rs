@@ -41,8 +41,8 @@ fn course(text: &mut String, model: &Model, pressing: &Pressing) {
     );
 }
 
-/// Where the walls are; their power, and the section's Kirchhoff stresses times its volume at rest: a wall's force times
-/// the way between the two, in the mean of the two.
+/// Where the walls are; their power, and the section's Kirchhoff stresses times its volume at rest: a wall's force
+/// times the way between the two, in the mean of the two.
 fn walls(text: &mut String, model: &Model, pressing: &Pressing) {
     let Pressing { walls, half, stiffness, .. } = *pressing;
     let carrier = model.all_beads() + 1;

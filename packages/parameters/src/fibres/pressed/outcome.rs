@@ -26,7 +26,8 @@ pub struct Sample {
     pub stretch: f64,
     /// The ways between the walls over those at rest, across the yarn and along the blow.
     pub ways: [f64; 2],
-    /// I_tc and I_td by these ways; where there are no sides, those of the whole section. I_td rises as the walls close.
+    /// I_tc and I_td by these ways; where there are no sides, those of the whole section. I_td rises as the walls
+    /// close.
     pub strain: [f64; 2],
     /// Pressure and deviator: half the sum and half the difference of the section's principal Kirchhoff stresses, which
     /// are the walls' forces times the ways between them over the area at rest, in the mean since the line before.

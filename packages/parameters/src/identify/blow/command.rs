@@ -17,8 +17,8 @@ const HISTORY: &str = "blow.csv";
 const PLOT: [&str; 2] = ["blow.svg", "blow.png"];
 const RUNS: &str = "blow-runs.csv";
 
-/// Finds the properties and writes what came of it to the directory `output`. Runs of the same fit that are there are not
-/// made again.
+/// Finds the properties and writes what came of it to the directory `output`. Runs of the same fit that are there are
+/// not made again.
 ///
 /// # Errors
 /// The input, a run that fails, a history that does not tell the properties, or a file that cannot be written.

@@ -15,8 +15,9 @@ use super::runs::Runs;
 use crate::identify::uncertainty::quantile;
 use toron_shared::error::Error;
 
-/// A difference is over this part of a property's value. A run's figures are rough in the properties, since its steps and
-/// contacts come out otherwise: with a difference of 2 % the search ends on that roughness, with 5 and 10 % it arrives.
+/// A difference is over this part of a property's value. A run's figures are rough in the properties, since its steps
+/// and contacts come out otherwise: with a difference of 2 % the search ends on that roughness, with 5 and 10 % it
+/// arrives.
 const DIFFERENCE: f64 = 0.1;
 /// The search ends where squares fall, or properties move, by less than these parts.
 const LEAST_FALL: f64 = 1e-4;
@@ -166,8 +167,8 @@ fn independent(runs: &Runs, followed: &[f64]) -> Vec<f64> {
     residuals.chunks(runs.job.times.len()).map(|residuals| column(residuals).max(1.0)).collect()
 }
 
-/// Intervals and correlations, linearised: the deviations are those that the residuals have where they are larger than the
-/// given ones, and the data count for as many as are independent.
+/// Intervals and correlations, linearised: the deviations are those that the residuals have where they are larger than
+/// the given ones, and the data count for as many as are independent.
 fn intervals(
     runs: &Runs,
     values: &[f64],
