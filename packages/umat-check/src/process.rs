@@ -298,7 +298,7 @@ pub fn outputs(session: &mut Session) -> Finding {
     }
     if stress_depends {
         let text = format!("STRESS depends on what was in DDSDDE{} before the call", named(&used));
-        return Finding::new(Question::Outputs, Verdict::Wrong, None, text).with("unset");
+        return Finding::new(Question::Outputs, Verdict::Warning, None, text).with("unset");
     }
     if used.iter().flatten().any(|used| *used) {
         let text = if unset == used {

@@ -161,7 +161,7 @@ pub fn dissipation(session: &mut Session) -> io::Result<Finding> {
         Some(found) if found.excess > MORE && more_than_work(session, found.excess)? => {
             let text =
                 format!("enerInelasNew is more than the work done per mass, by up to {:.1e} of it", found.excess);
-            line(Verdict::Wrong, Some(found.excess), &text).with("more than the work")
+            line(Verdict::Warning, Some(found.excess), &text).with("more than the work")
         }
         Some(found) if found.by_volume > LEAST && found.by_volume * session.material.explicit.density < NOTHING => {
             let part = found.by_volume * session.material.explicit.density;
