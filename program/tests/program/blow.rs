@@ -103,7 +103,7 @@ fn properties_that_made_the_history_come_back() {
     // Of another scene they are not taken.
     std::fs::write(path.with_file_name("scene.toml"), scene(&["k_ld = 10.0"])).expect("a file can be written");
     let message = Runs::open(&read(&path), &file).err().expect("other runs").to_string();
-    assert!(message.contains("runs.csv: its runs are of another scene"), "{message}");
+    assert!(message.contains("runs.csv: its runs are of another build, scene"), "{message}");
 }
 
 #[test]
@@ -112,6 +112,16 @@ fn what_the_history_does_not_tell_is_named() {
     let job = read(&path);
     let message = minimise(&Runs::open(&job, &path.with_file_name("runs.csv")).expect("runs")).err().expect("untold");
     assert!(message.to_string().contains("the history does not tell alpha"), "{message}");
+}
+
+#[test]
+fn a_run_that_is_over_before_the_history_is_no_answer() {
+    let path = written("blow-short", BLOW);
+    std::fs::write(path.with_file_name("scene.toml"), scene(&[]).replace("9.91e-3", "9.91e-6")).expect("a scene");
+    let job = read(&path);
+    let message =
+        minimise(&Runs::open(&job, &path.with_file_name("runs.csv")).expect("runs")).err().expect("a short run");
+    assert!(message.to_string().contains("the run is over at 0.00"), "{message}");
 }
 
 #[test]

@@ -9,6 +9,8 @@ use std::time::Duration;
 
 use super::file::{BlowJob, columns};
 use crate::fibres::beside::between;
+use toron_explicit_host::struck::run::ROUNDING;
+use toron_shared::build;
 use toron_shared::console::print_note;
 use toron_shared::error::Error;
 use toron_shared::run_directory::file_error;
@@ -59,7 +61,7 @@ impl<'a> Runs<'a> {
             Some(lines) => lines.lines().filter_map(|line| job.run_of(line)).collect(),
             None if text.is_empty() => Vec::new(),
             None => {
-                let message = "its runs are of another scene, history, range, choice of follows or fits; allowed: \
+                let message = "its runs are of another build, scene, history, range, choice of follows or fits; allowed: \
                     the same, or another -o";
                 return Err(file_error(path, &message));
             }
@@ -92,6 +94,7 @@ impl<'a> Runs<'a> {
             return Ok(followed.clone());
         }
         let outcome = run::run(&self.job.with(values)?, &mut ())?;
+        self.job.require_whole(values, outcome.last_time())?;
         let followed = self.job.followed(&outcome);
         let mut made = self.lock();
         made.processor += outcome.cost.processor;
@@ -121,7 +124,8 @@ impl BlowJob {
     fn identity(&self) -> u32 {
         let fits: Vec<usize> = self.fits.iter().map(|fitted| fitted.index).collect();
         let names: Vec<&str> = self.follows.iter().map(|followed| followed.name).collect();
-        let text = format!("{:?} {:?} {fits:?} {names:?} {:?}", self.scene.units.names(), self.case, self.times);
+        let (units, build) = (self.scene.units.names(), build::number());
+        let text = format!("{build} {units:?} {:?} {fits:?} {names:?} {:?}", self.case, self.times);
         crc32fast::hash(text.as_bytes())
     }
 
@@ -142,6 +146,23 @@ impl BlowJob {
         }
         material.law = material.law.with(&all).map_err(|error| Error::Evaluation(error.to_string()))?;
         Ok(Case { zones: Zones::One(Box::new(material)), ..self.case.clone() })
+    }
+
+    /// # Errors
+    /// A run is over before the history is: the striker has stopped or left, and nothing follows any more.
+    fn require_whole(&self, values: &[f64], reached: f64) -> Result<(), Error> {
+        let wanted = self.times.last().copied().unwrap_or_default();
+        if reached >= wanted * (1.0 - ROUNDING) {
+            return Ok(());
+        }
+        let given: Vec<String> =
+            self.fits.iter().zip(values).map(|(fitted, value)| format!("{} = {value}", fitted.property.name)).collect();
+        let message = format!(
+            "with {} the run is over at {reached}, since the striker has stopped or left; allowed: a range of the history up to \
+             then, or a case without failure",
+            given.join(", ")
+        );
+        Err(Error::Evaluation(message))
     }
 
     /// What is followed, between two samples by a straight line.
