@@ -2,6 +2,7 @@
 //! a register, and those that are not next to each other in memory. They go through the same operations as all others,
 //! so that the result of a point does not depend on where it is.
 
+use core::marker::PhantomData;
 use core::mem::MaybeUninit;
 use core::ops::Range;
 use core::ptr::{null, null_mut};
@@ -31,144 +32,294 @@ struct Memory<T: Precision, L: Kernels<T>, const COUNT: usize, const ROWS: usize
     state: [MaybeUninit<L::State>; COUNT],
 }
 
-/// The index in the block of each of `COUNT` copies; the last ones repeat if there are fewer points.
-struct Copies<const COUNT: usize>([usize; COUNT]);
-
-/// Where the points are in a group of arrays: the offset of each, and the distance between components.
-#[derive(Clone, Copy)]
-struct Group<const COUNT: usize> {
-    offsets: [usize; COUNT],
-    leading_dimension: usize,
+/// Where the components of an array begin: at pointers of their own, or at equal distances from a first one.
+trait Columns<P>: Copy {
+    fn column(self, c: usize) -> P;
 }
 
-impl<const COUNT: usize> Copies<COUNT> {
-    fn new(points: Range<usize>) -> Self {
-        let mut indices = [points.end - 1; COUNT];
-        for (index, point) in indices.iter_mut().zip(points) {
-            *index = point;
-        }
-        Copies(indices)
-    }
-
+impl<P: Copy, const N: usize> Columns<P> for &[P; N] {
     #[inline(always)]
-    fn group(&self, stride: usize, leading_dimension: usize) -> Group<COUNT> {
-        Group { offsets: self.0.map(|point| point * stride), leading_dimension }
+    fn column(self, c: usize) -> P {
+        self[c]
     }
 }
 
-impl<const COUNT: usize> Group<COUNT> {
-    /// Copies `components` components from the block; nothing if it has none.
+impl<T> Columns<*const T> for (*const T, usize) {
+    #[inline(always)]
+    fn column(self, c: usize) -> *const T {
+        self.0.wrapping_add(c * self.1)
+    }
+}
+
+impl<T> Columns<*mut T> for (*mut T, usize) {
+    #[inline(always)]
+    fn column(self, c: usize) -> *mut T {
+        self.0.wrapping_add(c * self.1)
+    }
+}
+
+/// Copies of points, component-major and next to each other, in a buffer from which each array takes its room.
+trait Copies<T: Scalar> {
+    /// The number of copies.
+    const COUNT: usize;
+
+    /// Room for so many components of every copy.
+    fn room(&mut self, components: usize) -> *mut T;
+
+    /// Copies `components` components of points that are `stride` apart to `to`.
     ///
     /// # Safety
-    /// `from` is null or an array with these components at every offset, `to` an array of COUNT points with these
-    /// components.
-    #[inline(always)]
-    unsafe fn copy_in<T: Copy>(&self, from: *const T, to: *mut T, components: usize) {
-        if from.is_null() {
-            return;
-        }
-        for c in 0..components {
-            for (lane, &offset) in self.offsets.iter().enumerate() {
-                // SAFETY: c < `components` and lane < COUNT by the loops.
-                unsafe { *to.add(c * COUNT + lane) = *from.add(c * self.leading_dimension + offset) };
-            }
-        }
-    }
+    /// The points have these components, and there is room for them behind `to`.
+    unsafe fn read(&self, from: impl Columns<*const T>, stride: usize, components: usize, to: *mut T);
 
-    /// Copies arrays that each have a pointer; nothing if they are null.
+    /// Copies components back to the points.
     ///
     /// # Safety
-    /// As for [`copy_in`](Self::copy_in), for each of them.
-    #[inline(always)]
-    unsafe fn all_in<T: Copy, const N: usize>(&self, from: &[*const T; N], to: &[*const T; N]) {
-        for (&from, to) in from.iter().zip(to) {
-            // SAFETY: as the caller promises; there are copies of arrays that the points have.
-            unsafe { self.copy_in(from, to.cast_mut(), 1) };
-        }
-    }
+    /// As for [`read`](Self::read), in the other direction.
+    unsafe fn write(&self, from: *const T, to: impl Columns<*mut T>, stride: usize, components: usize);
 
-    /// Copies `components` components back to the block. Lanes without a point of their own store the last point's
-    /// value again.
+    /// The copy of an input; null if there is none.
     ///
     /// # Safety
-    /// As for [`copy_in`](Self::copy_in), in the other direction.
+    /// As for [`read`](Self::read).
     #[inline(always)]
-    unsafe fn copy_out<T: Copy>(&self, from: *const T, to: *mut T, components: usize) {
-        if to.is_null() {
-            return;
-        }
-        for c in 0..components {
-            for (lane, &offset) in self.offsets.iter().enumerate() {
-                // SAFETY: c < `components` and lane < COUNT by the loops.
-                unsafe { *to.add(c * self.leading_dimension + offset) = *from.add(c * COUNT + lane) };
-            }
-        }
-    }
-}
-
-/// Component-major arrays of `count` points, taken one after the other from a buffer.
-struct Buffer<T> {
-    next: *mut T,
-    count: usize,
-}
-
-impl<T: Scalar> Buffer<T> {
-    /// An array of `components` components; null if the block has none.
-    #[inline(always)]
-    fn array(&mut self, present: bool, components: usize) -> *mut T {
-        if !present {
+    unsafe fn input(&mut self, from: impl Columns<*const T>, stride: usize, components: usize) -> *mut T {
+        if from.column(0).is_null() {
             return null_mut();
         }
-        let array = self.next;
-        self.next = array.wrapping_add(components * self.count);
-        array
+        let copy = self.room(components);
+        // SAFETY: the caller's array, and room for as many components.
+        unsafe { self.read(from, stride, components, copy) };
+        copy
+    }
+
+    /// As [`input`](Self::input), for an array with a pointer for each component.
+    ///
+    /// # Safety
+    /// As for [`read`](Self::read).
+    #[inline(always)]
+    unsafe fn columns<const N: usize>(&mut self, from: &[*const T; N], stride: usize) -> [*const T; N] {
+        // SAFETY: the same array, with N components.
+        components(unsafe { self.input(from, stride, N) }.cast_const(), Self::COUNT)
+    }
+
+    /// Room for an output; null if it is not requested.
+    #[inline(always)]
+    fn room_for(&mut self, output: *mut T, components: usize) -> *mut T {
+        if output.is_null() { output } else { self.room(components) }
+    }
+
+    /// Copies an output to the points; nothing if it is not requested.
+    ///
+    /// # Safety
+    /// As for [`write`](Self::write).
+    #[inline(always)]
+    unsafe fn output(&self, from: *const T, to: impl Columns<*mut T>, stride: usize, components: usize) {
+        if !to.column(0).is_null() {
+            // SAFETY: the caller's array, and a copy of it.
+            unsafe { self.write(from, to, stride, components) };
+        }
     }
 }
 
 impl<T: Scalar> Points<T> {
-    /// `count` points in memory for the arrays that these points have, the old state in the place of the new one.
+    /// These points in `copies`, with the arrays that they have; the old state is in the place of the new one. An input
+    /// has a line here, an output one here and one in [`take_results`](Self::take_results).
+    ///
+    /// # Safety
+    /// The points are valid, see [`Points`], and checked; there is room for all numbers of each copy.
     #[inline(always)]
-    fn in_memory(&self, memory: *mut T, count: usize, codes: *mut i32, needs: &Needs) -> Points<T> {
-        let mut buffer = Buffer { next: memory, count };
-        let f_old = buffer.array(needs.reads.old_gradient, 9);
-        let f_new = buffer.array(true, 9);
-        let fibre = buffer.array(!self.fibre[0].is_null(), 3);
-        let second_axis = buffer.array(!self.second_axis[0].is_null(), 3);
-        let stress = buffer.array(!self.stress[0].is_null(), 6);
+    unsafe fn read_into<C: Copies<T>>(&self, copies: &mut C, codes: *mut i32, needs: &Needs) -> Points<T> {
+        let stride = &self.strides;
+        let temperature = if needs.reads.temperature { self.circumstances.temperature } else { null() };
+        let f_old = if needs.reads.old_gradient { self.f_old } else { [null(); 9] };
+        // SAFETY: arrays of valid points have as many components as stand here.
+        unsafe {
+            let (state_old, state_new) = self.read_state_into(copies, needs);
+            Points {
+                n: C::COUNT,
+                leading_dimension: C::COUNT,
+                modes_leading_dimension: C::COUNT,
+                axes_leading_dimension: C::COUNT,
+                tangent_leading_dimension: C::COUNT,
+                strides: Strides::UNIT,
+                f_old: copies.columns(&f_old, stride.deformation_gradient),
+                f_new: copies.columns(&self.f_new, stride.deformation_gradient),
+                fibre: copies.columns(&self.fibre, stride.fibre),
+                second_axis: copies.columns(&self.second_axis, stride.fibre),
+                limit: copies.input((self.limits(needs.last), 0), stride.limit, 1),
+                circumstances: Circumstances {
+                    temperature: copies.input((temperature, 0), 1, 1),
+                    ..self.circumstances
+                },
+                axes: copies.input((self.axes.cast_const(), self.axes_leading_dimension), stride.axes, 9),
+                state_old,
+                state_new,
+                stress: components_mut(copies.room_for(self.stress[0], 6), C::COUNT),
+                modes: copies.room_for(self.modes, 24),
+                wave_speed: copies.room_for(self.wave_speed, 1),
+                tangent: copies.room_for(self.tangent, self.measure.components()),
+                active: copies.room_for(self.active, 1),
+                status: codes,
+                ..*self
+            }
+        }
+    }
+
+    /// Copies the results of copies to these points.
+    ///
+    /// # Safety
+    /// The copies come from [`read_into`](Self::read_into), and have been evaluated.
+    #[inline(always)]
+    unsafe fn take_results<C: Copies<T>>(&self, of: &Points<T>, copies: &C, needs: &Needs) {
+        let stride = &self.strides;
+        // SAFETY: arrays of valid points have as many components as stand here, and so have their copies.
+        unsafe {
+            copies.output(of.stress[0], &self.stress, stride.stress, 6);
+            let mut part = 0;
+            while part < PARTS {
+                let new = (self.state_new[part], self.leading_dimension);
+                copies.output(of.state_new[part], new, stride.state, needs.parts[part]);
+                part += 1;
+            }
+            copies.output(of.axes, (self.axes, self.axes_leading_dimension), stride.axes, 9);
+            copies.output(of.modes, (self.modes, self.modes_leading_dimension), stride.modes, 24);
+            copies.output(of.wave_speed, (self.wave_speed, 0), 1, 1);
+            let tangent = (self.tangent, self.tangent_leading_dimension);
+            copies.output(of.tangent, tangent, stride.tangent, self.measure.components());
+            copies.output(of.active, (self.active, 0), 1, 1);
+        }
+    }
+
+    /// The old state, where it is read, in the place of the new one, and where the new one goes if it is requested.
+    ///
+    /// # Safety
+    /// As for [`read_into`](Self::read_into).
+    #[inline(always)]
+    unsafe fn read_state_into<C: Copies<T>>(
+        &self,
+        copies: &mut C,
+        needs: &Needs,
+    ) -> ([*const T; PARTS], [*mut T; PARTS]) {
         let (mut state_old, mut state_new, mut part) = ([null(); PARTS], [null_mut(); PARTS], 0);
         while part < PARTS {
-            let (new, latch) = (!self.state_new[part].is_null(), part == needs.last && !self.state_old[part].is_null());
-            let array = buffer.array(new || latch, needs.parts[part]);
-            state_old[part] = array.cast_const();
-            state_new[part] = if new { array } else { null_mut() };
+            let (old, components) = (self.state_old[part], needs.parts[part]);
+            let (new, latch) = (!self.state_new[part].is_null(), part == needs.last && !old.is_null());
+            if new || latch {
+                let (copy, read) = (copies.room(components), needs.read(part, components));
+                // SAFETY: the old state of valid points has these components, and so has the room. A number whose bytes
+                // are all 0 is 0.
+                unsafe {
+                    match old.is_null() {
+                        true => copy.write_bytes(0, read * C::COUNT),
+                        false => copies.read((old, self.leading_dimension), self.strides.state, read, copy),
+                    }
+                }
+                state_old[part] = copy.cast_const();
+                state_new[part] = if new { copy } else { null_mut() };
+            }
             part += 1;
         }
-        Points {
-            n: count,
-            leading_dimension: count,
-            modes_leading_dimension: count,
-            axes_leading_dimension: count,
-            tangent_leading_dimension: count,
-            strides: Strides::UNIT,
-            f_old: components(f_old, count),
-            f_new: components(f_new, count),
-            fibre: components(fibre, count),
-            second_axis: components(second_axis, count),
-            limit: buffer.array(!self.limits(needs.last).is_null(), 1),
-            circumstances: Circumstances {
-                temperature: buffer.array(needs.reads.temperature, 1),
-                ..self.circumstances
-            },
-            axes: buffer.array(!self.axes.is_null(), 9),
-            state_old,
-            state_new,
-            stress: components_mut(stress, count),
-            wave_speed: buffer.array(!self.wave_speed.is_null(), 1),
-            active: buffer.array(!self.active.is_null(), 1),
-            modes: buffer.array(!self.modes.is_null(), 24),
-            tangent: buffer.array(!self.tangent.is_null(), self.measure.components()),
-            status: codes,
-            ..*self
+        (state_old, state_new)
+    }
+}
+
+/// Copies of points that may be anywhere: the index of each of `COUNT` copies; the last ones repeat if there are fewer
+/// points.
+struct Apart<T, const COUNT: usize> {
+    next: *mut T,
+    indices: [usize; COUNT],
+}
+
+impl<T, const COUNT: usize> Apart<T, COUNT> {
+    fn new(memory: *mut T, points: Range<usize>) -> Self {
+        let mut indices = [points.end - 1; COUNT];
+        for (index, point) in indices.iter_mut().zip(points) {
+            *index = point;
+        }
+        Apart { next: memory, indices }
+    }
+
+    /// Where each of the points is in an array.
+    #[inline(always)]
+    fn offsets(&self, stride: usize) -> [usize; COUNT] {
+        self.indices.map(|point| point * stride)
+    }
+}
+
+impl<T: Scalar, const COUNT: usize> Copies<T> for Apart<T, COUNT> {
+    const COUNT: usize = COUNT;
+
+    #[inline(always)]
+    fn room(&mut self, components: usize) -> *mut T {
+        let room = self.next;
+        self.next = room.wrapping_add(components * COUNT);
+        room
+    }
+
+    #[inline(always)]
+    unsafe fn read(&self, from: impl Columns<*const T>, stride: usize, components: usize, to: *mut T) {
+        let offsets = self.offsets(stride);
+        for c in 0..components {
+            for (lane, &offset) in offsets.iter().enumerate() {
+                // SAFETY: c < `components` and lane < COUNT by the loops.
+                unsafe { *to.add(c * COUNT + lane) = *from.column(c).add(offset) };
+            }
+        }
+    }
+
+    /// Lanes without a point of their own store the last point's value again.
+    #[inline(always)]
+    unsafe fn write(&self, from: *const T, to: impl Columns<*mut T>, stride: usize, components: usize) {
+        let offsets = self.offsets(stride);
+        for c in 0..components {
+            for (lane, &offset) in offsets.iter().enumerate() {
+                // SAFETY: c < `components` and lane < COUNT by the loops.
+                unsafe { *to.column(c).add(offset) = *from.add(c * COUNT + lane) };
+            }
+        }
+    }
+}
+
+/// Copies of fewer points than a register holds, which are next to each other: a register for each component, whose
+/// other lanes repeat the last point.
+struct Padded<T, R> {
+    next: *mut T,
+    points: usize,
+    register: PhantomData<R>,
+}
+
+impl<T: Scalar, R: Lanes<T>> Copies<T> for Padded<T, R> {
+    const COUNT: usize = R::COUNT;
+
+    #[inline(always)]
+    fn room(&mut self, components: usize) -> *mut T {
+        let room = self.next;
+        self.next = room.wrapping_add(components * R::COUNT);
+        room
+    }
+
+    #[inline(always)]
+    unsafe fn read(&self, from: impl Columns<*const T>, _: usize, components: usize, to: *mut T) {
+        for c in 0..components {
+            // SAFETY: `points` values of each component, one at least, and a register for it.
+            unsafe { filled::<T, R>(from.column(c), self.points).store(to.add(c * R::COUNT)) };
+        }
+    }
+
+    #[inline(always)]
+    unsafe fn write(&self, from: *const T, to: impl Columns<*mut T>, _: usize, components: usize) {
+        // The binary digits of the number of points: a loop over so few values would be compiled to a call.
+        let mut lane = 0;
+        for digit in [4, 2, 1] {
+            if digit < R::COUNT && self.points & digit != 0 {
+                for c in 0..components {
+                    let (from, to) = (from.wrapping_add(c * R::COUNT + lane), to.column(c).wrapping_add(lane));
+                    // SAFETY: the digits add up to `points`, so that lane + digit ≤ points; c < `components`.
+                    unsafe { to.copy_from_nonoverlapping(from, digit) };
+                }
+                lane += digit;
+            }
         }
     }
 }
@@ -220,54 +371,18 @@ unsafe fn copied<T: Precision, L: Kernels<T>, const COUNT: usize, const ROWS: us
     let needs = const { &Needs::of::<T, L>() };
     let mut memory = MaybeUninit::<Memory<T, L, COUNT, ROWS>>::uninit();
     let mut codes = [status::OK; COUNT];
-    let copies = Copies::<COUNT>::new(range);
-    let of_copies = points.in_memory(memory.as_mut_ptr().cast(), COUNT, codes.as_mut_ptr(), needs);
-    let Strides { deformation_gradient, fibre, limit, axes, state, stress, modes, tangent } = points.strides;
-    let state = copies.group(state, points.leading_dimension);
-    let axes = copies.group(axes, points.axes_leading_dimension);
-    // SAFETY: each array of `of_copies` has been taken from `memory`, with space for COUNT points of all its
-    // components; it is there if the points have that array; the offsets are those of points of the range. A number
-    // whose bytes are all 0 is 0.
+    let mut apart = Apart::<T, COUNT>::new(memory.as_mut_ptr().cast(), range);
+    // SAFETY: the memory has room for COUNT points of the law with all their numbers, and the indices are those of
+    // points of the range.
     unsafe {
-        let of_f = copies.group(deformation_gradient, 0);
-        if needs.reads.old_gradient {
-            of_f.all_in(&points.f_old, &of_copies.f_old);
-        }
-        of_f.all_in(&points.f_new, &of_copies.f_new);
-        copies.group(fibre, 0).all_in(&points.fibre, &of_copies.fibre);
-        copies.group(fibre, 0).all_in(&points.second_axis, &of_copies.second_axis);
-        if needs.reads.temperature {
-            let from = points.circumstances.temperature;
-            copies.group(1, 0).copy_in(from, of_copies.circumstances.temperature.cast_mut(), 1);
-        }
-        if !of_copies.limit.is_null() {
-            copies.group(limit, 0).copy_in(points.limit, of_copies.limit.cast_mut(), 1);
-        }
-        axes.copy_in(points.axes, of_copies.axes, 9);
-        for part in 0..PARTS {
-            let (from, to) = (points.state_old[part], of_copies.state_old[part].cast_mut());
-            let components = needs.parts[part];
-            match (to.is_null(), from.is_null()) {
-                (true, _) => {}
-                (false, true) => to.write_bytes(0, components * COUNT),
-                (false, false) => state.copy_in(from, to, needs.read(part, components)),
+        let copies = points.read_into(&mut apart, codes.as_mut_ptr(), needs);
+        let worst = law.run(&copies);
+        points.take_results(&copies, &apart, needs);
+        if !points.status.is_null() {
+            for (code, &point) in codes.iter().zip(&apart.indices) {
+                *points.status.add(point) = *code;
             }
         }
-        let worst = law.run(&of_copies);
-        for (from, to) in of_copies.stress.into_iter().zip(points.stress) {
-            copies.group(stress, 0).copy_out(from, to, 1);
-        }
-        for part in 0..PARTS {
-            state.copy_out(of_copies.state_new[part], points.state_new[part], needs.parts[part]);
-        }
-        axes.copy_out(of_copies.axes, points.axes, 9);
-        copies.group(modes, points.modes_leading_dimension).copy_out(of_copies.modes, points.modes, 24);
-        let tangent = copies.group(tangent, points.tangent_leading_dimension);
-        tangent.copy_out(of_copies.tangent, points.tangent, points.measure.components());
-        let single = copies.group(1, 0);
-        single.copy_out(of_copies.wave_speed, points.wave_speed, 1);
-        single.copy_out(of_copies.active, points.active, 1);
-        single.copy_out(codes.as_ptr(), points.status, 1);
         worst
     }
 }
@@ -285,74 +400,15 @@ pub(super) unsafe fn padded<T: Scalar, R: Lanes<T>, const ROWS: usize>(
 ) -> i32 {
     let mut memory = [const { MaybeUninit::<R>::uninit() }; ROWS];
     let mut codes = [status::OK; WIDEST];
-    let copies = points.in_memory(memory.as_mut_ptr().cast(), R::COUNT, codes.as_mut_ptr(), needs);
-    let (state, count) = (points.leading_dimension, points.n);
+    let mut padded = Padded::<T, R> { next: memory.as_mut_ptr().cast(), points: points.n, register: PhantomData };
     // Loops and no closures, which would be called, without the processor's instructions. SAFETY: `memory` has a
-    // register for each component, at which the arrays of `copies` begin; `count` values of each component of the valid
-    // points are read and written, of the arrays that are not null.
+    // register for each component of a point, and the valid points are one at least and fewer than a register holds.
     unsafe {
-        if needs.reads.old_gradient {
-            columns_in::<T, R, 9>(&points.f_old, &copies.f_old, count);
-        }
-        columns_in::<T, R, 9>(&points.f_new, &copies.f_new, count);
-        columns_in::<T, R, 3>(&points.fibre, &copies.fibre, count);
-        columns_in::<T, R, 3>(&points.second_axis, &copies.second_axis, count);
-        if needs.reads.temperature {
-            let from = points.circumstances.temperature;
-            filled::<T, R>(from, count).store(copies.circumstances.temperature.cast_mut());
-        }
-        if !copies.limit.is_null() {
-            filled::<T, R>(points.limit, count).store(copies.limit.cast_mut());
-        }
-        if !points.axes.is_null() {
-            columns_in::<T, R, 9>(
-                &components(points.axes, points.axes_leading_dimension),
-                &components(copies.axes, R::COUNT),
-                count,
-            );
-        }
-        let mut part = 0;
-        while part < PARTS {
-            let (old, to) = (points.state_old[part], copies.state_old[part].cast_mut());
-            if !to.is_null() {
-                for c in 0..needs.read(part, needs.parts[part]) {
-                    let value = match old.is_null() {
-                        true => R::splat(0.0),
-                        false => filled::<T, R>(old.add(c * state), count),
-                    };
-                    value.store(to.add(c * R::COUNT));
-                }
-            }
-            part += 1;
-        }
+        let copies = points.read_into(&mut padded, codes.as_mut_ptr(), needs);
         let worst = run(&copies);
-        if !points.stress[0].is_null() {
-            for c in 0..6 {
-                columns_out::<T, R>(copies.stress[c], points.stress[c], 0, 1, count);
-            }
-        }
-        let mut part = 0;
-        while part < PARTS {
-            let (from, to) = (copies.state_new[part], points.state_new[part]);
-            if !to.is_null() {
-                columns_out::<T, R>(from, to, state, needs.parts[part], count);
-            }
-            part += 1;
-        }
-        let arrays = [
-            (copies.axes, points.axes, points.axes_leading_dimension, 9),
-            (copies.wave_speed, points.wave_speed, 0, 1),
-            (copies.active, points.active, 0, 1),
-            (copies.modes, points.modes, points.modes_leading_dimension, 24),
-            (copies.tangent, points.tangent, points.tangent_leading_dimension, points.measure.components()),
-        ];
-        for (from, to, next, columns) in arrays {
-            if !to.is_null() {
-                columns_out::<T, R>(from, to, next, columns, count);
-            }
-        }
+        points.take_results(&copies, &padded, needs);
         if !points.status.is_null() {
-            points.status.copy_from_nonoverlapping(codes.as_ptr(), count);
+            points.status.copy_from_nonoverlapping(codes.as_ptr(), points.n);
         }
         worst
     }
@@ -366,40 +422,4 @@ pub(super) unsafe fn padded<T: Scalar, R: Lanes<T>, const ROWS: usize>(
 unsafe fn filled<T: Scalar, R: Lanes<T>>(array: *const T, count: usize) -> R {
     // SAFETY: `count` values, one at least.
     unsafe { R::load_first(array, count, R::splat((*array.add(count - 1)).into())) }
-}
-
-/// Copies `count` values of the columns of a matrix or a vector to registers; nothing if there is no such array.
-///
-/// # Safety
-/// The columns are null, or have `count` values each, one at least and fewer than COUNT, and a register of their own to
-/// go to.
-#[inline(always)]
-unsafe fn columns_in<T: Scalar, R: Lanes<T>, const N: usize>(from: &[*const T; N], to: &[*const T; N], count: usize) {
-    if from[0].is_null() {
-        return;
-    }
-    for c in 0..N {
-        // SAFETY: as the caller promises.
-        unsafe { filled::<T, R>(from[c], count).store(to[c].cast_mut()) };
-    }
-}
-
-/// Copies the first `count` lanes of `columns` registers, one after the other from `from` on, to columns that are
-/// `next` apart.
-///
-/// # Safety
-/// There are as many registers, and each column has space for `count` values, fewer than COUNT.
-#[inline(always)]
-unsafe fn columns_out<T, R: Lanes<T>>(from: *const T, to: *mut T, next: usize, columns: usize, count: usize) {
-    // The binary digits of the count: a loop over so few values would be compiled to a call.
-    let mut lane = 0;
-    for digit in [4, 2, 1] {
-        if digit < R::COUNT && count & digit != 0 {
-            for c in 0..columns {
-                // SAFETY: the digits add up to `count`, so that lane + digit ≤ count; c < `columns`.
-                unsafe { to.add(c * next + lane).copy_from_nonoverlapping(from.add(c * R::COUNT + lane), digit) };
-            }
-            lane += digit;
-        }
-    }
 }

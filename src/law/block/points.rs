@@ -211,6 +211,14 @@ impl<T> Points<T> {
         }
     }
 
+    /// Whether kernels that are compiled for a usual request know all arrays of these points; else they take the general
+    /// kernel.
+    #[cfg_attr(not(target_arch = "x86_64"), allow(dead_code))]
+    #[inline(always)]
+    pub(super) fn are_usual(&self) -> bool {
+        self.tangent.is_null()
+    }
+
     /// The points from `first` ≤ n on.
     pub(super) fn from(self, first: usize) -> Self {
         if first == 0 {
@@ -369,24 +377,23 @@ impl<T: Scalar> Points<T> {
         }
     }
 
-    /// The points from `first` on, `count` at most, with what their status depends on and no outputs.
+    /// The points from `first` on, `count` at most, without their outputs: what their status depends on.
     pub(super) fn inputs(&self, first: usize, count: usize, needs: &Needs) -> Self {
         let from = self.from(first);
-        let last = |part| if part == needs.last { from.state_old[part] } else { null() };
+        let mut state_old = [null(); PARTS];
+        state_old[needs.last] = from.state_old[needs.last];
         Points {
             n: from.n.min(count),
-            leading_dimension: self.leading_dimension,
-            strides: self.strides,
-            f_old: from.f_old,
-            f_new: from.f_new,
-            fibre: from.fibre,
-            second_axis: from.second_axis,
-            circumstances: from.circumstances,
-            state_old: [last(0), last(1), last(2)],
-            rotation: self.rotation,
-            criterion: self.criterion,
-            level: self.level,
-            ..Points::without_arrays(0, self.leading_dimension)
+            axes: null_mut(),
+            state_old,
+            state_new: [null_mut(); PARTS],
+            stress: [null_mut(); 6],
+            modes: null_mut(),
+            wave_speed: null_mut(),
+            tangent: null_mut(),
+            status: null_mut(),
+            active: null_mut(),
+            ..from
         }
     }
 

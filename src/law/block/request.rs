@@ -56,13 +56,6 @@ pub(super) fn request<T, const WANT: u8>(block: &Points<T>) -> Request {
     }
 }
 
-/// Whether kernels that are compiled for a request know all arrays of the block; else it takes the general one.
-#[cfg_attr(not(target_arch = "x86_64"), allow(dead_code))]
-#[inline(always)]
-pub(super) fn is_usual<T>(block: &Points<T>) -> bool {
-    block.tangent.is_null()
-}
-
 /// Whether the tangent is requested, which only the general kernel without an aligned fibre computes.
 #[inline(always)]
 pub(super) fn wants_tangent<T, const WANT: u8>(block: &Points<T>) -> bool {
