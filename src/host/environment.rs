@@ -17,28 +17,36 @@ const DEFAULT_MXCSR: u32 = 0x1f80;
 /// Runs `work` in the default floating-point environment and restores the caller's.
 ///
 /// `work` must not panic: a panic cannot unwind through the assembly, and the process would abort.
+#[inline(always)]
+pub fn in_default_environment<R>(work: impl FnOnce() -> R) -> R {
+    concluded_in_default_environment(work, |result| result)
+}
+
+/// As [`in_default_environment`], and what `conclude` makes of the result there.
 #[cfg(target_arch = "x86_64")]
 #[inline(always)]
-pub fn in_default_environment<R, W: FnOnce() -> R>(work: W) -> R {
+pub(super) fn concluded_in_default_environment<A, R, W: FnOnce() -> A, C: FnOnce(A) -> R>(work: W, conclude: C) -> R {
     use core::mem::{ManuallyDrop, MaybeUninit};
 
-    struct Call<R, W> {
+    struct Call<W, C, R> {
         work: ManuallyDrop<W>,
+        conclude: ManuallyDrop<C>,
         result: MaybeUninit<R>,
     }
 
     /// # Safety
     /// `call` is valid and its work has not been done.
-    unsafe extern "sysv64" fn run<R, W: FnOnce() -> R>(call: *mut Call<R, W>) {
-        // SAFETY: `call` is valid, and its work is taken once.
+    unsafe extern "sysv64" fn run<A, R, W: FnOnce() -> A, C: FnOnce(A) -> R>(call: *mut Call<W, C, R>) {
+        // SAFETY: `call` is valid, and both are taken once.
         unsafe {
-            let work = ManuallyDrop::take(&mut (*call).work);
-            (*call).result.write(work());
+            let answer = ManuallyDrop::take(&mut (*call).work)();
+            (*call).result.write(ManuallyDrop::take(&mut (*call).conclude)(answer));
         }
     }
 
-    let mut call = Call { work: ManuallyDrop::new(work), result: MaybeUninit::uninit() };
-    let run: unsafe extern "sysv64" fn(*mut Call<R, W>) = run;
+    let mut call =
+        Call { work: ManuallyDrop::new(work), conclude: ManuallyDrop::new(conclude), result: MaybeUninit::uninit() };
+    let run: unsafe extern "sysv64" fn(*mut Call<W, C, R>) = run::<A, R, W, C>;
     // The caller's MXCSR, and the one to run in. All arithmetic is in `run`: the compiler may move operations across a
     // change of environments that it does not know of, but not out of a function that only the assembly calls.
     let mut words = [0, DEFAULT_MXCSR];
@@ -60,9 +68,9 @@ pub fn in_default_environment<R, W: FnOnce() -> R>(work: W) -> R {
     }
 }
 
-/// Runs `work` in the caller's environment, which is not changed on this architecture.
+/// Runs both in the caller's environment, which is not changed on this architecture.
 #[cfg(not(target_arch = "x86_64"))]
 #[inline(always)]
-pub fn in_default_environment<R, W: FnOnce() -> R>(work: W) -> R {
-    work()
+pub(super) fn concluded_in_default_environment<A, R>(work: impl FnOnce() -> A, conclude: impl FnOnce(A) -> R) -> R {
+    conclude(work())
 }
