@@ -1,6 +1,7 @@
 //! The VUMAT of Abaqus/Explicit, of any law.
 
 use core::mem::MaybeUninit;
+use core::ops::Range;
 
 use libc::{c_char, size_t};
 
@@ -260,13 +261,24 @@ unsafe fn stretched<L: Law<T>, T: Precision>(
         // SAFETY: the rows have the points from `start` on, of which no more than CHUNK are evaluated; the new state
         // may replace the old one exactly.
         worst = worst.min(unsafe { law.step(&points) }?);
-        for (i, &code) in (start..n).zip(&codes) {
-            // SAFETY: i < n, and `step` has written the new state.
-            unsafe { finish::<L, T>(block, i, code) };
-        }
+        // SAFETY: the points have codes, and `step` has written their new state.
+        unsafe { finish::<L, T>(block, start..n.min(start + CHUNK), &codes) };
         start += CHUNK;
     }
     law.told(worst)
+}
+
+/// Deletes the points that could not be evaluated, and writes their energies. It is not inlined, so that the loop has the
+/// registers to itself.
+///
+/// # Safety
+/// As for [`finish_point`], for the points of the range, each with a code.
+#[inline(never)]
+unsafe fn finish<L: Law<T>, T: Precision>(block: &Vumat<T>, points: Range<usize>, codes: &[i32; CHUNK]) {
+    for (i, &code) in points.zip(codes) {
+        // SAFETY: as the caller promises.
+        unsafe { finish_point::<L, T>(block, i, code) };
+    }
 }
 
 /// Deletes a point that could not be evaluated, and writes its energy per mass, W/ρ0. The density that Abaqus passes is
@@ -274,7 +286,8 @@ unsafe fn stretched<L: Law<T>, T: Precision>(
 ///
 /// # Safety
 /// As for [`vumat`], for a point i < nblock whose new state is written.
-unsafe fn finish<L: Law<T>, T: Precision>(block: &Vumat<T>, i: usize, code: i32) {
+#[inline(always)]
+unsafe fn finish_point<L: Law<T>, T: Precision>(block: &Vumat<T>, i: usize, code: i32) {
     let (zero, half, one) = (T::splat(0.0), T::splat(0.5), T::splat(1.0));
     // SAFETY: i < nblock, and c below the array's number of components.
     unsafe {
