@@ -100,30 +100,32 @@ const _: () =
     assert!(size_of::<Block<f64>>() == 5 * 8 + 30 * 8 + 14 * 8 && size_of::<Block<f32>>() == size_of::<Block<f64>>());
 
 impl<T: Scalar> Block<T> {
+    /// The layouts of all arrays.
+    #[inline(always)]
+    fn layouts(&self) -> [&Layout; 7] {
+        [
+            &self.deformation_gradient_layout,
+            &self.fibre_layout,
+            &self.state_layout,
+            &self.stress_layout,
+            &self.modes_layout,
+            &self.tangent_layout,
+            &self.limit_layout,
+        ]
+    }
+
     /// Whether all arrays are placed in the usual way: one pointer each, and one leading dimension for all. Most blocks
     /// are, and most calls have so few points that to look at every layout would take time.
     #[inline(always)]
     fn is_plain(&self) -> bool {
-        let [f, fibre] = [&self.deformation_gradient_layout, &self.fibre_layout];
-        let [state, stress] = [&self.state_layout, &self.stress_layout];
-        let [modes, tangent] = [&self.modes_layout, &self.tangent_layout];
-        let leading_dimensions = f.leading_dimension
-            | fibre.leading_dimension
-            | state.leading_dimension
-            | stress.leading_dimension
-            | modes.leading_dimension
-            | tangent.leading_dimension;
-        let strides = f.stride | fibre.stride | state.stride | stress.stride | modes.stride | tangent.stride;
-        let strides = strides | self.limit_layout.stride;
-        let [_, f1, f2, f3, f4, f5, f6, f7, f8] = self.deformation_gradient;
-        let [_, m1, m2] = self.fibre;
-        let [_, s1, s2, s3, s4, s5] = self.stress;
-        let inputs = [f1, f2, f3, f4, f5, f6, f7, f8, m1, m2];
-        let (mut others, mut c) = (leading_dimensions | strides, 0);
-        while c < inputs.len() {
-            others |= inputs[c].addr();
+        let (mut others, mut c) = (0, 0);
+        let layouts = self.layouts();
+        while c < layouts.len() {
+            others |= layouts[c].leading_dimension | layouts[c].stride;
             c += 1;
         }
+        others |= behind_first(&self.deformation_gradient) | behind_first(&self.fibre);
+        let [_, s1, s2, s3, s4, s5] = self.stress;
         others |= s1.addr() | s2.addr() | s3.addr() | s4.addr() | s5.addr();
         others == 0 && self.leading_dimension <= MOST && self.n <= leading_dimension(self.leading_dimension, self.n)
     }
@@ -223,6 +225,17 @@ impl<T: Scalar> Block<T> {
             ..self.plain_points()
         }
     }
+}
+
+/// 0 if no pointer behind the first one is set.
+#[inline(always)]
+fn behind_first<T, const N: usize>(components: &[*const T; N]) -> usize {
+    let (mut others, mut c) = (0, 1);
+    while c < N {
+        others |= components[c].addr();
+        c += 1;
+    }
+    others
 }
 
 /// The hyperelastic law as a caller passes it: its properties, which are checked in every call, or prepared.

@@ -2,12 +2,11 @@
 
 use core::mem::MaybeUninit;
 
-use super::arguments::{check_density, level, measure_of};
 use super::blocks::Block;
 use super::entry_points::of_points;
 use super::points::Point;
 use super::structures::read;
-use crate::law::block::{Points, Precision, at_fault, components, components_mut};
+use crate::law::block::{Points, Precision, at_fault};
 use crate::law::error::Error;
 use crate::law::frictional::Frictional;
 use crate::law::interface::Law;
@@ -28,22 +27,10 @@ pub unsafe fn point<T: Precision>(law: &Frictional<T>, point: *const Point<T>) -
         if point.deformation_gradient.is_null() {
             return Err(Error::Null { name: "deformation_gradient" });
         }
-        let level = level(point.level)?;
-        check_density::<T>(point.density, !point.wave_speed.is_null())?;
         law.step(&Points {
-            f_new: components(point.deformation_gradient, 1),
-            fibre: components(point.fibre, 1),
-            limit: point.limit,
             state_old: Frictional::<T>::parts(point.state_old, 1),
             state_new: Frictional::<T>::parts_mut(point.state_new, 1),
-            density: T::splat(point.density),
-            stress: components_mut(point.stress, 1),
-            modes: point.modes,
-            wave_speed: point.wave_speed,
-            tangent: point.tangent,
-            measure: measure_of(point.tangent, point.measure)?,
-            level,
-            ..Points::without_arrays(1, 1)
+            ..point.points()?
         })
     }
 }

@@ -6,14 +6,15 @@ use core::ptr::null_mut;
 
 use libc::size_t;
 
-use super::arguments::{check_density, level, measure};
+use super::arguments::{check_density, level, measure, measure_of};
 use super::constants::TORON_LEVEL_BEST;
 use super::entry_points::store;
 use super::structures::{read, structures};
+use crate::law::block::{Points, components, components_mut};
 use crate::law::derivative::{NineByNine, NoTangent, SixBySix, Stress};
 use crate::law::error::Error;
 use crate::law::number::level::Level;
-use crate::law::number::real::Real;
+use crate::law::number::real::{Real, Scalar};
 use crate::law::number::registers::Registers;
 use crate::law::point::{self, Call, Own, Sink, Source, cells, evaluate_call};
 use crate::law::prepared::PreparedHyperelastic;
@@ -208,6 +209,30 @@ impl<T> Point<T> {
             modes: !self.modes.is_null(),
             wave_modulus: !self.wave_speed.is_null(),
         }
+    }
+}
+
+impl<T: Scalar> Point<T> {
+    /// The point as a block of one, without its state.
+    ///
+    /// # Errors
+    /// An argument is wrong.
+    pub(super) fn points(&self) -> Result<Points<T>, Error> {
+        let level = level(self.level)?;
+        check_density::<T>(self.density, !self.wave_speed.is_null())?;
+        Ok(Points {
+            f_new: components(self.deformation_gradient, 1),
+            fibre: components(self.fibre, 1),
+            limit: self.limit,
+            density: T::splat(self.density),
+            stress: components_mut(self.stress, 1),
+            modes: self.modes,
+            wave_speed: self.wave_speed,
+            tangent: self.tangent,
+            measure: measure_of(self.tangent, self.measure)?,
+            level,
+            ..Points::without_arrays(1, 1)
+        })
     }
 }
 
