@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use nalgebra::Vector3;
 use toron_materials::material::laws::LawName;
 
-use super::model::{Deck, Model, Table, count, number};
+use super::model::{Deck, Model, Table, count, frictional, number};
 
 #[derive(Clone, Copy, PartialEq)]
 enum Solver {
@@ -184,6 +184,7 @@ fn materials(cards: &[Card], solver: Solver) -> BTreeMap<&str, (LawName, Vec<f64
             // Properties, variables, and those that CalculiX keeps besides.
             let (law, variables, kept, calculix) = match values.len() {
                 11 => (LawName::Hyperelastic, 11, 0, "@TORON_HYPERELASTIC"),
+                13 => (frictional(), 15, 0, "@TORON_FRICTIONAL"),
                 10 => (LawName::LinearElastic, 10, 9, "@TORON_LINEARELASTIC"),
                 other => panic!("no law has {other} properties"),
             };

@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use nalgebra::Vector3;
 use toron_materials::material::laws::LawName;
 
-use super::model::{Deck, Model, Table, columns, count, number};
+use super::model::{Deck, Model, Table, columns, count, frictional, number};
 
 /// The cards behind a keyword: names of the fields, and their width. The last card of a list may be repeated.
 fn formats(keyword: &str) -> &'static [(&'static str, usize)] {
@@ -142,7 +142,8 @@ fn curve(card: &Card) -> Table {
 
 /// How many history variables a law has.
 fn variables(law: LawName) -> usize {
-    if law == LawName::Hyperelastic { 11 } else { 19 }
+    // The linear elastic law's axes are kept besides.
+    law.description().state.len() + if law == LawName::LinearElastic { 9 } else { 0 }
 }
 
 /// Number, law and properties.
@@ -151,6 +152,7 @@ fn material(card: &Card) -> (usize, (LawName, Vec<f64>)) {
     let law = match whole(1, "mt") {
         41 => LawName::Hyperelastic,
         43 => LawName::LinearElastic,
+        44 => frictional(),
         other => panic!("no law has the number {other}"),
     };
     let mut values: Vec<f64> = card.lines[3..].iter().flatten().map(|value| number(value)).collect();

@@ -65,16 +65,18 @@ const HOSTS: [Host; 6] = [
     Host { folder: "mtest", ending: ".mtest", comment: "//", read: mtest::read, end: 60.0, entry: Some("mgis") },
 ];
 
+/// The decks of the hyperelastic law, and that of the law with friction.
 const SCENES: [&str; 3] = ["tension", "compaction", "turn"];
+const FRICTION: &str = "friction";
 
 impl Host {
-    /// Name and path of every deck; MTest has a point of its own for the linear elastic law, the others both laws in
-    /// one model.
+    /// Name and path of every deck: the scenes, the law with friction, then both of the thesis's laws in one model, or
+    /// in MTest the linear elastic one alone.
     fn decks(&self) -> Vec<(&'static str, PathBuf)> {
         let last = if self.folder == "mtest" { "linear-tension" } else { "both-laws" };
         let folder = Path::new(ROOT).join("examples/one-element").join(self.folder);
         let path = |name: &'static str| (name, folder.join(format!("{name}{}", self.ending)));
-        SCENES.into_iter().chain([last]).map(path).collect()
+        SCENES.into_iter().chain([FRICTION, last]).map(path).collect()
     }
 }
 
@@ -112,12 +114,16 @@ fn expected(deck: &Deck, comment: &str) -> String {
         let rows = deck.rows(point);
         lines.push(format!("{}, {}:", point.label, point.law.text()));
         lines.push("       time         S11         S22         S33         S12           W   failed".to_string());
-        for Row { time, stress, energy, failed } in rows {
+        let lost = rows.last().and_then(|row| row.lost);
+        for Row { time, stress, energy, failed, .. } in rows {
             assert_eq!(stress[4..], [0.0, 0.0], "S23 and S31");
             let numbers: String = [0, 1, 2, 3].map(|k| format!("{:12.4}", stress[k] + 0.0)).concat();
             // What remains in a failed element is what it had in the increment that failed, which the solver chooses.
             let energy = if failed { "-".to_string() } else { format!("{energy:.4}") };
             lines.push(format!("{:>11}{numbers}{energy:>12}{:>9}", seconds(time), u8::from(failed)));
+        }
+        if let Some(lost) = lost {
+            lines.push(format!("friction has lost {lost:.4} by then, which the state variable w_fr keeps"));
         }
         if let Some((time, energy)) = deck.failure(point) {
             lines.push(format!("fails at {}, with W = {energy:.1}, which the state variables keep", seconds(time)));
@@ -153,13 +159,13 @@ fn cards_and_numbers_are_current() {
             decks += 1;
         }
     }
-    assert_eq!(decks, 6 * 4, "a deck has got lost");
+    assert_eq!(decks, 6 * 5, "a deck has got lost");
 }
 
 /// Every solver is given the same motion, up to its unit of time, and so is told to expect the same.
 #[test]
 fn all_hosts_are_told_the_same() {
-    for scene in SCENES {
+    for scene in SCENES.into_iter().chain([FRICTION]) {
         let of = |host: &Host| {
             let (_, path) = host.decks().into_iter().find(|(name, _)| *name == scene).expect("a deck");
             let deck = (host.read)(&text(&path));
@@ -212,6 +218,23 @@ fn the_numbers_are_those_of_closed_forms() {
         let energy = k_tc * half.powf(p) + 0.5 * k_td * half * half;
         near(&row, [0.0, (distortion - pressure) / height, (-distortion - pressure) / height, 0.0], energy);
     }
+    let friction = calculix_deck(FRICTION);
+    let rows = friction.rows(&friction.points[0]);
+    // All that is held while it is pressed; then the fibres stick, and the release is elastic.
+    let pressure = |half: f64| 0.5 * p * k_tc * half.powf(p - 1.0);
+    let most = |half: f64| 2.0 * 0.25 * pressure(half) / k_td;
+    let halves = [0.8, 0.6, 0.7, 0.8].map(|height: f64| -0.5 * height.ln());
+    let held = [0, 1, 2, 3].map(|i| most(halves[i.min(1)]) - (halves[1] - halves[i]) * f64::from(u8::from(i > 1)));
+    for ((row, half), held) in rows.iter().zip(halves).zip(held) {
+        let (height, distortion) = ((-2.0 * half).exp(), 0.5 * k_td * held);
+        let energy = k_tc * half.powf(p) + 0.5 * k_td * held * held;
+        let across = [distortion, -distortion].map(|distortion| (distortion - pressure(half)) / height);
+        near(row, [0.0, across[0], across[1], 0.0], energy);
+    }
+    // Sliding takes 2 µ p_t dI_td, of which the distortion that is held gets its energy; to first order in the step.
+    let lost = 0.25 * k_tc * halves[1].powf(p) - 0.5 * k_td * most(halves[1]).powi(2);
+    assert!((rows[3].lost.expect("a loss") - lost).abs() < 5e-4 * lost, "{:?}, not {lost}", rows[3].lost);
+    assert_eq!(rows[1].lost, rows[3].lost, "a release loses nothing");
     let turn = calculix_deck("turn");
     let rows = turn.rows(&turn.points[0]);
     for (row, angle) in rows.iter().zip([0.0_f64, 30.0, 60.0, 90.0]) {
@@ -235,6 +258,14 @@ fn the_numbers_are_those_of_closed_forms() {
     assert!(!linear[2].failed && linear[3].failed);
 }
 
+/// Holds a point's answer against a row of a deck.
+fn same_stress(answer: &serde_json::Value, row: &Row, deck: &Path) {
+    for (k, expected) in row.stress[..4].iter().enumerate() {
+        let found = answer["sigma"][k].as_f64().expect("a number");
+        assert!((found - expected).abs() < 1e-3, "{} at {}: {found}", deck.display(), row.time);
+    }
+}
+
 /// The C entry that each host's routine calls gives the same numbers, before failure; CalculiX's is tested in CalculiX.
 #[test]
 fn the_hosts_entries_give_the_numbers() {
@@ -253,13 +284,21 @@ fn the_hosts_entries_give_the_numbers() {
             });
             let answers = evaluated(&["--via", entry], lines.collect::<String>().as_bytes());
             assert!(rows.len() >= 3 && answers.len() == rows.len());
-            for (answer, row) in answers.iter().zip(&rows) {
-                for (k, expected) in row.stress[..4].iter().enumerate() {
-                    let found = answer["sigma"][k].as_f64().expect("a number");
-                    assert!((found - expected).abs() < 1e-3, "{} at {}: {found}", path.display(), row.time);
-                }
-            }
+            answers.iter().zip(&rows).for_each(|(answer, row)| same_stress(answer, row, path));
         }
+        // The law with friction remembers: its rows are one path. Steps of any length end at the same stress there.
+        let (_, path) = &host.decks()[SCENES.len()];
+        let deck = (host.read)(&text(path));
+        let (point, rows) = (&deck.points[0], deck.rows(&deck.points[0]));
+        let names = point.law.table().iter().map(|property| property.name);
+        let params: BTreeMap<_, _> = names.zip(&point.values).collect();
+        let f = |row: &Row| -> [[f64; 3]; 3] { (point.path)(row.time).transpose().into() };
+        let steps: Vec<_> = rows.iter().map(f).collect();
+        let line = serde_json::json!({ "path": steps, "params": params }).to_string() + "\n";
+        let answers = evaluated(&["--law", "frictional", "--via", entry], line.as_bytes());
+        let after = answers[0]["after"].as_array().expect("an answer for each step");
+        assert_eq!(after.len(), rows.len());
+        after.iter().zip(&rows).for_each(|(answer, row)| same_stress(answer, row, path));
     }
 }
 
@@ -283,7 +322,7 @@ fn chords_are_as_wrong_as_the_decks_say() {
 /// CalculiX itself, with the decks as they are; it prints a table for each law.
 #[test]
 fn calculix_gives_the_numbers() {
-    for scene in SCENES.into_iter().chain(["both-laws"]) {
+    for scene in SCENES.into_iter().chain([FRICTION, "both-laws"]) {
         let deck = calculix_deck(scene);
         let file = format!("../../examples/one-element/calculix/{scene}.inp");
         let results = Job { deck: &file, includes: &[], tangent: Tangent::Analytic }

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use nalgebra::{Matrix3, Vector3};
+use toron::law::parameters::PRESETS;
 use toron::{Criterion, Request, Rotation};
 use toron_materials::material::laws::LawName;
 use toron_materials::material::model::{Law, Material};
@@ -30,29 +31,32 @@ pub struct Point {
     pub path: Box<dyn Fn(f64) -> Matrix3<f64>>,
 }
 
+#[derive(Clone, Copy)]
 pub struct Row {
     pub time: f64,
     /// 11 22 33 12 23 31.
     pub stress: [f64; 6],
     pub energy: f64,
     pub failed: bool,
+    /// What friction has lost, of a law that loses any.
+    pub lost: Option<f64>,
 }
 
 impl Deck {
     /// The law at the rows' times.
     pub fn rows(&self, point: &Point) -> Vec<Row> {
         let history = self.history(point);
-        ROWS.iter().map(|part| history[(part * STEPS as f64).round() as usize]).map(Row::from).collect()
+        ROWS.iter().map(|part| history[(part * STEPS as f64).round() as usize]).collect()
     }
 
     /// When the point fails, and its energy then.
     pub fn failure(&self, point: &Point) -> Option<(f64, f64)> {
         let history = self.history(point);
-        history.iter().position(|step| step.3).map(|first| (history[first].0, history[first].2))
+        history.iter().find(|row| row.failed).map(|first| (first.time, first.energy))
     }
 
-    /// Time, stress, energy and failure in every step.
-    fn history(&self, point: &Point) -> Vec<(f64, [f64; 6], f64, bool)> {
+    /// The law in every step.
+    fn history(&self, point: &Point) -> Vec<Row> {
         let law = Law::new(point.law, &point.values, Rotation::Fibre, Criterion::LargestPrincipal).expect("a material");
         let material = Material {
             law,
@@ -69,16 +73,17 @@ impl Deck {
                 let answer = material.evaluate(&(point.path)(time), time, &memory, Request::ALL).expect("an answer");
                 memory = answer.memory;
                 let stress = answer.cauchy.map(|s| if s.abs() < 5e-5 { 0.0 } else { s });
-                (time, stress, material.energy(&memory), material.failed(&memory))
+                let (energy, failed) = (material.energy(&memory), material.failed(&memory));
+                Row { time, stress, energy, failed, lost: material.lost_energy(&memory) }
             })
             .collect()
     }
 }
 
-impl From<(f64, [f64; 6], f64, bool)> for Row {
-    fn from((time, stress, energy, failed): (f64, [f64; 6], f64, bool)) -> Row {
-        Row { time, stress, energy, failed }
-    }
+/// The law with friction, which has its name from the library's list.
+pub fn frictional() -> LawName {
+    let preset = PRESETS.iter().find(|preset| preset.name == "kevlar-km2-600-frictional").expect("the preset");
+    LawName::from(preset)
 }
 
 /// Points of time and value, straight in between.

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use nalgebra::Matrix3;
 use toron_materials::material::laws::LawName;
 
-use super::model::{Deck, Point, Table, interpolate, number};
+use super::model::{Deck, Point, Table, frictional, interpolate, number};
 
 pub fn read(text: &str) -> Deck {
     let lines: Vec<&str> = text.lines().filter(|line| !line.starts_with("//")).collect();
@@ -30,6 +30,7 @@ pub fn read(text: &str) -> Deck {
     let law = match one("@Behaviour<generic> ") {
         "'libtoron_mgis.so' 'ToronHyperelastic'" => LawName::Hyperelastic,
         "'libtoron_mgis.so' 'ToronLinearElastic'" => LawName::LinearElastic,
+        "'libtoron_mgis.so' 'ToronFrictional'" => frictional(),
         other => panic!("{other}"),
     };
     let properties: BTreeMap<&str, f64> =

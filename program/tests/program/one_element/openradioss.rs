@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use nalgebra::Vector3;
 use toron_materials::material::laws::LawName;
 
-use super::model::{Deck, Model, Table, columns, count, number};
+use super::model::{Deck, Model, Table, columns, count, frictional, number};
 
 /// A block: its keyword with the number cut off, the number, and its lines.
 struct Block<'a> {
@@ -35,10 +35,11 @@ fn blocks(text: &str) -> Vec<Block<'_>> {
 pub fn read(text: &str) -> Deck {
     assert!(text.starts_with("#RADIOSS STARTER\n"));
     let blocks = blocks(text);
-    const KNOWN: [&str; 13] = [
+    const KNOWN: [&str; 14] = [
         "/BEGIN",
         "/MAT/USER01",
         "/MAT/USER02",
+        "/MAT/USER03",
         "/PROP/TYPE14",
         "/PART",
         "/NODE",
@@ -128,7 +129,8 @@ fn material(block: Option<&Block>) -> (LawName, Vec<f64>) {
     let block = block.expect("the material");
     let (law, options) = match block.keyword {
         "/MAT/USER01" => (LawName::Hyperelastic, 1),
-        _ => (LawName::LinearElastic, 3),
+        "/MAT/USER02" => (LawName::LinearElastic, 3),
+        _ => (frictional(), 1),
     };
     assert_eq!(number(block.lines[1]), 1.3514e-9);
     let lines = &block.lines[2..];
