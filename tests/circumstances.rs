@@ -8,6 +8,7 @@ use nalgebra::Matrix3;
 use reinforced_solid::viscoelastic::ViscoelasticSolid;
 use toron::host::abaqus::{self, ExplicitLaw, StandardLaw, Vumat};
 use toron::host::calculix::{Behaviour, CalculixLaw};
+use toron::host::lsdyna::{self, UmatVector, UserRoutines, UtanVector, When};
 use toron::host::mgis::{BehaviourDataView, INTEGRATED, MESSAGE_CAPACITY, MgisLaw, StateView};
 use toron::law::block::{Circumstances, Points, Strides, components, components_mut};
 use toron::law::interface::Law;
@@ -77,7 +78,7 @@ fn the_stress_of_a_sudden_stretch_relaxes_in_a_umat() {
             circumstances: unsafe { abaqus::circumstances(time.as_ptr(), &dtime, &temp, &dtemp, &mut temperature) },
         };
         // SAFETY: arrays as long as the call says.
-        assert_eq!(unsafe { Viscoelastic::<f64>::umat(&call, null_mut(), 0) }, 0);
+        assert_eq!(unsafe { <Viscoelastic<f64> as StandardLaw>::umat(&call, null_mut(), 0) }, 0);
         time = time.map(|t| t + dtime);
         assert_exact([stress[0], stress[1], stress[2]], time[1] - SUDDEN, "UMAT");
         // The tangent against a step with another F from the same old state is a test of the law's, in `law/user`.
@@ -206,6 +207,39 @@ fn the_stress_of_a_sudden_stretch_relaxes_in_calculix() {
     }
 }
 
+/// An element of LS-DYNA, with F behind its history.
+#[test]
+fn the_stress_of_a_sudden_stretch_relaxes_in_ls_dyna() {
+    let (f, steps) = relaxation();
+    let (mut hsv, mut time) = ([0.0; STATE + 9], 0.0);
+    hsv[STATE..].copy_from_slice(f.as_slice());
+    for dt in steps {
+        time += dt;
+        let (mut sig, mut failel, mut es) = ([f64::NAN; 6], 7, [f64::NAN; 36]);
+        let call = lsdyna::Umat {
+            cm: VALUES.as_ptr(),
+            sig: sig.as_mut_ptr(),
+            hsv: hsv.as_mut_ptr(),
+            nhv: STATE as i32,
+            failel: &mut failel,
+        };
+        let when = When { time_increment: &raw const dt, ..When::UNKNOWN };
+        // SAFETY: arrays as long as the call says.
+        assert_eq!(unsafe { Viscoelastic::<f64>::umat_at(&call, &when, null_mut(), 0) }, 0);
+        assert_eq!(failel, 0);
+        assert_exact([sig[0], sig[1], sig[2]], time - SUDDEN, "LS-DYNA");
+        let tangent = lsdyna::Utan { cm: VALUES.as_ptr(), hsv: hsv.as_ptr(), nhv: STATE as i32, es: es.as_mut_ptr() };
+        // SAFETY: as above.
+        unsafe {
+            assert_eq!(Viscoelastic::<f64>::utan_at(&tangent, &when, null_mut(), 0), 0);
+            assert!(es.iter().all(|x| x.is_finite()) && es[0] > MU);
+            // Without its length the step is refused.
+            assert_eq!(<Viscoelastic<f64> as UserRoutines<f64>>::umat(&call, null_mut(), 0), status::BAD_ARGUMENT);
+            assert_eq!(Viscoelastic::<f64>::utan(&tangent, null_mut(), 0), status::BAD_ARGUMENT);
+        }
+    }
+}
+
 /// A law whose stress is made of what it reads: σ11 = time, σ22 = time increment, σ33 = k times the temperature.
 #[derive(Clone, Copy, Debug, Default)]
 struct Told;
@@ -316,6 +350,56 @@ fn a_law_is_not_evaluated_without_what_it_reads() {
     }
 }
 
+/// A block of LS-DYNA, more elements than are evaluated at once, not from the first one on.
+#[test]
+fn ls_dyna_tells_each_element_its_temperature() {
+    const NLQ: usize = 150;
+    let (nhv, first, last) = (3, 4, 147);
+    let mut hsvs = vec![0.0; (nhv + 9) * NLQ];
+    for (c, x) in Matrix3::<f64>::identity().iter().enumerate() {
+        hsvs[(nhv + c) * NLQ..][..NLQ].fill(*x);
+    }
+    let (mut sig, mut failels, mut dsave) = (vec![-7.0; 6 * NLQ], [7; NLQ], vec![0.0; 36 * NLQ]);
+    let temps: Vec<f64> = (0..NLQ).map(|i| 300.0 + i as f64).collect();
+    let (mut steps, tt, k, sigs) = ([0.25; NLQ], 4.0, 2.0, sig.as_mut_ptr());
+    // Those of elements that are not evaluated do not count.
+    (steps[first - 1], steps[last]) = (f64::NAN, 7.0);
+    let call = UmatVector {
+        cm: &raw const k,
+        sig: std::array::from_fn(|c| sigs.wrapping_add(c * NLQ)),
+        hsvs: hsvs.as_mut_ptr(),
+        nhv: nhv as i32,
+        lft: first as i32 + 1,
+        llt: last as i32,
+        nlq: NLQ as i32,
+        failels: failels.as_mut_ptr(),
+    };
+    let (hsvs_, dsave_) = (hsvs.as_ptr(), dsave.as_mut_ptr());
+    let UmatVector { cm, nhv, lft, llt, nlq, .. } = call;
+    let tangents = UtanVector { cm, hsvs: hsvs_, nhv, lft, llt, nlq, dsave: dsave_ };
+    let when = When { time_increment: steps.as_ptr(), time: &raw const tt, temperature: temps.as_ptr() };
+    // SAFETY: arrays as long as the calls say.
+    unsafe {
+        assert_eq!(User::<Told, f64>::umat_vector_at(&call, &when, null_mut(), 0), 0);
+        assert_eq!(User::<Told, f64>::utan_vector_at(&tangents, &when, null_mut(), 0), 0);
+    }
+    for i in 0..NLQ {
+        let told = [0, 1, 2].map(|c| sig[c * NLQ + i]);
+        let expected = if (first..last).contains(&i) { [4.0, 0.25, 2.0 * temps[i]] } else { [-7.0; 3] };
+        assert_eq!(told, expected, "element {i}");
+    }
+    let other = [vec![0.25; 100], vec![0.125; 50]].concat();
+    let when = When { time_increment: other.as_ptr(), ..when };
+    let mut text = [0 as c_char; 300];
+    // SAFETY: as above, and the message ends in a null.
+    let (code, text) = unsafe {
+        let code = User::<Told, f64>::umat_vector_at(&call, &when, text.as_mut_ptr(), text.len());
+        (code, CStr::from_ptr(text.as_ptr()).to_string_lossy().into_owned())
+    };
+    assert_eq!(code, status::BAD_ARGUMENT);
+    assert!(text.contains("dt1siz differs"), "{text}");
+}
+
 /// A law with a root in its stress, that of the first invariant less 3: 0 at rest, where its slope is infinite; or,
 /// with a property of 0, a quotient of 0 and 0.
 #[derive(Clone, Copy, Debug, Default)]
@@ -380,7 +464,7 @@ fn a_law_that_gives_no_numbers_at_rest_is_told_so() {
             circumstances: Circumstances::UNKNOWN,
         };
         // SAFETY: arrays as long as the call says.
-        let code = unsafe { User::<Rooted, f64>::umat(&call, text.as_mut_ptr(), text.len()) };
+        let code = unsafe { <User<Rooted, f64> as StandardLaw>::umat(&call, text.as_mut_ptr(), text.len()) };
         // SAFETY: the message ends in a null.
         let text = unsafe { CStr::from_ptr(text.as_ptr()) }.to_string_lossy();
         assert_eq!(code, status::PROPERTY_OUT_OF_BOUNDS, "{text}");

@@ -17,17 +17,21 @@ typedef double real;
 #define STEP 1e-5
 #endif
 
-#define UMAT IN_PRECISION(REINFORCED_lsdyna_umat)
-#define UMAT_VECTOR IN_PRECISION(REINFORCED_lsdyna_umat_vector)
-#define UTAN IN_PRECISION(REINFORCED_lsdyna_utan)
-#define UTAN_VECTOR IN_PRECISION(REINFORCED_lsdyna_utan_vector)
+#define UMAT IN_PRECISION(REINFORCED_lsdyna_umat_at)
+#define UMAT_VECTOR IN_PRECISION(REINFORCED_lsdyna_umat_vector_at)
+#define UTAN IN_PRECISION(REINFORCED_lsdyna_utan_at)
+#define UTAN_VECTOR IN_PRECISION(REINFORCED_lsdyna_utan_vector_at)
 #define BULK_AND_SHEAR IN_PRECISION(REINFORCED_lsdyna_bulk_and_shear)
 
-int32_t UMAT(const real *cm, real *sig, real *hsv, int32_t nhv, int *failel, char *message, size_t capacity);
+/* dt1, tt and temper, of a block dt1siz, tt and temps. This law reads none of them. */
+#define WHEN const real *step, const real *time, const real *temperature
+#define UNKNOWN NULL, NULL, NULL
+
+int32_t UMAT(const real *cm, real *sig, real *hsv, int32_t nhv, int *failel, WHEN, char *message, size_t capacity);
 int32_t UMAT_VECTOR(const real *cm, real *sig1, real *sig2, real *sig3, real *sig4, real *sig5, real *sig6, real *hsvs, int32_t nhv,
-                    int32_t lft, int32_t llt, int32_t nlq, int *failels, char *message, size_t capacity);
-int32_t UTAN(const real *cm, const real *hsv, int32_t nhv, real *es, char *message, size_t capacity);
-int32_t UTAN_VECTOR(const real *cm, const real *hsvs, int32_t nhv, int32_t lft, int32_t llt, int32_t nlq, real *dsave, char *message,
+                    int32_t lft, int32_t llt, int32_t nlq, int *failels, WHEN, char *message, size_t capacity);
+int32_t UTAN(const real *cm, const real *hsv, int32_t nhv, real *es, WHEN, char *message, size_t capacity);
+int32_t UTAN_VECTOR(const real *cm, const real *hsvs, int32_t nhv, int32_t lft, int32_t llt, int32_t nlq, real *dsave, WHEN, char *message,
                     size_t capacity);
 int32_t BULK_AND_SHEAR(const real *values, size_t count, real *bulk, real *shear, char *message, size_t capacity);
 
@@ -51,7 +55,7 @@ static void deform(real *hsv, int element)
 static void evaluate(real *hsv, real *sig)
 {
     int failed = -1;
-    CHECK(UMAT(card, sig, hsv, STATE, &failed, MESSAGE) == 0 && failed == 0, "%s", message);
+    CHECK(UMAT(card, sig, hsv, STATE, &failed, UNKNOWN, MESSAGE) == 0 && failed == 0, "%s", message);
 }
 
 /* Elements of a vector one by one, to the last digit; those around them are not touched. */
@@ -72,15 +76,15 @@ static void vector_is_scalar(void)
             hsvs[FIRST + i + j * NLQ] = hsv[j];
     }
     int32_t code = UMAT_VECTOR(card, sig[0], sig[1], sig[2], sig[3], sig[4], sig[5], hsvs, STATE, FIRST + 1, FIRST + ELEMENTS, NLQ,
-                               failed, MESSAGE);
+                               failed, UNKNOWN, MESSAGE);
     CHECK(code == 0, "%s", message);
-    code = UTAN_VECTOR(card, hsvs, STATE, FIRST + 1, FIRST + ELEMENTS, NLQ, dsave, MESSAGE);
+    code = UTAN_VECTOR(card, hsvs, STATE, FIRST + 1, FIRST + ELEMENTS, NLQ, dsave, UNKNOWN, MESSAGE);
     CHECK(code == 0, "%s", message);
     for (int i = 0; i < ELEMENTS; i++) {
         real hsv[HISTORY], stress[6], es[36];
         deform(hsv, i);
         evaluate(hsv, stress);
-        CHECK(UTAN(card, hsv, STATE, es, MESSAGE) == 0, "%s", message);
+        CHECK(UTAN(card, hsv, STATE, es, UNKNOWN, MESSAGE) == 0, "%s", message);
         for (int c = 0; c < 6; c++)
             CHECK(stress[c] == sig[c][FIRST + i], "element %d: %.17g, %.17g", i, (double)stress[c], (double)sig[c][FIRST + i]);
         for (int j = 0; j < HISTORY; j++)
@@ -101,7 +105,7 @@ static void tangent_is_that_of_differences(void)
         real hsv[HISTORY], sig[6], es[36], moved[2][6], worst = 0, largest = 0;
         deform(hsv, element);
         evaluate(hsv, sig);
-        CHECK(UTAN(card, hsv, STATE, es, MESSAGE) == 0, "%s", message);
+        CHECK(UTAN(card, hsv, STATE, es, UNKNOWN, MESSAGE) == 0, "%s", message);
         for (int q = 0; q < 6; q++) {
             real d[3][3] = {{0}};
             d[row[q]][column[q]] += (real)0.5;
@@ -134,14 +138,14 @@ static void failed_elements(void)
 {
     real hsv[HISTORY] = {0, 0, 0, 0, (real)1.3, 0, 0, 0, (real)1.3, 0, 0, 0, 1}, sig[6], es[36];
     int failed = -1;
-    CHECK(UMAT(card, sig, hsv, STATE, &failed, MESSAGE) == 0 && failed == 1 && hsv[2] == 1 && hsv[3] == 0, "%d", failed);
-    CHECK(UMAT(card, sig, hsv, STATE, &failed, MESSAGE) == 0 && failed == 1 && sig[0] == 0, "%g", (double)sig[0]);
-    CHECK(UTAN(card, hsv, STATE, es, MESSAGE) == 0 && es[0] == 0, "%g", (double)es[0]);
+    CHECK(UMAT(card, sig, hsv, STATE, &failed, UNKNOWN, MESSAGE) == 0 && failed == 1 && hsv[2] == 1 && hsv[3] == 0, "%d", failed);
+    CHECK(UMAT(card, sig, hsv, STATE, &failed, UNKNOWN, MESSAGE) == 0 && failed == 1 && sig[0] == 0, "%g", (double)sig[0]);
+    CHECK(UTAN(card, hsv, STATE, es, UNKNOWN, MESSAGE) == 0 && es[0] == 0, "%g", (double)es[0]);
     deform(hsv, 0);
     evaluate(hsv, sig);
     for (int j = 4; j < 7; j++)
         hsv[j] = -hsv[j];
-    int32_t code = UMAT(card, sig, hsv, STATE, &failed, MESSAGE);
+    int32_t code = UMAT(card, sig, hsv, STATE, &failed, UNKNOWN, MESSAGE);
     CHECK(code < -300 && failed == 1 && sig[0] == 0 && hsv[3] == 0, "%d, %d", (int)code, failed);
 }
 
@@ -165,20 +169,20 @@ static void wrong_cards(void)
     real hsv[HISTORY], sig[6], bulk, wrong[9];
     int failed = 0;
     deform(hsv, 0);
-    refused(UMAT(card, sig, hsv, 5, &failed, MESSAGE), "number of history variables, NHV, of the standard reinforcing model: 5 given, 4 needed");
+    refused(UMAT(card, sig, hsv, 5, &failed, UNKNOWN, MESSAGE), "number of history variables, NHV, of the standard reinforcing model: 5 given, 4 needed");
     memcpy(wrong, card, sizeof wrong);
     wrong[2] = -1;
-    refused(UMAT(wrong, sig, hsv, STATE, &failed, MESSAGE), "property 3 (k, stiffness of the fibres) is -1");
+    refused(UMAT(wrong, sig, hsv, STATE, &failed, UNKNOWN, MESSAGE), "property 3 (k, stiffness of the fibres) is -1");
     refused(BULK_AND_SHEAR(card, 8, &bulk, &bulk, MESSAGE), "8 given, 7 needed");
     memset(hsv, 0, sizeof hsv);
     const char *needed = "set IHYPER = 1 or -1, and NHV = 4 (standard reinforcing model)";
-    refused(UMAT(card, sig, hsv, STATE, &failed, MESSAGE), needed);
+    refused(UMAT(card, sig, hsv, STATE, &failed, UNKNOWN, MESSAGE), needed);
     /* F as it starts, where the card has another NHV. */
     for (int nhv = 0; nhv < 4; nhv++) {
         memset(hsv, 0, sizeof hsv);
         for (int k = 0; k < 3; k++)
             hsv[nhv + 4 * k] = 1;
-        refused(UMAT(card, sig, hsv, STATE, &failed, MESSAGE), needed);
+        refused(UMAT(card, sig, hsv, STATE, &failed, UNKNOWN, MESSAGE), needed);
     }
 }
 

@@ -1,7 +1,7 @@
 //! Any law as a user material of LS-DYNA, by its step.
 
 use super::message::History;
-use super::{Elements, Umat, UmatVector, Utan, UtanVector, element_range, law};
+use super::{Elements, Umat, UmatVector, Utan, UtanVector, When, element_range, law};
 use crate::host::entry_points::{check_pointers, from_entry, start_at_rest};
 use crate::law::block::{Precision, components, components_mut};
 use crate::law::error::Error;
@@ -17,11 +17,18 @@ const CHUNK: usize = 64;
 /// # Safety
 /// `cm` has the law's properties; the history and results of the elements may be written, and F is behind their
 /// history.
-unsafe fn evaluate<T: Precision, L: History<T>>(cm: *const T, nhv: i32, elements: &Elements<T>) -> Result<i32, Error> {
+unsafe fn evaluate<T: Precision, L: History<T>>(
+    cm: *const T,
+    nhv: i32,
+    elements: &Elements<T>,
+    when: &When<T>,
+) -> Result<i32, Error> {
     let Elements { leading_dimension: stride, first, count, .. } = *elements;
     // SAFETY: `cm` has the properties, and the first of the elements, of which `law` asks only if there is one, NHV + 9
     // variables.
     let law: L = unsafe { law(cm, nhv, count, |j| *elements.variable(j, first)) }?;
+    // SAFETY: the elements are those of the arguments.
+    let circumstances = unsafe { when.circumstances(first, count, &L::DESCRIPTION.reads) }?;
     let (mut worst, mut done) = (status::OK, 0);
     while done < count {
         let (start, n) = (first + done, CHUNK.min(count - done));
@@ -36,6 +43,7 @@ unsafe fn evaluate<T: Precision, L: History<T>>(cm: *const T, nhv: i32, elements
         let points = Points {
             f_old: components(row(L::DESCRIPTION.state.len()).cast_const(), stride),
             f_new: components(f.cast_const(), stride),
+            circumstances: circumstances.from(done),
             state_old: L::parts(row(0), stride),
             state_new: L::parts_mut(row(0), stride),
             stress: from_entry(elements.stress, start),
@@ -65,25 +73,25 @@ unsafe fn evaluate<T: Precision, L: History<T>>(cm: *const T, nhv: i32, elements
 ///
 /// # Safety
 /// The arrays are those that [`UmatVector`] promises.
-pub(super) unsafe fn vector<T: Precision, L: History<T>>(call: &UmatVector<T>) -> Result<i32, Error> {
+pub(super) unsafe fn vector<T: Precision, L: History<T>>(call: &UmatVector<T>, when: &When<T>) -> Result<i32, Error> {
     check_pointers(&[(call.cm, "cm")])?;
     let elements = Elements::new(call)?;
     // SAFETY: `check_pointers` has refused null; rows of `nlq` elements, of which these are some.
-    unsafe { evaluate::<T, L>(call.cm, call.nhv, &elements) }
+    unsafe { evaluate::<T, L>(call.cm, call.nhv, &elements, when) }
 }
 
 /// The material routine of one element.
 ///
 /// # Safety
 /// The arrays are those that [`Umat`] promises.
-pub(super) unsafe fn scalar<T: Precision, L: History<T>>(call: &Umat<T>) -> Result<i32, Error> {
+pub(super) unsafe fn scalar<T: Precision, L: History<T>>(call: &Umat<T>, when: &When<T>) -> Result<i32, Error> {
     let Umat { cm, sig, hsv, nhv, failel } = *call;
     check_pointers(&[(cm, "cm"), (sig, "sig"), (hsv, "hsv")])?;
     check_pointers(&[(failel.cast_const(), "failel")])?;
     let stress = components_mut(sig, 1);
     let elements = Elements { stress, history: hsv, leading_dimension: 1, first: 0, count: 1, failed: failel };
     // SAFETY: `check_pointers` has refused null; rows of one element.
-    unsafe { evaluate::<T, L>(cm, nhv, &elements) }
+    unsafe { evaluate::<T, L>(cm, nhv, &elements, when) }
 }
 
 /// The tangents of `count` elements from `first` on: of a step to F from the state that the material routine has
@@ -98,11 +106,14 @@ unsafe fn tangents<T: Precision, L: History<T>>(
     nhv: i32,
     [first, count, stride]: [usize; 3],
     dsave: *mut T,
+    when: &When<T>,
 ) -> Result<i32, Error> {
     let row = |variable: usize, start: usize| hsvs.wrapping_add(variable.wrapping_mul(stride).wrapping_add(start));
     // SAFETY: `cm` has the properties, and the first of the elements, of which `law` asks only if there is one, NHV + 9
     // variables.
     let law: L = unsafe { law(cm, nhv, count, |j| *row(j, first)) }?;
+    // SAFETY: the elements are those of the arguments.
+    let circumstances = unsafe { when.circumstances(first, count, &L::DESCRIPTION.reads) }?;
     let mut worst = status::OK;
     for i in first..first + count {
         let f = components(row(L::DESCRIPTION.history(), i), stride);
@@ -115,6 +126,7 @@ unsafe fn tangents<T: Precision, L: History<T>>(
         let point = Points {
             f_old: f,
             f_new: f,
+            circumstances: circumstances.from(i - first),
             state_old: L::parts(state, 1),
             state_new: L::parts_mut(state, 1),
             stress: components_mut(stress.as_mut_ptr(), 1),
@@ -139,18 +151,21 @@ unsafe fn tangents<T: Precision, L: History<T>>(
 
 /// # Safety
 /// The arrays are those that [`Utan`] promises.
-pub(super) unsafe fn scalar_tangent<T: Precision, L: History<T>>(call: &Utan<T>) -> Result<i32, Error> {
+pub(super) unsafe fn scalar_tangent<T: Precision, L: History<T>>(call: &Utan<T>, when: &When<T>) -> Result<i32, Error> {
     let Utan { cm, hsv, nhv, es } = *call;
     check_pointers(&[(cm, "cm"), (hsv, "hsv"), (es, "es")])?;
     // SAFETY: `check_pointers` has refused null; rows of one element.
-    unsafe { tangents::<T, L>(cm, hsv, nhv, [0, 1, 1], es) }
+    unsafe { tangents::<T, L>(cm, hsv, nhv, [0, 1, 1], es, when) }
 }
 
 /// # Safety
 /// The arrays are those that [`UtanVector`] promises.
-pub(super) unsafe fn vector_tangent<T: Precision, L: History<T>>(call: &UtanVector<T>) -> Result<i32, Error> {
+pub(super) unsafe fn vector_tangent<T: Precision, L: History<T>>(
+    call: &UtanVector<T>,
+    when: &When<T>,
+) -> Result<i32, Error> {
     let UtanVector { cm, hsvs, nhv, lft, llt, nlq, dsave } = *call;
     check_pointers(&[(cm, "cm"), (hsvs, "hsvs"), (dsave, "dsave")])?;
     // SAFETY: `check_pointers` has refused null; rows of `nlq` elements, of which these are some.
-    unsafe { tangents::<T, L>(cm, hsvs, nhv, element_range([lft, llt, nlq])?, dsave) }
+    unsafe { tangents::<T, L>(cm, hsvs, nhv, element_range([lft, llt, nlq])?, dsave, when) }
 }

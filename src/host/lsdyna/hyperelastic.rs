@@ -4,7 +4,7 @@ use core::cell::Cell;
 use core::ffi::c_int;
 
 use super::message::History;
-use super::{Umat, Utan, UtanVector, check_number, element_range, is_plausible, law, no_gradient};
+use super::{Umat, Utan, UtanVector, When, check_number, element_range, is_plausible, law, no_gradient};
 use crate::host::entry_points::{check_pointers, properties};
 use crate::host::points::PointAnswer;
 use crate::law::block::{Points, Precision, components};
@@ -81,7 +81,7 @@ impl<T: Scalar> Sink<T, 0> for Element<'_, T> {
 
 /// # Safety
 /// The arrays are those that [`Umat`] promises.
-pub(super) unsafe fn scalar<T: Registers + Precision>(call: &Umat<T>) -> Result<i32, Error> {
+pub(super) unsafe fn scalar<T: Registers + Precision>(call: &Umat<T>, _: &When<T>) -> Result<i32, Error> {
     let Umat { cm, sig, hsv, nhv, failel } = *call;
     // Each pointer is looked at only if one of them is null.
     if cm.is_null() | sig.is_null() | hsv.is_null() | failel.is_null() {
@@ -98,7 +98,7 @@ pub(super) unsafe fn scalar<T: Registers + Precision>(call: &Umat<T>) -> Result<
 
 /// # Safety
 /// The arrays are those that [`Utan`] promises.
-pub(super) unsafe fn scalar_tangent<T: Registers + Precision>(call: &Utan<T>) -> Result<i32, Error> {
+pub(super) unsafe fn scalar_tangent<T: Registers + Precision>(call: &Utan<T>, _: &When<T>) -> Result<i32, Error> {
     let Utan { cm, hsv, nhv, es } = *call;
     check_pointers(&[(cm, "cm"), (hsv, "hsv"), (es, "es")])?;
     // SAFETY: `check_pointers` has refused null; the arrays are those that `Utan` promises.
@@ -112,7 +112,7 @@ pub(super) unsafe fn scalar_tangent<T: Registers + Precision>(call: &Utan<T>) ->
 
 /// # Safety
 /// The arrays are those that [`UtanVector`] promises.
-pub(super) unsafe fn vector_tangent<T: Precision>(call: &UtanVector<T>) -> Result<i32, Error> {
+pub(super) unsafe fn vector_tangent<T: Precision>(call: &UtanVector<T>, _: &When<T>) -> Result<i32, Error> {
     let UtanVector { cm, hsvs, nhv, lft, llt, nlq, dsave } = *call;
     check_pointers(&[(cm, "cm"), (hsvs, "hsvs"), (dsave, "dsave")])?;
     let [start, count, stride] = element_range([lft, llt, nlq])?;

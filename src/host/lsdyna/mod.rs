@@ -23,6 +23,7 @@ mod hyperelastic;
 mod message;
 
 use core::ffi::c_int;
+use core::ptr::null;
 
 use libc::{c_char, size_t};
 
@@ -30,8 +31,8 @@ use message::History;
 
 use crate::host::ByStep;
 use crate::host::entry_points::{Message, check_pointers, entry, properties, stiffness_at_rest, store};
-use crate::law::block::Precision;
-use crate::law::description::Description;
+use crate::law::block::{Circumstances, Precision};
+use crate::law::description::{Description, Reads};
 use crate::law::error::Error;
 use crate::law::hyperelastic::Hyperelastic;
 use crate::law::interface::Law;
@@ -94,6 +95,48 @@ pub struct UtanVector<T> {
     pub dsave: *mut T,
 }
 
+/// When a step is, and how warm: `dt1`, `tt` and `temper` of an element; `dt1siz`, `tt` and `temps` of a block, whose
+/// first and last have `nlq` values. Null is not known; what a law does not read is not looked at.
+#[derive(Clone, Copy, Debug)]
+pub struct When<T> {
+    pub time_increment: *const T,
+    pub time: *const T,
+    pub temperature: *const T,
+}
+
+impl<T: Scalar> When<T> {
+    /// A caller that knows none of them.
+    pub const UNKNOWN: Self = When { time_increment: null(), time: null(), temperature: null() };
+
+    /// For `count` elements from `first` on, counted from 0, of a law that reads these.
+    ///
+    /// # Errors
+    /// The elements have steps of different lengths.
+    ///
+    /// # Safety
+    /// What is not null has a value for each of these elements, and `time` has one.
+    unsafe fn circumstances(&self, first: usize, count: usize, reads: &Reads) -> Result<Circumstances<T>, Error> {
+        let When { time_increment: steps, time, temperature } = *self;
+        let mut circumstances = Circumstances { temperature, ..Circumstances::UNKNOWN }.from(first);
+        // SAFETY: not null, and the elements are those of the arrays.
+        unsafe {
+            if reads.time_increment && !steps.is_null() && count > 0 {
+                let length = (*steps.add(first)).into();
+                if (first..first + count).any(|i| (*steps.add(i)).into() != length) {
+                    let text =
+                        "argument dt1siz differs between the elements of a block; allowed: one length of the step";
+                    return Err(Error::Setting { code: status::BAD_ARGUMENT, text });
+                }
+                circumstances.time_increment = length;
+            }
+            if reads.time && !time.is_null() {
+                circumstances.time = (*time).into();
+            }
+        }
+        Ok(circumstances)
+    }
+}
+
 /// A law as a user material of LS-DYNA. Its history is the law's state, the entries of F that are kept for it, and,
 /// behind these, F. The routines return the worst status code, with a message of at most `capacity` bytes unless
 /// `message` is null.
@@ -104,8 +147,18 @@ pub trait UserRoutines<T: Precision>: History<T> {
     /// The arrays are those that [`Umat`] promises, and `message` is null or has `capacity` bytes.
     #[inline(never)]
     unsafe fn umat(call: &Umat<T>, message: *mut c_char, capacity: size_t) -> i32 {
+        // SAFETY: the caller's.
+        unsafe { Self::umat_at(call, &When::UNKNOWN, message, capacity) }
+    }
+
+    /// The same, for a law that reads time or temperature.
+    ///
+    /// # Safety
+    /// As for [`umat`](Self::umat), and `when` is that of the arguments.
+    #[inline(never)]
+    unsafe fn umat_at(call: &Umat<T>, when: &When<T>, message: *mut c_char, capacity: size_t) -> i32 {
         // SAFETY: the arrays and the message are the caller's.
-        unsafe { entry(Message { text: message, capacity }, || any_law::scalar::<T, Self>(call)) }
+        unsafe { entry(Message { text: message, capacity }, || any_law::scalar::<T, Self>(call, when)) }
     }
 
     /// The vectorised one.
@@ -114,8 +167,18 @@ pub trait UserRoutines<T: Precision>: History<T> {
     /// As for [`umat`](Self::umat), with the arrays of [`UmatVector`].
     #[inline(never)]
     unsafe fn umat_vector(call: &UmatVector<T>, message: *mut c_char, capacity: size_t) -> i32 {
+        // SAFETY: the caller's.
+        unsafe { Self::umat_vector_at(call, &When::UNKNOWN, message, capacity) }
+    }
+
+    /// The same, for a law that reads time or temperature.
+    ///
+    /// # Safety
+    /// As for [`umat_vector`](Self::umat_vector), and `when` is that of the arguments.
+    #[inline(never)]
+    unsafe fn umat_vector_at(call: &UmatVector<T>, when: &When<T>, message: *mut c_char, capacity: size_t) -> i32 {
         // SAFETY: the arrays and the message are the caller's.
-        unsafe { entry(Message { text: message, capacity }, || any_law::vector::<T, Self>(call)) }
+        unsafe { entry(Message { text: message, capacity }, || any_law::vector::<T, Self>(call, when)) }
     }
 
     /// The tangent.
@@ -124,8 +187,18 @@ pub trait UserRoutines<T: Precision>: History<T> {
     /// As for [`umat`](Self::umat), with the arrays of [`Utan`].
     #[inline(never)]
     unsafe fn utan(call: &Utan<T>, message: *mut c_char, capacity: size_t) -> i32 {
+        // SAFETY: the caller's.
+        unsafe { Self::utan_at(call, &When::UNKNOWN, message, capacity) }
+    }
+
+    /// The same, for a law that reads time or temperature.
+    ///
+    /// # Safety
+    /// As for [`utan`](Self::utan), and `when` is that of the arguments.
+    #[inline(never)]
+    unsafe fn utan_at(call: &Utan<T>, when: &When<T>, message: *mut c_char, capacity: size_t) -> i32 {
         // SAFETY: the arrays and the message are the caller's.
-        unsafe { entry(Message { text: message, capacity }, || any_law::scalar_tangent::<T, Self>(call)) }
+        unsafe { entry(Message { text: message, capacity }, || any_law::scalar_tangent::<T, Self>(call, when)) }
     }
 
     /// The vectorised one.
@@ -134,8 +207,18 @@ pub trait UserRoutines<T: Precision>: History<T> {
     /// As for [`umat`](Self::umat), with the arrays of [`UtanVector`].
     #[inline(never)]
     unsafe fn utan_vector(call: &UtanVector<T>, message: *mut c_char, capacity: size_t) -> i32 {
+        // SAFETY: the caller's.
+        unsafe { Self::utan_vector_at(call, &When::UNKNOWN, message, capacity) }
+    }
+
+    /// The same, for a law that reads time or temperature.
+    ///
+    /// # Safety
+    /// As for [`utan_vector`](Self::utan_vector), and `when` is that of the arguments.
+    #[inline(never)]
+    unsafe fn utan_vector_at(call: &UtanVector<T>, when: &When<T>, message: *mut c_char, capacity: size_t) -> i32 {
         // SAFETY: the arrays and the message are the caller's.
-        unsafe { entry(Message { text: message, capacity }, || any_law::vector_tangent::<T, Self>(call)) }
+        unsafe { entry(Message { text: message, capacity }, || any_law::vector_tangent::<T, Self>(call, when)) }
     }
 
     /// The moduli that the card asks for, for contact and the time step.
@@ -339,25 +422,25 @@ macro_rules! compiled {
             #[inline(never)]
             unsafe fn umat(call: &Umat<$t>, message: *mut c_char, capacity: size_t) -> i32 {
                 // SAFETY: as in the trait.
-                unsafe { entry(Message { text: message, capacity }, || $module::scalar::<$($parameter),+>(call)) }
+                unsafe { entry(Message { text: message, capacity }, || $module::scalar::<$($parameter),+>(call, &When::UNKNOWN)) }
             }
 
             #[inline(never)]
             unsafe fn umat_vector(call: &UmatVector<$t>, message: *mut c_char, capacity: size_t) -> i32 {
                 // SAFETY: as in the trait.
-                unsafe { entry(Message { text: message, capacity }, || any_law::vector::<$t, Self>(call)) }
+                unsafe { entry(Message { text: message, capacity }, || any_law::vector::<$t, Self>(call, &When::UNKNOWN)) }
             }
 
             #[inline(never)]
             unsafe fn utan(call: &Utan<$t>, message: *mut c_char, capacity: size_t) -> i32 {
                 // SAFETY: as in the trait.
-                unsafe { entry(Message { text: message, capacity }, || $module::scalar_tangent::<$($parameter),+>(call)) }
+                unsafe { entry(Message { text: message, capacity }, || $module::scalar_tangent::<$($parameter),+>(call, &When::UNKNOWN)) }
             }
 
             #[inline(never)]
             unsafe fn utan_vector(call: &UtanVector<$t>, message: *mut c_char, capacity: size_t) -> i32 {
                 // SAFETY: as in the trait.
-                unsafe { entry(Message { text: message, capacity }, || $module::vector_tangent::<$($parameter),+>(call)) }
+                unsafe { entry(Message { text: message, capacity }, || $module::vector_tangent::<$($parameter),+>(call, &When::UNKNOWN)) }
             }
 
             #[inline(never)]

@@ -58,7 +58,9 @@ pub fn card(material: &Material, id: u32, number: Option<u32>, fibre: Fibre) -> 
     let [lmc, bulk, shear, nhv] = [count + 2, count + 1, count + 2, history].map(|number| number.to_string());
     let numbers = [&id, &number_of(density), &mt, &lmc, &nhv, ortho, &bulk, &shear].map(str::to_string);
     card += &lines("mid ro mt lmc nhv iortho ibulk ig", &numbers);
-    card += &lines("ivect ifail itherm ihyper ieos lmca", &["0", "1", "0", hyper, "0", "0"].map(String::from));
+    // Without itherm LS-DYNA does not tell the temperature.
+    let thermal = if material.law.description().reads.temperature { "1" } else { "0" };
+    card += &lines("ivect ifail itherm ihyper ieos lmca", &["0", "1", thermal, hyper, "0", "0"].map(String::from));
     match fibre {
         Fibre::Global => {}
         Fibre::Axes => card += &axes(material),
