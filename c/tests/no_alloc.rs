@@ -6,7 +6,7 @@ use std::ptr::{null, null_mut};
 use allocation_counter::measure;
 use toron::host::abaqus::{ExplicitLaw, StandardLaw, Vumat};
 use toron::host::calculix::{Behaviour, CalculixLaw};
-use toron::host::lsdyna::{Umat, UmatVector, UserRoutines, Utan, UtanVector};
+use toron::host::lsdyna::{Umat, UmatVector, UserRoutines, Utan, UtanVector, When};
 use toron::host::mgis::{BehaviourDataView, MgisLaw, StateView};
 use toron::host::openradioss::{Group, ListingLine, MaterialCard};
 use toron::host::{abaqus, calculix, mgis, openradioss};
@@ -874,6 +874,36 @@ frictional!(
     toron_frictional_block_f32,
     toron_frictional_block_with_properties_f32
 );
+
+/// A law that reads the length of the step, which is there, negative, or not known.
+#[test]
+fn lsdyna_with_a_time_increment() {
+    type Law = toron::user::User<reinforced_solid::viscoelastic::ViscoelasticSolid, f64>;
+    const NHV: i32 = 14;
+    let mut text = [0 as c_char; ROOM];
+    let (t, card) = (text.as_mut_ptr(), [3.0, 7.0, 11.0, 2.5]);
+    for step in [0.1, -1.0, f64::NAN] {
+        for when in [When { time_increment: &raw const step, ..When::UNKNOWN }, When::UNKNOWN] {
+            let (mut history, mut stress, mut moduli, mut failed) = ([0.0; 23], [0.0; 6], [0.0; 36], 0);
+            history[NHV as usize..].copy_from_slice(&REST);
+            let (cm, hsv, s, es) = (card.as_ptr(), history.as_mut_ptr(), stress.as_mut_ptr(), moduli.as_mut_ptr());
+            let (sig, failel) = ([0, 1, 2, 3, 4, 5].map(|c| s.wrapping_add(c)), &raw mut failed);
+            let element = Umat { cm, sig: s, hsv, nhv: NHV, failel };
+            let elements = UmatVector { cm, sig, hsvs: hsv, nhv: NHV, lft: 1, llt: 1, nlq: 1, failels: failel };
+            let tangent = Utan { cm, hsv, nhv: NHV, es };
+            let tangents = UtanVector { cm, hsvs: hsv, nhv: NHV, lft: 1, llt: 1, nlq: 1, dsave: es };
+            let is_right = !when.time_increment.is_null() && step > 0.0;
+            for code in [
+                quiet!(<Law as UserRoutines<f64>>::umat_at, &element, &when, t, ROOM),
+                quiet!(<Law as UserRoutines<f64>>::umat_vector_at, &elements, &when, t, ROOM),
+                quiet!(<Law as UserRoutines<f64>>::utan_at, &tangent, &when, t, ROOM),
+                quiet!(<Law as UserRoutines<f64>>::utan_vector_at, &tangents, &when, t, ROOM),
+            ] {
+                assert_eq!(code == 0, is_right, "{code} with a step of {step}");
+            }
+        }
+    }
+}
 
 #[test]
 fn a_umat_that_tells_its_losses() {

@@ -36,10 +36,10 @@ fn libraries_for_abaqus() {
 fn libraries_of_a_law_of_ones_own() {
     let standard = " toron, material REINFORCED_YARN-2: property 3 (k, stiffness of the fibres) is -1.0; allowed: a number from 0 to 1e25\n \
         toron, material REINFORCED_YARN-2: number of state variables (*DEPVAR): 3 given, 4 needed\n \
-        toron, material YARN: the name of a material begins with that of its law: REINFORCED, VISCOELASTIC\n";
+        toron, material YARN: the name of a material begins with that of its law: REINFORCED, VISCOELASTIC, PLASTIC\n";
     let explicit = " toron, material REINFORCED-1: properties 5 to 7 (fibre direction) are 0.0, 0.0, 0.0; allowed: any vector but zero\n \
         toron, material REINFORCED-1: number of state variables (*DEPVAR): 3 given, 4 needed\n \
-        toron, material REINFORCE: the name of a material begins with that of its law: REINFORCED, VISCOELASTIC\n";
+        toron, material REINFORCE: the name of a material begins with that of its law: REINFORCED, VISCOELASTIC, PLASTIC\n";
     for (options, library) in PRECISIONS.into_iter().zip(["libown_law_double.so", "libown_law_single.so"]) {
         let text = written(&[options, &["-DREINFORCED"]].concat(), &OWN_LAW.join(library));
         assert_eq!(text, if options.is_empty() { format!("{standard}{explicit}") } else { explicit.to_owned() });

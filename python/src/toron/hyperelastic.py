@@ -14,8 +14,8 @@ from toron.law import LEVELS, POINTS, STATUS, SUFFIX, TANGENTS, Law, Level, Poin
 from toron.placement import Member
 
 _F = Member("deformation_gradient", (3, 3), "deformation_gradient", separate=True, order=(1, 0))
-#: What a point may have of its own: an array for all points, or one value for each of them.
-_OWN = {"fibre": Member("fibre", (3,), "fibre", separate=True), "limit": Member("limit", (), "limit")}
+#: What a point may have of its own, in the order of the inputs: an array for all points, or one value for each of them.
+_OWN = (Member("fibre", (3,), "fibre", separate=True), Member("limit", (), "limit"))
 #: The parts of the state, in its order.
 _PARTS = ("energies", "invariants", "failure")
 
@@ -88,8 +88,7 @@ class _Yarn(Law):
 
         Raises `ArgumentError` for an argument, `PointError` for points that cannot be evaluated (all others have been written).
         """
-        own = {"fibre": fibre, "limit": limit}
-        return self._evaluate((F, state, state_old, own), out, outputs, (tangent, density, points, level))
+        return self._evaluate((F, state, state_old, fibre, limit), out, outputs, (tangent, density, points, level))
 
     def bind(
         self,
@@ -111,8 +110,7 @@ class _Yarn(Law):
         Every call reads and writes these arrays as they are then, checks nothing but their contents and that they have not been resized,
         and returns the same arrays.
         """
-        own = {"fibre": fibre, "limit": limit}
-        return self._bind((F, state, state_old, own), out, outputs, (tangent, density, points, level), frozen=False).for_later()
+        return self._bind((F, state, state_old, fibre, limit), out, outputs, (tangent, density, points, level), frozen=False).for_later()
 
     def stress(self, F: ArrayLike, *, out: np.ndarray | None = None, **arguments: Any) -> NDArray[Any]:
         """The Cauchy stress, 11 22 33 12 23 31: (…, 6), or (6, …) with `points="last"`; arguments as for `evaluate`."""
@@ -129,14 +127,14 @@ class _Yarn(Law):
         return out
 
     def _bind(self, inputs: tuple[Any, ...], out: Any, outputs: Any, options: tuple[Any, ...], frozen: bool = True) -> Call:
-        F, state, state_old, own = inputs
+        F, state, state_old, *own = inputs
         tangent, density, points, level = options
         wanted = arrays.names(outputs, out, self._outputs)
         given = dict(out or {})
         placed = arrays.Arrays("F", _F, F, choice("points", points, POINTS) == 1, frozen)
-        for name, member in _OWN.items():
-            if own[name] is not None:
-                placed.put(member, placed.one_for_all(name, member, own[name]))
+        for member, values in zip(_OWN, own, strict=True):
+            if values is not None:
+                placed.put(member, placed.one_for_all(member.name, member, values))
         block = structure(f"toron_block_{SUFFIX[placed.dtype]}")
         block.level = choice("level", level, LEVELS)
         block.measure = choice("tangent", tangent, TANGENTS)
