@@ -307,6 +307,7 @@ fn cards_have_the_law_s_names_and_counts() {
                 "standard reinforcing model, in mm, tonne, s\n",
                 "         k stretch_l       m_1",
                 "       m_3      bulk\n",
+                "\n         0         1         0         1         0         0\n",
             ],
         ),
     ] {
@@ -325,7 +326,7 @@ fn cards_have_the_law_s_names_and_counts() {
     );
 }
 
-/// A law of two directions, for its card alone.
+/// A law of two directions that reads the temperature, for its card alone.
 #[derive(Clone, Copy, Debug, Default)]
 struct Crossed;
 
@@ -348,7 +349,7 @@ impl UserMaterial for Crossed {
         failed: 0,
         alive: 1,
         energies: 0..0,
-        reads: Reads::NOTHING,
+        reads: Reads { temperature: true, ..Reads::NOTHING },
         lost: None,
         refusal: None,
     };
@@ -382,6 +383,8 @@ fn a_card_in_material_axes_turns_all_directions() {
     };
     let has = |lines: &[String], start: &str| lines.iter().any(|line| line.starts_with(start));
     assert!(has(&lines(&[]), "2.0 0.0 0.0 2.0 0.0 3.0 3.0 "), "{:?}", lines(&[]));
+    // ivect ifail itherm ihyper ieos lmca: LS-DYNA is to tell the temperature.
+    assert!(has(&lines(&[]), "0 1 1 1 0 0"), "{:?}", lines(&[]));
     let turned = lines(&["--axes"]);
     // m along the first axis, n with as much along it as along the second.
     assert!(has(&turned, "2.0 1.0 0.0 0.0 3.0 3.0 0.0 "), "{turned:?}");

@@ -95,8 +95,8 @@ pub struct UtanVector<T> {
     pub dsave: *mut T,
 }
 
-/// When a step is, and how warm: `dt1`, `tt` and `temper` of an element; `dt1siz`, `tt` and `temps` of a block, whose
-/// first and last have `nlq` values. Null is not known; what a law does not read is not looked at.
+/// When a step is, and how warm: `dt1`, `tt` and `temper` of an element; of a block `dt1siz` and `temps`, with a value
+/// for each of its `nlq` elements, and `tt`. Null is not known; what a law does not read is not looked at.
 #[derive(Clone, Copy, Debug)]
 pub struct When<T> {
     pub time_increment: *const T,
@@ -122,7 +122,8 @@ impl<T: Scalar> When<T> {
         unsafe {
             if reads.time_increment && !steps.is_null() && count > 0 {
                 let length = (*steps.add(first)).into();
-                if (first..first + count).any(|i| (*steps.add(i)).into() != length) {
+                // A length that is no number is left to the law, which says that it is not known.
+                if !length.is_nan() && (first..first + count).any(|i| (*steps.add(i)).into() != length) {
                     let text =
                         "argument dt1siz differs between the elements of a block; allowed: one length of the step";
                     return Err(Error::Setting { code: status::BAD_ARGUMENT, text });

@@ -211,7 +211,7 @@ impl<T: Scalar> Points<T> {
                 // are all 0 is 0.
                 unsafe {
                     match old.is_null() {
-                        true => copy.write_bytes(0, read * C::COUNT),
+                        true => copy.write_bytes(0, components * C::COUNT),
                         false => copies.read((old, self.leading_dimension), self.strides.state, read, copy),
                     }
                 }

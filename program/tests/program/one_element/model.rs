@@ -80,7 +80,7 @@ impl Deck {
     }
 }
 
-/// The law with friction, which has its name from the library's list.
+/// The law with friction, which the program knows by the library's list of laws alone.
 pub fn frictional() -> LawName {
     let preset = PRESETS.iter().find(|preset| preset.name == "kevlar-km2-600-frictional").expect("the preset");
     LawName::from(preset)
