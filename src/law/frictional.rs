@@ -39,7 +39,7 @@ use super::kinematics::{Section, Strain, Unimodular};
 use super::number::elementary::sinh_and_exp_of_minus;
 use super::number::real::Real;
 use super::parameters::{self, FRICTIONAL_PROPERTIES, HYPERELASTIC_PROPERTIES};
-use super::resistance::Resistance;
+use super::resistance::{Resistance, ShearLimit};
 use super::state::{FRICTIONAL_PARTS, FRICTIONAL_STATE};
 use super::status;
 
@@ -96,6 +96,11 @@ unsafe impl<T: Precision> Law<T> for Frictional<T> {
     /// Fibres that slide hold less.
     fn resistance(&self) -> Resistance {
         Hyperelastic::resistance(&self.elastic)
+    }
+
+    /// What the fibres hold themselves.
+    fn shear_limit(&self) -> Option<ShearLimit> {
+        Some(ShearLimit::new([self.elastic.p, self.friction.mu, self.friction.cohesion]))
     }
 
     unsafe fn step(&self, points: &Points<T>) -> Result<i32, Error> {

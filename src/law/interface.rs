@@ -8,7 +8,7 @@ use super::description::{self, Description};
 use super::error::Error;
 use super::hyperelastic::Hyperelastic;
 use super::linear_elastic::LinearElastic;
-use super::resistance::Resistance;
+use super::resistance::{Resistance, ShearLimit};
 use super::state::{HYPERELASTIC_PARTS, HYPERELASTIC_STATE, LINEAR_ELASTIC_STATE};
 
 /// A law, prepared from its properties.
@@ -52,6 +52,12 @@ pub unsafe trait Law<T: Precision>: Copy {
     /// that of the isotropic solid of [`bulk_and_shear`](Self::bulk_and_shear).
     fn resistance(&self) -> Resistance {
         Resistance::isotropic(self.bulk_and_shear())
+    }
+
+    /// The most shear that artificial viscosity and hourglass control may add to that of a section whose fibres slide;
+    /// none where nothing slides.
+    fn shear_limit(&self) -> Option<ShearLimit> {
+        None
     }
 
     /// The worst status code of a call: as an error where there is more to say than the code does.

@@ -6,13 +6,16 @@ use serde::{Deserialize, Serialize};
 
 use super::element::{Measures, Shapes};
 use super::instructions::{Loops, run_widest};
-use super::lanes::{LANES, Lanes, Number};
+use super::lanes::{LANES, Lanes, Number, largest};
 use super::medium::{Entry, Medium};
 use super::own::Elements;
+use super::rows::Rows;
+use super::sliding;
 use super::solid::{self, SOLID_VON_MISES, SOLID_WORK};
 use super::stress::{Points, nominal_stress};
 use super::viscosity::Viscosity;
 use super::wave_bounds::{Section, bounds_at};
+use toron::law::resistance::ShearLimit;
 use toron::law::state::{FAILURE_INDEX, FRICTIONAL_FAILED, INVARIANTS, LINEAR_LARGEST, LINEAR_STRESS, LINEAR_WORK};
 use toron::law::status;
 use toron_c::{LinearElasticLaw, TORON_CRITERION_FIBRE};
@@ -33,6 +36,8 @@ pub struct Scratch<T> {
     nominal: Vec<T>,
     measures: Measures<T>,
     wave_speed: Vec<T>,
+    /// The shear that a section holds which slides.
+    shear_limit: Vec<T>,
     /// 1 where an element's own step is too short.
     collapsed: Vec<T>,
     status: Vec<i32>,
@@ -48,6 +53,7 @@ impl<T: Number> Default for Scratch<T> {
             nominal: array(9),
             measures: Measures::new(BLOCK),
             wave_speed: array(1),
+            shear_limit: array(1),
             collapsed: array(1),
             status: vec![0; BLOCK],
         }
@@ -75,7 +81,7 @@ pub struct StepOptions {
 /// Sums over the blocks in a step.
 #[derive(Clone, Debug, Default)]
 pub struct Sums {
-    /// Energy that viscosity has dissipated.
+    /// Energy that viscosity has dissipated, and hourglass control where it slides.
     pub viscosity: f64,
     /// Energy in hourglass modes, and the part of it that elements deleted in this step release.
     pub hourglass: f64,
@@ -93,6 +99,7 @@ pub struct Sums {
 struct Deform<'a, T> {
     shapes: &'a Shapes<T>,
     displacement: &'a [[T; 3]],
+    slid: &'a Rows<T>,
     scratch: &'a mut Scratch<T>,
 }
 
@@ -110,7 +117,7 @@ impl<T: Number> Loops for Deform<'_, T> {
     #[inline(always)]
     fn run(self) {
         let Scratch { deformation_gradient, modal, .. } = self.scratch;
-        self.shapes.deform(self.displacement, deformation_gradient, modal);
+        self.shapes.deform(self.displacement, self.slid, deformation_gradient, modal);
     }
 }
 
@@ -121,15 +128,24 @@ impl<T: Number> Loops for Forces<'_, T> {
         block.shapes.measure(&scratch.deformation_gradient, &mut scratch.measures);
         let StepOptions { step, .. } = options;
         let ElementBlock { shapes, history, .. } = &mut *block;
-        sums.viscosity += history.viscosity.advance(medium, shapes, &mut scratch.measures, &history.intact, step);
-        block.bound_step(medium, scratch, options);
+        let Scratch { measures, deformation_gradient, modal, shear_limit, .. } = &mut *scratch;
+        let limit = if history.slid.is_empty() { &[][..] } else { &shear_limit[..] };
+        sums.viscosity += history.viscosity.advance(medium, shapes, measures, &history.intact, limit, step);
+        let mut shared = 0.0;
+        if !history.slid.is_empty() {
+            let of = sliding::Elements { f: deformation_gradient, measures, intact: &history.intact, limit };
+            let slid = sliding::slide([medium.hourglass, medium.least_shear], shapes, of, &mut history.slid, modal);
+            (sums.viscosity, shared) = (sums.viscosity + slid.lost, slid.shared);
+        }
+        block.bound_step(medium, scratch, options, shared);
         let point = Points {
             deformation_gradient: &scratch.deformation_gradient,
             stress: &scratch.stress,
             viscosity: &block.history.viscosity,
         };
         nominal_stress(block.shapes.stride, &point, &mut scratch.nominal);
-        block.shapes.forces(&scratch.nominal, &scratch.modal, &block.history.intact, forces);
+        let History { intact, slid, .. } = &block.history;
+        block.shapes.forces(&scratch.nominal, &scratch.modal, intact, slid, forces);
     }
 }
 
@@ -161,6 +177,8 @@ pub struct History<T> {
     /// 1, or 0 once the element is deleted.
     pub intact: Vec<T>,
     viscosity: Viscosity<T>,
+    /// Of hourglass control where sections slide, see [`sliding`](super::sliding); else empty.
+    slid: Rows<T>,
     /// The deformation gradient at the start of the step, of the linear elastic law and of laws of one's own.
     f_old: Vec<T>,
 }
@@ -183,6 +201,7 @@ impl<T: Number> ElementBlock<T> {
                 state: vec![T::default(); of.state().0 * stride],
                 intact: vec![one; stride],
                 viscosity: Viscosity::new(&shapes),
+                slid: if of.shear_limit.is_some() { sliding::fresh(shapes.n) } else { Rows::new(0, 0) },
                 f_old: shapes.at_rest(),
             },
             limit: Vec::new(),
@@ -209,7 +228,7 @@ impl<T: Number> ElementBlock<T> {
         options: StepOptions,
         sums: &mut Sums,
     ) {
-        run_widest(Deform { shapes: &self.shapes, displacement, scratch });
+        run_widest(Deform { shapes: &self.shapes, displacement, slid: &self.history.slid, scratch });
         let start = Instant::now();
         let code = self.call_law(medium, scratch, options);
         sums.refused = sums.refused.or(refused(code));
@@ -219,6 +238,7 @@ impl<T: Number> ElementBlock<T> {
         let others = sums.deleted.len();
         self.delete(medium, scratch, sums, |block, scratch, i| scratch.status[i] != status::OK && block.is_intact(i));
         sums.collapsed += sums.deleted.len() - others;
+        self.limit_shear(medium, scratch);
         run_widest(Forces { block: self, medium, scratch, options, sums, forces });
         let (latch, stride) = (medium.state().1, self.shapes.stride);
         self.delete(medium, scratch, sums, |block, _, i| {
@@ -277,6 +297,16 @@ impl<T: Number> ElementBlock<T> {
         }
     }
 
+    /// The shear that the sections hold, by the law and the state that it has left.
+    fn limit_shear(&self, medium: &Medium<T>, scratch: &mut Scratch<T>) {
+        if let Some(limit) = &medium.shear_limit {
+            for i in 0..self.shapes.n {
+                let at = limit.at(self.variable(ShearLimit::ENERGY, i), self.variable(ShearLimit::INVARIANT, i));
+                scratch.shear_limit[i] = T::from_f64(at);
+            }
+        }
+    }
+
     /// The arrays of a yarn law.
     fn solver_block<'a>(
         &'a mut self,
@@ -331,10 +361,11 @@ impl<T: Number> ElementBlock<T> {
     /// have the stiffnesses (A + B) m·S m and B S_t at most, S being that of [`Measures`], and each its own damping;
     /// the largest eigenvalue of the pair is that of a 2 × 2 matrix.
     #[inline(always)]
-    fn bound_step(&mut self, medium: &Medium<T>, scratch: &mut Scratch<T>, options: StepOptions) {
+    fn bound_step(&mut self, medium: &Medium<T>, scratch: &mut Scratch<T>, options: StepOptions, shared: f64) {
         let (one, four) = (Lanes::constant(1.0), Lanes::constant(4.0));
         let StepOptions { shortest, reference, .. } = options;
-        let [own, shared] = self.shapes.hourglass_frequency;
+        let [own, at_rest] = self.shapes.hourglass_frequency;
+        let shared = largest(at_rest, shared);
         let [own, shared] = match self.shapes.lightest {
             None => [own, shared],
             // Unlike masses couple the modes with linear fields.
@@ -418,7 +449,7 @@ impl<T: Number> ElementBlock<T> {
     /// The law's code where it refuses its call.
     pub fn stress(&self, medium: &Medium<T>, displacement: &[[T; 3]]) -> Result<Vec<[f64; 6]>, i32> {
         let mut scratch = Scratch::default();
-        run_widest(Deform { shapes: &self.shapes, displacement, scratch: &mut scratch });
+        run_widest(Deform { shapes: &self.shapes, displacement, slid: &self.history.slid, scratch: &mut scratch });
         let options = StepOptions {
             law_outputs: false,
             energy_balance: false,

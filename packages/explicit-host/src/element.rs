@@ -13,6 +13,7 @@ use std::ops::{Add, Sub};
 
 use super::lanes::{LANES, Lanes, Number, cross, dot, load};
 use super::rows::Rows;
+use super::sliding::SLIP;
 
 /// The modes that are sums with the signs of one coordinate.
 const LINEAR: [usize; 3] = [1, 2, 4];
@@ -240,9 +241,10 @@ impl<T: Number> Shapes<T> {
         self.volume(element) / 8.0
     }
 
-    /// F by columns and the hourglass modes of the displacement, all elements.
+    /// F by columns and the hourglass modes of the displacement, all elements. `slid` is the history of
+    /// [sliding](super::sliding), or empty.
     #[inline(always)]
-    pub fn deform(&self, displacement: &[[T; 3]], f: &mut [T], modal: &mut [T]) {
+    pub fn deform(&self, displacement: &[[T; 3]], slid: &Rows<T>, f: &mut [T], modal: &mut [T]) {
         let stride = self.stride;
         let (zero, one) = (Lanes::zero(), Lanes::constant(1.0));
         for group in 0..stride / LANES {
@@ -250,6 +252,7 @@ impl<T: Number> Shapes<T> {
             let nodes = &self.nodes[first..first + LANES];
             let b: [Lanes<T>; 9] = self.constants.at(INVERSE, first);
             let r: [Lanes<T>; 12] = self.constants.at(HOURGLASS_OF_X, first);
+            let slip = self.slip(slid, first);
             let mut axes = [zero, zero, zero, zero, zero, zero, zero, zero, zero];
             if self.axes.is_empty() {
                 (axes[0], axes[4], axes[8]) = (one, one, one);
@@ -266,7 +269,13 @@ impl<T: Number> Shapes<T> {
                 }
                 for mode in 0..4 {
                     let linear = h[0] * r[mode] + h[1] * r[mode + 4] + h[2] * r[mode + 8];
-                    (m[HOURGLASS[mode]] - linear).store(modal, (mode + 4 * i) * stride + first);
+                    let mut amplitude = m[HOURGLASS[mode]] - linear;
+                    if !slid.is_empty() {
+                        for j in 0..3 {
+                            amplitude = amplitude - (axes[i + 3 * j] + h[j]) * slip[mode + 4 * j];
+                        }
+                    }
+                    amplitude.store(modal, (mode + 4 * i) * stride + first);
                 }
             }
         }
@@ -275,13 +284,19 @@ impl<T: Number> Shapes<T> {
     /// Adds the elements' forces to the nodes', from P and the amplitudes of the hourglass modes, which only intact
     /// elements (1, others 0) hold.
     #[inline(always)]
-    pub fn forces(&self, nominal: &[T], modal: &[T], intact: &[T], forces: &mut [[T; 3]]) {
+    pub fn forces(&self, nominal: &[T], modal: &[T], intact: &[T], slid: &Rows<T>, forces: &mut [[T; 3]]) {
         let stride = self.stride;
         for group in 0..stride / LANES {
             let first = group * LANES;
             let p: [Lanes<T>; 9] = load(nominal, stride, first);
             let b: [Lanes<T>; 9] = self.constants.at(INVERSE, first);
-            let r: [Lanes<T>; 12] = self.constants.at(HOURGLASS_OF_X, first);
+            let mut r: [Lanes<T>; 12] = self.constants.at(HOURGLASS_OF_X, first);
+            if !slid.is_empty() {
+                let slip = self.slip(slid, first);
+                for c in 0..12 {
+                    r[c] = r[c] + slip[c];
+                }
+            }
             let [volume, stiffness] = self.constants.at(VOLUME, first);
             let [intact] = load(intact, stride, first);
             let k = stiffness * intact;
@@ -307,6 +322,39 @@ impl<T: Number> Shapes<T> {
             }
             self.scatter(&nodal, first, forces);
         }
+    }
+
+    /// What the hourglass modes of the reference placement have slid by; 0 where nothing slides.
+    #[inline(always)]
+    fn slip(&self, slid: &Rows<T>, first: usize) -> [Lanes<T>; 12] {
+        if slid.is_empty() { [Lanes::zero(); 12] } else { slid.at(SLIP, first) }
+    }
+
+    /// What hourglass modes resist of linear fields once they have slid: the second of `hourglass_frequency`, over
+    /// the stiffness by volume.
+    #[inline(always)]
+    pub fn shed(&self, slip: &[Lanes<T>; 12], first: usize) -> Lanes<T> {
+        let b: [Lanes<T>; 9] = self.constants.at(INVERSE, first);
+        let r: [Lanes<T>; 12] = self.constants.at(HOURGLASS_OF_X, first);
+        let (eight, mut sum) = (Lanes::constant(8.0), Lanes::zero());
+        for mode in 0..4 {
+            for k in 0..3 {
+                let mut shed = Lanes::zero();
+                for j in 0..3 {
+                    shed = shed + (r[mode + 4 * j] + slip[mode + 4 * j]) * b[3 * j + k];
+                }
+                sum = sum + shed * shed;
+            }
+        }
+        let shed = eight * sum;
+        eight * (shed + (eight * shed).sqrt())
+    }
+
+    /// The stiffness against the hourglass modes over the volume.
+    #[inline(always)]
+    pub fn stiffness_by_volume(&self, first: usize) -> Lanes<T> {
+        let [volume, stiffness] = self.constants.at(VOLUME, first);
+        stiffness / volume.max(Lanes::splat(T::from_f64(f64::from(f32::MIN_POSITIVE))))
     }
 
     /// In the order of the elements, so that a run repeats bit by bit.
@@ -477,7 +525,7 @@ mod tests {
 
     fn deform(shapes: &Shapes<f64>, displacement: &[[f64; 3]]) -> State {
         let mut state = State { f: vec![0.0; 9 * shapes.stride], modal: vec![0.0; 12 * shapes.stride] };
-        shapes.deform(displacement, &mut state.f, &mut state.modal);
+        shapes.deform(displacement, &Rows::new(0, 0), &mut state.f, &mut state.modal);
         state
     }
 
@@ -494,7 +542,7 @@ mod tests {
         let point = Points { deformation_gradient: &state.f, stress: &stress, viscosity: &viscosity };
         nominal_stress(shapes.stride, &point, &mut nominal);
         let mut forces = vec![[0.0; 3]; NODES.len()];
-        shapes.forces(&nominal, &state.modal, &intact, &mut forces);
+        shapes.forces(&nominal, &state.modal, &intact, &Rows::new(0, 0), &mut forces);
         forces
     }
 

@@ -25,6 +25,7 @@ pub mod mutual_contact;
 pub mod own;
 pub mod rows;
 pub mod shreds;
+pub mod sliding;
 pub mod snapshot;
 pub mod solid;
 pub mod solver;

@@ -3,10 +3,11 @@
 
 use super::lanes::Number;
 use super::own::OwnEntry;
+use super::sliding::LEAST;
 use super::solid::{SOLID_FAILED, SOLID_STATE, Solid};
 use super::wave_bounds::wave_bounds;
 use toron::law::description;
-use toron::law::resistance::Resistance;
+use toron::law::resistance::{Resistance, ShearLimit};
 use toron::law::wave_bounds::WaveBounds;
 use toron::{Criterion, Rotation};
 use toron_c::{FrictionalLaw, HyperelasticLaw, LinearElasticLaw, TORON_CRITERION_FIBRE, TORON_CRITERION_PRINCIPAL};
@@ -55,6 +56,10 @@ pub struct Medium<T> {
     pub control: Control,
     /// The modulus of hourglass control.
     pub hourglass: f64,
+    /// What viscosity of the shape and hourglass control across the fibre stay below, of a section that slides.
+    pub shear_limit: Option<ShearLimit>,
+    /// What hourglass control may hold in any case.
+    pub least_shear: f64,
     pub bounds: WaveBounds,
     /// Whether elements may fail, and the linear elastic law's stress at failure.
     pub fails: bool,
@@ -110,6 +115,8 @@ impl<T: Number> Medium<T> {
             density,
             control,
             hourglass: control.hourglass * hourglass,
+            shear_limit: material.law.shear_limit(),
+            least_shear: LEAST * hourglass,
             bounds: if control.by_direction { wave_bounds(material) } else { WaveBounds::Isotropic },
             fails: material.can_fail(),
             strength,
@@ -127,6 +134,8 @@ impl<T: Number> Medium<T> {
             density,
             control,
             hourglass: control.hourglass * solid.g_23,
+            shear_limit: None,
+            least_shear: 0.0,
             bounds: WaveBounds::Isotropic,
             fails: false,
             strength: 0.0,

@@ -8,7 +8,8 @@
 //! c1 c ε̇), η = ρ l c3 c and the element's length or breadth l at rest: what has collapsed is damped all the more.
 //! Along the fibre ε̇ = −D_mm, and the linear term resists stretching as well, so that fronts do not ring. Across it ε̇
 //! = −tr D̄ counts in compression only: swelling, which the law leaves free, stays so. A change of shape is resisted
-//! with the speed of distortion's wave, or the section would ring long after the kink has wrenched it.
+//! with the speed of distortion's wave, or the section would ring long after the kink has wrenched it; of a section
+//! whose fibres slide with no more than what they hold, half the difference of the section's principal stresses.
 //!
 //! D̄ follows from the metric of the section, C̄: the products of F's second and third column, less their parts along
 //! the first. With half its rate the stress R̄ is conjugate that is kept here.
@@ -19,6 +20,7 @@ use super::element::{Measures, Shapes};
 use super::lanes::{LANES, Lanes, Number, load};
 use super::medium::Medium;
 use super::rows::Rows;
+use super::sliding::part_held;
 
 /// Rows of the viscosity's history. Its stress, compression positive: along the fibre as a multiple of F's first
 /// column, q_m J/Λ with the square Λ of the stretch, and 22 33 23 of the section's R̄. Then Λ and the section's metric.
@@ -80,7 +82,8 @@ impl<T: Number> Viscosity<T> {
     }
 
     /// The stresses at the end of a step of this length. Returns the energy dissipated in it, by the trapezoidal rule
-    /// of central differences; the rates at which elements are damped go to the measures.
+    /// of central differences; the rates at which elements are damped go to the measures, without the limit of their
+    /// shear, which is empty where there is none.
     #[inline(always)]
     pub fn advance(
         &mut self,
@@ -88,6 +91,7 @@ impl<T: Number> Viscosity<T> {
         shapes: &Shapes<T>,
         measures: &mut Measures<T>,
         intact: &[T],
+        limit: &[T],
         step: f64,
     ) -> f64 {
         let (zero, half, two) = (Lanes::zero(), Lanes::constant(0.5), Lanes::constant(2.0));
@@ -118,7 +122,11 @@ impl<T: Number> Viscosity<T> {
             let eta = across.length * shape;
             // R̄ = q_t J C̄⁻¹ − η J C̄⁻¹ Ē C̄⁻¹, where C̄⁻¹ Ē C̄⁻¹ det C̄ is less the adjugate of Ē, whose trace with
             // C̄⁻¹ is 0.
-            let (scale, turning) = (density * per_area, eta * per_step);
+            let (scale, mut turning) = (density * per_area, eta * per_step);
+            if !limit.is_empty() {
+                let size = density * turning * ((e23 * e23 - e22 * e33).max(zero) * per_area).sqrt();
+                turning = turning * part_held(Lanes::at(limit, first), size);
+            }
             let r22 = (scale * (q_t * c33 + turning * e33)).only_where(active);
             let r33 = (scale * (q_t * c22 + turning * e22)).only_where(active);
             let r23 = (zero - scale * (q_t * c23 + turning * e23)).only_where(active);
@@ -181,6 +189,11 @@ mod tests {
     /// The Cauchy stress after a step from one deformation gradient to another, and what was dissipated in it by volume
     /// at rest with the stress that was there before.
     fn resist(from: Matrix3<f64>, to: Matrix3<f64>) -> (Matrix3<f64>, f64) {
+        resist_within(&[], from, to)
+    }
+
+    /// The same within a limit of the shear, or none.
+    fn resist_within(limit: &[f64], from: Matrix3<f64>, to: Matrix3<f64>) -> (Matrix3<f64>, f64) {
         let corner = |i: usize, size: f64, bit: usize| if i >> bit & 1 == 1 { size } else { 0.0 };
         let nodes: Vec<[f64; 3]> =
             (0..8).map(|i| [corner(i, LENGTH, 0), corner(i, 0.4e-3, 1), corner(i, 0.9e-3, 2)]).collect();
@@ -191,7 +204,7 @@ mod tests {
         for (f, step) in [(from, 0.0), (to, STEP)] {
             let columns: Vec<f64> = f.iter().flat_map(|&entry| vec![entry; stride]).collect();
             shapes.measure(&columns, &mut measures);
-            dissipated = viscosity.advance(&medium(), &shapes, &mut measures, &intact, step);
+            dissipated = viscosity.advance(&medium(), &shapes, &mut measures, &intact, limit, step);
         }
         let [along, section @ ..] = viscosity.stress(0);
         let columns: Vec<Lanes<f64>> = to.iter().map(|&entry| Lanes::splat(entry)).collect();
@@ -253,6 +266,28 @@ mod tests {
     }
 
     #[test]
+    fn a_section_that_slides_is_damped_by_no_more_than_it_holds() {
+        let limits = |limit: f64| vec![limit; LANES];
+        let shear = |size: f64| Matrix3::new(0.0, 0.0, 0.0, 0.0, -0.3, 1.0, 0.0, 0.5, 0.3) * size;
+        for from in placements() {
+            let to = from + from * shear(1e-4);
+            let held = |limit: &[f64]| {
+                let (stress, lost) = resist_within(limit, from, to);
+                let half = 0.5 * to.determinant();
+                let values = stress.symmetric_eigenvalues();
+                (half * (values.max() - values.min()), lost)
+            };
+            let (free, lost) = held(&[]);
+            assert_eq!((held(&limits(1e3 * free)), held(&limits(free * 1.001))), ((free, lost), (free, lost)));
+            for part in [0.5, 0.1, 0.0] {
+                let (found, less) = held(&limits(part * free));
+                assert!((found - part * free).abs() < 1e-4 * free, "{found} {free}");
+                assert!((less - part * lost).abs() < 1e-4 * lost, "{less} {lost}");
+            }
+        }
+    }
+
+    #[test]
     fn swelling_slip_and_rotation_are_free() {
         for from in placements() {
             let turn = nalgebra::Rotation3::from_euler_angles(1e-4, -2e-4, 3e-4).into_inner();
@@ -294,7 +329,7 @@ mod tests {
                 let columns: Vec<f64> = f.iter().flat_map(|&entry| vec![entry; shapes.stride]).collect();
                 let (mut viscosity, mut measures) = (Viscosity::new(&shapes), Measures::new(shapes.stride));
                 shapes.measure(&columns, &mut measures);
-                viscosity.advance(&medium, &shapes, &mut measures, &vec![1.0; shapes.stride], 0.0);
+                viscosity.advance(&medium, &shapes, &mut measures, &vec![1.0; shapes.stride], &[], 0.0);
                 let [nu, eta] =
                     [linear * medium.compaction_speed, shape * medium.distortion_speed].map(|speed| BREADTH * speed);
                 let (trace, area) = (measures.trace_across[0], measures.area_across[0]);

@@ -6,7 +6,7 @@ use super::laws::LawName;
 use super::own_law::Own;
 use super::preset::Guesses;
 use toron::law::parameters::{HYPERELASTIC_PROPERTIES, LINEAR_ELASTIC_PROPERTIES, Property, STRESS};
-use toron::law::resistance::Resistance;
+use toron::law::resistance::{Resistance, ShearLimit};
 use toron::law::state::{FAILURE_INDEX, FRICTIONAL_FAILED, INVARIANTS, LINEAR_LARGEST, LINEAR_STRESS, StateVariable};
 use toron::law::{hyperelastic, linear_elastic};
 use toron::law::{interface, status};
@@ -132,6 +132,14 @@ impl Law {
             Law::Hyperelastic { law, .. } => interface::Law::resistance(law),
             Law::LinearElastic { law, .. } => interface::Law::resistance(law),
             Law::Own(own) => own.resistance(),
+        }
+    }
+
+    /// The most shear that viscosity and hourglass control may add to that of a section whose fibres slide.
+    pub fn shear_limit(&self) -> Option<ShearLimit> {
+        match self {
+            Law::Hyperelastic { .. } | Law::LinearElastic { .. } => None,
+            Law::Own(own) => own.shear_limit(),
         }
     }
 

@@ -15,7 +15,7 @@ use toron::host::{Material, is_name, is_number};
 use toron::law::block::Circumstances;
 use toron::law::description::Description;
 use toron::law::interface::{Law, Points};
-use toron::law::resistance::Resistance;
+use toron::law::resistance::{Resistance, ShearLimit};
 use toron::law::status;
 use toron::{Error, Measure};
 use toron_c::TORON_FRICTIONAL;
@@ -183,6 +183,11 @@ impl Own {
         self.prepared.resistance()
     }
 
+    /// The most shear that viscosity and hourglass control may add to that of its section.
+    pub fn shear_limit(&self) -> Option<ShearLimit> {
+        self.prepared.shear_limit()
+    }
+
     /// The stiffness of a bar along the fibre, or the first axis, that is hardly stretched: that of the tangent where
     /// no stress changes across. None where it is not positive.
     pub fn youngs_modulus(&self) -> Option<f64> {
@@ -293,6 +298,7 @@ trait Prepared: Send + Sync {
     fn axes(&self) -> [[f64; 3]; 3];
     fn bulk_and_shear(&self) -> [f64; 2];
     fn resistance(&self) -> Resistance;
+    fn shear_limit(&self) -> Option<ShearLimit>;
     fn told(&self, code: i32) -> Result<i32, Error>;
     fn fresh(&self) -> Vec<f64>;
     fn step(&self, points: &mut PointArrays) -> Result<i32, Error>;
@@ -309,6 +315,10 @@ impl<L: Law<f64> + Send + Sync> Prepared for L {
 
     fn resistance(&self) -> Resistance {
         Law::resistance(self)
+    }
+
+    fn shear_limit(&self) -> Option<ShearLimit> {
+        Law::shear_limit(self)
     }
 
     fn told(&self, code: i32) -> Result<i32, Error> {
