@@ -5,7 +5,7 @@ use std::process::Command;
 
 use serde_json::Value;
 
-use toron_test_support::library::{LIBRARY, ROOT};
+use toron_test_support::library::{LIBRARY, OWN_LAW, ROOT};
 
 /// Checks a library with a scene of `ffi-tests/check`, which must be right: the names of the lines that are right, and
 /// of those that are neither right nor left out.
@@ -45,6 +45,17 @@ fn the_own_umat_is_right() {
         for line in required.iter().chain(further) {
             assert!(right.iter().any(|name| name == line), "{law}: {line} is not among {right:?}");
         }
+    }
+}
+
+/// A metal that hardens, with its dissipation: SPD is per current volume, and falls where the metal swells elastically.
+#[test]
+fn a_law_of_ones_own_with_a_history_is_right() {
+    let library = OWN_LAW.join("libown_law_double.so");
+    let [right, others] = check(library.to_str().expect("a path"), "own_law_plastic.toml", &[]);
+    assert!(others.is_empty(), "{others:?}");
+    for line in ["rest", "tangent", "objectivity", "isotropy", "steps", "energy", "cycles", "dissipation", "histories"] {
+        assert!(right.iter().any(|name| name == line), "{line} is not among {right:?}");
     }
 }
 
