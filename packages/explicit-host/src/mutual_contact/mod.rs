@@ -132,7 +132,10 @@ fn merge(old: Vec<Pair>, found: Vec<Pair>, due: impl Fn(&Pair) -> bool) -> Vec<P
         match new {
             _ if pair.on_face.stiffness > 0.0 => merged.push(Pair { free_until: 0.0, ..pair }),
             // What was outside one face has not come through another one.
-            Some(new) => merged.push(Pair { known: new.known || pair.known && pair.face == new.face, ..new }),
+            Some(new) => {
+                let known = new.known || pair.known && pair.face == new.face;
+                merged.push(Pair { known, ahead: pair.ahead, ..new });
+            }
             None => {}
         }
     }

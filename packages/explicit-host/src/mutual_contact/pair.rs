@@ -78,12 +78,9 @@ impl Pair {
         (self.face, self.place) = (face, place);
         let slip = met.map_or([0.0; 3], |met| self.slip(own, master, met.weights));
         let way = dot(slip, slip).sqrt();
-        if let Some(met) = met
-            && self.on_face.stiffness == 0.0
-            && met.depth + self.ahead > (1.0 + ROUNDING) * way
-        {
-            // It has not come here by its motion alone, but to another face.
-            self.ahead = 0.0;
+        if let Some(met) = met.filter(|_| self.on_face.stiffness == 0.0) {
+            // It may not have come here by its motion alone, but to another face.
+            self.ahead = self.ahead.min(way - met.depth).max(0.0);
         }
         let Some(met) = met.filter(|met| met.depth > -self.ahead && met.depth < deepest) else {
             return (None, self.stay_apart(met, slip, [number, self.master as usize], [own, master], motion));
@@ -171,7 +168,8 @@ impl Pair {
     /// every other step, and no energy comes in.
     fn update_penetration(&mut self, depth: f64, slip: f64, pressed: Option<f64>, out: f64) -> f64 {
         let before = if self.known { self.depth + self.uncounted } else { depth };
-        let jumps = self.uncounted > 0.0 || (depth - before).abs() > slip;
+        // While it begins to be pressed, only what is more than its motion is a jump: what counts would change.
+        let jumps = self.uncounted > 0.0 && self.ahead == 0.0 || (depth - before).abs() > (1.0 + ROUNDING) * slip;
         self.known = true;
         if let Some(pressed) = pressed.filter(|_| jumps) {
             if self.ahead > 0.0 {
