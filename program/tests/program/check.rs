@@ -54,7 +54,8 @@ fn a_law_of_ones_own_with_a_history_is_right() {
     let library = OWN_LAW.join("libown_law_double.so");
     let [right, others] = check(library.to_str().expect("a path"), "own_law_plastic.toml", &[]);
     assert!(others.is_empty(), "{others:?}");
-    for line in ["rest", "tangent", "objectivity", "isotropy", "steps", "energy", "cycles", "dissipation", "histories"] {
+    for line in ["rest", "tangent", "objectivity", "isotropy", "steps", "energy", "cycles", "dissipation", "histories"]
+    {
         assert!(right.iter().any(|name| name == line), "{line} is not among {right:?}");
     }
 }
