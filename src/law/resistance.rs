@@ -55,7 +55,6 @@ impl ShearLimit {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
     use crate::law::frictional::Frictional;
     use crate::law::interface::Law;
     use crate::law::parameters;
