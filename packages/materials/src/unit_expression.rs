@@ -51,7 +51,7 @@ const POUND_FORCE: f64 = 44_482_216_152_605.0;
 const INCH: f64 = 254.0;
 const FOOT: f64 = 3048.0;
 
-const NAMED: [Named; 25] = [
+const NAMED: [Named; 26] = [
     plain("1", [0, 0, 0], 1.0, 0),
     plain("%", [0, 0, 0], 1.0, -2),
     plain("°", [0, 0, 0], std::f64::consts::PI / 180.0, 0),
@@ -72,6 +72,7 @@ const NAMED: [Named; 25] = [
     plain("denier", [1, -1, 0], 1.0 / 9.0, -6),
     plain("in", [0, 1, 0], INCH, -4),
     plain("ft", [0, 1, 0], FOOT, -4),
+    plain("fps", [0, 1, -1], FOOT, -4),
     plain("lbf", FORCE, POUND_FORCE, -13),
     plain("psi", PRESSURE, POUND_FORCE / (INCH * INCH), -5),
     plain("psf", PRESSURE, POUND_FORCE / (FOOT * FOOT), -5),
