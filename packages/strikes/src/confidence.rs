@@ -10,7 +10,12 @@ pub const LEVEL: f64 = 0.95;
 /// Twice the logarithm of a likelihood ratio beyond which one value is refused: the quantile of χ² with one degree of
 /// freedom.
 pub fn refusal() -> f64 {
-    Normal::standard().inverse_cdf(0.5 + 0.5 * LEVEL).powi(2)
+    refusal_at(LEVEL)
+}
+
+/// The same of another level.
+pub fn refusal_at(level: f64) -> f64 {
+    Normal::standard().inverse_cdf(0.5 + 0.5 * level).powi(2)
 }
 
 /// Where a function that rises away from `start` passes `level`, sought outwards from a step of `first` on, each twice

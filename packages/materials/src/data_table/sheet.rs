@@ -212,7 +212,7 @@ fn of_units_alone(delimiter: u8, lines: &[&str]) -> Option<Header> {
     let below = cells(lines.get(1)?, delimiter);
     let units = filled(&below);
     let is_unit = |cell: &String| is_word(cell) && Unit::parse(bare(cell)).is_ok();
-    let is_header = names.len() == units.len() && names.iter().all(is_word) && units.iter().all(is_unit);
+    let is_header = names.len() == units.len() && names.iter().all(|name| is_word(name)) && units.iter().all(is_unit);
     (is_header && !names.is_empty()).then(|| Header { headings: with_units(&headings, units), delimiter, lines: 2 })
 }
 
@@ -250,7 +250,7 @@ fn with_units(names: &[String], units: &[String]) -> Vec<String> {
 }
 
 /// Neither empty nor a number, with either decimal sign.
-fn is_word(cell: &String) -> bool {
+fn is_word(cell: &str) -> bool {
     !cell.is_empty() && plain(cell).replace(',', ".").parse::<f64>().is_err()
 }
 
@@ -311,7 +311,7 @@ fn last_word(heading: &str) -> Option<(&str, &str)> {
     let (name, unit) = heading.rsplit_once(char::is_whitespace)?;
     let name = name.trim_end_matches(|c: char| c.is_whitespace() || c == ',');
     let is_unit = unit.contains('/') && Unit::parse(unit).is_ok();
-    (is_unit && !name.is_empty()).then_some((name, unit))
+    (is_unit && is_word(name)).then_some((name, unit))
 }
 
 /// The cell with a hyphen for the sign minus of typesetters.

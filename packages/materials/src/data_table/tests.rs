@@ -22,9 +22,8 @@ fn values(table: &DataTable, name: &str) -> Vec<f64> {
 
 #[test]
 fn cells_keep_their_places() {
-    let table = parse(
-        "\u{feff}# tests of March\r\n\r\n  travel [mm] ,\"force, top (N/(mm s))\"\r\n1,2\r\n#\r\n 3 , -4e1\r\n",
-    );
+    let table =
+        parse("\u{feff}# tests of March\r\n\r\n  travel [mm] ,\"force, top (N/(mm s))\"\r\n1,2\r\n#\r\n 3 , -4e1\r\n");
     assert_eq!(table.column("travel").expect("a column").unit.text, "mm");
     let force = table.column("force, top").expect("a column");
     assert_eq!((force.number, force.unit.text.as_str()), (2, "N/(mm s)"));
@@ -45,8 +44,7 @@ fn semicolons_allow_decimal_commas() {
     assert_eq!(values(&below, "strain, top"), [1.5]);
     // Between quotes it may stand between thousands.
     let quoted = rejected("strain (%),force (N)\n\"0,250\",\"1,5\"\n");
-    let wanted =
-        "column \"strain\": the cell is \"0,250\"; allowed: a decimal point; a decimal comma with ; or tabs";
+    let wanted = "column \"strain\": the cell is \"0,250\"; allowed: a decimal point; a decimal comma with ; or tabs";
     assert!(quoted.contains(wanted), "{quoted}");
 }
 
@@ -67,11 +65,7 @@ fn forms_that_machines_export_are_one_table() {
         format!("Specimen 1\nstrain;force;\n[%];[N];\n{semicolons}"),
     ] {
         let table = parse(&text);
-        assert_eq!(
-            (values(&table, "strain"), values(&table, "force")),
-            (vec![0.2, 0.4], vec![7.5, 13.9]),
-            "{text}"
-        );
+        assert_eq!((values(&table, "strain"), values(&table, "force")), (vec![0.2, 0.4], vec![7.5, 13.9]), "{text}");
         assert_eq!(table.column("force").expect("a column").unit.text, "N");
     }
     let text = "strain (%),Prüfkraft (N)\n0.2,7.5\n";
@@ -86,7 +80,10 @@ fn forms_that_machines_export_are_one_table() {
         utf_16([0xfe, 0xff], u16::to_be_bytes),
     ];
     for bytes in all {
-        assert_eq!(sheet::decoded(&bytes).map(|text| parse(&text).columns[1].name.clone()).as_deref(), Some("Prüfkraft"));
+        assert_eq!(
+            sheet::decoded(&bytes).map(|text| parse(&text).columns[1].name.clone()).as_deref(),
+            Some("Prüfkraft")
+        );
     }
 }
 
@@ -152,10 +149,7 @@ fn errors_name_file_line_and_column() {
     let cases = [
         (String::new(), empty.to_string()),
         ("# nothing\n\n".to_string(), empty.to_string()),
-        (
-            one.to_string(),
-            "1:1: column \"a\": no line of data follows the header; allowed: one at least".to_string(),
-        ),
+        (one.to_string(), "1:1: column \"a\": no line of data follows the header; allowed: one at least".to_string()),
         ("#\na (mm),b\n1,2\n".to_string(), format!("2:2: the heading is \"b\"; {heading}")),
         ("a (mm),\n1,2\n".to_string(), format!("1:2: the heading is \"\"; {heading}")),
         ("(mm),b (N)\n1,2\n".to_string(), format!("1:1: the heading is \"(mm)\"; {heading}")),
@@ -185,9 +179,7 @@ fn errors_name_file_line_and_column() {
         ),
         (
             "a (mm);b (N)\n1,5;2\n1;1.234\n".to_string(),
-            format!(
-                "3:2: {two}the cell is \"1.234\"; allowed: a finite number with a decimal comma, as in the rest"
-            ),
+            format!("3:2: {two}the cell is \"1.234\"; allowed: a finite number with a decimal comma, as in the rest"),
         ),
     ];
     for (text, wanted) in cases {
@@ -209,7 +201,10 @@ fn a_file_that_cannot_be_read_is_named() {
     let missing = DataTable::read(&folder.join("none.csv")).expect_err("there is none").to_string();
     std::fs::remove_dir_all(&folder).expect("the folder can go");
     assert!(latin.contains("latin.csv:2:1: column \"a\": the cell is \"b (µm)\""), "{latin}");
-    assert!(binary.ends_with("latin.csv: a workbook of a spreadsheet; allowed: a CSV file in UTF-8, UTF-16 or Latin-1"), "{binary}");
+    assert!(
+        binary.ends_with("latin.csv: a workbook of a spreadsheet; allowed: a CSV file in UTF-8, UTF-16 or Latin-1"),
+        "{binary}"
+    );
     assert!(missing.contains("none.csv: "), "{missing}");
 }
 

@@ -12,7 +12,7 @@ use super::scene::Scene;
 use super::series::Series;
 use super::shot::Ended;
 use super::simulation::{Experiment, Truth};
-use super::{limit, plot, report, shot};
+use super::{limit, measured, plot, report, shot};
 use crate::scene_keys::shots::Shots;
 use toron_explicit_host::judgement::warnings;
 use toron_shared::console::{print, print_error, print_note};
@@ -33,7 +33,8 @@ const TRUTH: [f64; 2] = [0.5, 0.125];
 pub struct Arguments {
     /// The scene of `toron fabric` or `toron impact`, with a table `[shots]` (`toron init v50` writes one); - is the
     /// standard input.
-    scene: PathBuf,
+    #[arg(required_unless_present = "analyse")]
+    scene: Option<PathBuf>,
     /// Where the tables and the picture go.
     #[arg(short, long, default_value = "toron-out/v50")]
     output: PathBuf,
@@ -60,12 +61,21 @@ pub struct Arguments {
     /// not given.
     #[arg(long, num_args = 2, value_names = ["V50", "DEVIATION"], allow_negative_numbers = true, requires = "simulate")]
     truth: Option<Vec<f64>>,
-    /// Add the curves with Firth's correction, which have values where the fates do not mix.
+    /// Add the curves with Firth's correction, which penalises the likelihood.
     #[arg(long)]
     firth: bool,
     /// Threads: as many shots are fired side by side, or one in all of them; all processors if not given.
     #[arg(long)]
     threads: Option<usize>,
+    #[command(flatten)]
+    measured: measured::command::Measurements,
+}
+
+impl Arguments {
+    /// The scene, without which there is `--analyse`.
+    fn scene(&self) -> &Path {
+        self.scene.as_deref().unwrap_or(Path::new(""))
+    }
 }
 
 /// Fires the shots of a scene and writes the results, or the other output that the arguments choose.
@@ -73,7 +83,10 @@ pub struct Arguments {
 /// # Errors
 /// The input, a file that cannot be written, shots without a curve, or somebody has asked the program to end.
 pub fn run(arguments: &Arguments) -> Result<(), Error> {
-    let scene = Scene::read(&arguments.scene, arguments.case.as_deref())?;
+    if let Some(table) = &arguments.measured.analyse {
+        return measured::command::run(table, &arguments.measured, arguments.firth, &arguments.output);
+    }
+    let scene = Scene::read(arguments.scene(), arguments.case.as_deref())?;
     if arguments.threads == Some(0) {
         return Err(Error::Input("--threads is 0; allowed: 1 or more".to_string()));
     }
@@ -81,7 +94,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Error> {
         return simulate(&scene, experiments, arguments);
     }
     if !arguments.limit {
-        scene.check_chance(&arguments.scene.display().to_string())?;
+        scene.check_chance(&arguments.scene().display().to_string())?;
     }
     if !arguments.collect.is_empty() {
         return collect(&scene, arguments);
@@ -119,7 +132,7 @@ fn interrupted(arguments: &Arguments) -> Error {
 
 /// The command by which an interrupted run goes on, with the options that it had.
 fn again(arguments: &Arguments) -> String {
-    let Arguments { scene, output, case, shots, limit, firth, threads, .. } = arguments;
+    let Arguments { output, case, shots, limit, firth, threads, .. } = arguments;
     let mut options = Vec::new();
     for (flag, is_given) in [("--limit", limit), ("--firth", firth)] {
         options.extend(is_given.then(|| flag.to_string()));
@@ -128,7 +141,7 @@ fn again(arguments: &Arguments) -> String {
     for (option, value) in [("--case", case), ("--shots", shots), ("--threads", &threads)] {
         options.extend(value.iter().flat_map(|value| [option.to_string(), value.clone()]));
     }
-    shell::again("v50", scene, output, &options)
+    shell::again("v50", arguments.scene(), output, &options)
 }
 
 /// The shots that are to be fired.
@@ -175,7 +188,7 @@ fn check_restart(place: &Path, restart: bool) -> Result<(), Error> {
 /// The tables and the picture of a scene's shots.
 fn writes(arguments: &Arguments, restart: bool) -> Writes<'_> {
     let names = ["shots", "limit", "v50"].map(String::from).to_vec();
-    Writes { command: "v50", files: vec![&arguments.scene], names, restart, ..Writes::default() }
+    Writes { command: "v50", files: vec![arguments.scene()], names, restart, ..Writes::default() }
 }
 
 /// The table that the shots go to, with those that are there, and its directory, which is this run's once they have
@@ -198,7 +211,7 @@ fn evaluate(scene: &Scene, records: &Records, directory: &RunDirectory, argument
     for name in [report::FIGURES, "v50.svg", "v50.png"] {
         directory.remove(name)?;
     }
-    if !series.curves.is_empty() {
+    if !series.told.curves.is_empty() {
         report::write_figures(&output.join(report::FIGURES), scene, &series)?;
         plot::write(&output.join("v50.svg"), &output.join("v50.png"), scene, &series)?;
     }

@@ -7,7 +7,7 @@
 
 use super::likelihood::{Likelihood, SLOPES};
 use super::link::Link;
-use crate::confidence::{crossing, refusal};
+use crate::confidence::{LEVEL, crossing, refusal_at};
 
 /// The chances whose speeds are reported: V5, V50 and V95.
 pub const CHANCES: [f64; 3] = [0.05, 0.5, 0.95];
@@ -23,6 +23,29 @@ pub struct Fate {
     pub speed: f64,
     /// Whether it went through.
     pub through: bool,
+}
+
+/// What is asked of the shots.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Asked {
+    pub links: Vec<Link>,
+    /// Whether curves with Firth's correction are fitted too.
+    pub firth: bool,
+    /// The chances whose speeds are reported.
+    pub chances: Vec<f64>,
+    /// The level of the intervals.
+    pub level: f64,
+    /// Whether η is a line over the logarithm of the speed.
+    pub logarithm: bool,
+    /// The spread within which test houses take their mean.
+    pub spread: Option<f64>,
+}
+
+impl Default for Asked {
+    fn default() -> Asked {
+        let (links, chances) = (Link::BOTH.to_vec(), CHANCES.to_vec());
+        Asked { links, firth: false, chances, level: LEVEL, logarithm: false, spread: None }
+    }
 }
 
 /// What the shots say of a curve.
@@ -70,10 +93,14 @@ pub struct Curve {
     /// Whether Firth's correction is made.
     pub firth: bool,
     pub mix: Mix,
-    /// Of the chances [`CHANCES`].
-    pub speeds: [Estimate; 3],
-    /// Of the chance, by speed, where it is a half.
+    /// Of the chances that were asked for.
+    pub speeds: Vec<Estimate>,
+    pub v50: Estimate,
+    /// Of the chance, by speed or by its logarithm, where it is a half.
     pub slope: Estimate,
+    logarithm: bool,
+    /// The deviance beyond which a value is refused.
+    refusal: f64,
     likelihood: Likelihood,
     /// Offset, slope and likelihood of the best curve.
     best: [f64; 3],
@@ -100,28 +127,53 @@ pub fn mix(fates: &[Fate]) -> Mix {
 }
 
 impl Curve {
-    /// The curve of these shots; none where all have the same fate, or the same speed.
+    /// The curve of these shots over their speeds; none where all have the same fate, or the same speed.
     pub fn fit(fates: &[Fate], link: Link, firth: bool) -> Option<Curve> {
+        Curve::fit_as(&Asked::default(), fates, link, firth)
+    }
+
+    /// The same, as it was asked for. Speeds are above 0 where their logarithm is asked for.
+    pub fn fit_as(asked: &Asked, fates: &[Fate], link: Link, firth: bool) -> Option<Curve> {
         let found = mix(fates);
         let same_speed = fates.windows(2).all(|pair| pair[0].speed == pair[1].speed);
         if same_speed || matches!(found, Mix::AllThrough | Mix::AllStopped) {
             return None;
         }
-        let likelihood = Likelihood::new(fates, link, firth);
+        let logarithm = asked.logarithm;
+        let place = |fate: &Fate| Fate { speed: if logarithm { fate.speed.ln() } else { fate.speed }, ..*fate };
+        let likelihood = Likelihood::new(&fates.iter().map(place).collect::<Vec<_>>(), link, firth);
         let best = likelihood.best();
         let found = if best[1] > 2.0 * SLOPES[0] { found } else { Mix::Level };
-        let mut curve =
-            Curve { link, firth, mix: found, speeds: Default::default(), slope: Estimate::default(), likelihood, best };
-        let scale = curve.likelihood.scale;
-        curve.speeds = CHANCES.map(|chance| Estimate {
-            value: curve.has_values().then(|| curve.likelihood.speed(curve.place(chance))),
-            interval: curve.speed_interval(chance),
-        });
+        let (refusal, none) = (refusal_at(asked.level), Estimate::default());
+        let (speeds, v50, slope) = (Vec::new(), none, none);
+        let mut curve = Curve { link, firth, mix: found, speeds, v50, slope, logarithm, refusal, likelihood, best };
+        curve.speeds = asked.chances.iter().map(|&chance| curve.estimate(chance)).collect();
+        curve.v50 = curve.estimate(0.5);
         curve.slope = Estimate {
-            value: curve.has_values().then(|| link.slope() * best[1] / scale),
+            value: curve.has_values().then(|| link.slope() * best[1] / curve.likelihood.scale),
             interval: curve.slope_interval(),
         };
         Some(curve)
+    }
+
+    /// The speed of a chance.
+    fn estimate(&self, chance: f64) -> Estimate {
+        let value = self.has_values().then(|| self.speed(self.place(chance)));
+        Estimate { value, interval: self.speed_interval(chance) }
+    }
+
+    /// The speed at a place of the likelihood.
+    fn speed(&self, place: f64) -> f64 {
+        let speed = self.likelihood.speed(place);
+        if self.logarithm { speed.exp() } else { speed }
+    }
+
+    /// The σ of the probit, or the s of the logit: of the speed, or of its logarithm.
+    pub fn scale(&self) -> Estimate {
+        let of = |slope: f64| self.link.slope() / slope;
+        let Interval { low, high } = self.slope.interval;
+        let interval = Interval { low: Some(high.map_or(0.0, of)), high: low.filter(|&slope| slope > 0.0).map(of) };
+        Estimate { value: self.slope.value.map(of), interval }
     }
 
     /// V50 and deviation of the likeliest normal distribution, without intervals and without a check of what they are
@@ -138,13 +190,35 @@ impl Curve {
     }
 
     pub fn v50(&self) -> &Estimate {
-        &self.speeds[1]
+        &self.v50
     }
 
-    /// The chance of a perforation, where there is one best curve.
+    /// The chance of a perforation at a speed above 0, where there is one best curve.
     pub fn chance(&self, speed: f64) -> Option<f64> {
-        let (v50, slope) = (self.v50().value?, self.slope.value?);
-        Some(self.link.chance(slope / self.link.slope() * (speed - v50)))
+        let (v50, slope) = (self.v50.value?, self.slope.value?);
+        let distance = if self.logarithm { (speed / v50).ln() } else { speed - v50 };
+        Some(self.link.chance(slope / self.link.slope() * distance))
+    }
+
+    /// The largest likelihood, as the intervals have it.
+    pub fn largest(&self) -> f64 {
+        self.best[2]
+    }
+
+    /// Where the likelihood of V50 is largest, or a place in the gap where it is so everywhere; as for
+    /// [`Curve::with_v50`].
+    pub fn likeliest_place(&self) -> f64 {
+        self.likelihood.speed(self.place(0.5))
+    }
+
+    /// The standard deviation of the speeds, or of their logarithms.
+    pub fn spread(&self) -> f64 {
+        self.likelihood.scale
+    }
+
+    /// The largest likelihood of a curve whose V50 lies at a speed, or at its logarithm where that is asked for.
+    pub fn with_v50(&self, place: f64) -> f64 {
+        self.likelihood.through(0.0, (place - self.likelihood.speed(0.0)) / self.likelihood.scale)
     }
 
     /// The logarithm of the likelihood of the best curve, without a penalty.
@@ -172,7 +246,7 @@ impl Curve {
             }
             let deviance = |x: f64| self.deviance(likelihood.through(eta, x));
             let first = if below { -FIRST_STEP } else { FIRST_STEP };
-            crossing(deviance, self.place(chance), first, refusal(), FARTHEST).map(|x| likelihood.speed(x))
+            crossing(deviance, self.place(chance), first, self.refusal, FARTHEST).map(|x| self.speed(x))
         };
         Interval { low: end(true), high: end(false) }
     }
@@ -183,7 +257,7 @@ impl Curve {
             if !self.is_refused(self.likelihood.with_slope(limit).1) {
                 return None;
             }
-            let slope = crossing(deviance, self.best[1].ln(), first, refusal(), FARTHEST)?.exp();
+            let slope = crossing(deviance, self.best[1].ln(), first, self.refusal, FARTHEST)?.exp();
             Some(self.link.slope() * slope / self.likelihood.scale)
         };
         Interval { low: end(SLOPES[0], -FIRST_STEP).or(Some(0.0)), high: end(SLOPES[1], FIRST_STEP) }
@@ -195,7 +269,7 @@ impl Curve {
     }
 
     fn is_refused(&self, likelihood: f64) -> bool {
-        self.deviance(likelihood) > refusal()
+        self.deviance(likelihood) > self.refusal
     }
 }
 

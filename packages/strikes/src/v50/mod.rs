@@ -4,14 +4,18 @@
 //! and in the strength of the yarns. The statistics of what comes of them know nothing of scenes. `docs/guides/v50.md`
 //! is the manual.
 
+mod analysis;
 pub mod command;
 pub mod curve;
+mod curves_plot;
+mod curves_report;
 pub mod designs;
 mod difference;
 pub mod lambert_jonas;
 mod likelihood;
 mod limit;
 pub mod link;
+pub mod measured;
 mod plot;
 mod records;
 mod report;

@@ -2,27 +2,21 @@
 
 use std::path::Path;
 
-use super::curve::{Curve, Estimate, Interval, Mix};
+use super::curve::Mix;
+use super::curves_report::{Steepness, UNBOUNDED, WIDTH, curves, figures, listed, means, said};
 use super::lambert_jonas::{Degenerate, MOST_EXPONENT};
 use super::scene::Scene;
 use super::series::Series;
 use super::shot::{self, Ending};
 use super::simulation::Coverage;
-use super::test_houses::Mean;
 use crate::residual::SpeedIs;
 use crate::strength::scatter::{self, Strength};
 use toron_explicit_host::judgement::SOUND;
-use toron_explicit_host::struck::history::title;
 use toron_materials::units::{SPEED, TIME, unit};
 use toron_shared::error::Error;
 use toron_shared::numbers::number;
-use toron_shared::text_table::{Column, NONE, files, folded, grouped, or_dash, table, write_csv};
+use toron_shared::text_table::{Column, files, folded, grouped, or_dash, table, write_csv};
 
-/// Columns of a terminal.
-const WIDTH: usize = 129;
-const UNBOUNDED: &str = "unbounded";
-/// What is printed for a speed that the curve has there.
-const BELOW_ZERO: &str = "below 0";
 /// A range whose end is further than this part of it from all shots has not been looked at there.
 const NEAR_END: f64 = 0.1;
 /// Where more of the experiments than this have no curve, it is said.
@@ -31,32 +25,10 @@ const OFTEN: f64 = 0.05;
 const SPEEDS: [&str; 3] = ["V5", "V50", "V95"];
 pub const FIGURES: &str = "v50.csv";
 
-/// A value or an end of an interval, as it is printed.
-fn figure(value: f64) -> String {
-    if value < 0.0 { BELOW_ZERO.to_string() } else { number(value) }
-}
-
-fn interval(Interval { low, high }: &Interval) -> String {
-    let [low, high] = [low, high].map(|end| end.map_or(UNBOUNDED.to_string(), figure));
-    if low == high { low } else { format!("{low} to {high}") }
-}
-
-/// `one`, `one and two`, `one, two and three`.
-fn listed(words: &[&str]) -> String {
-    match words {
-        [before @ .., last] if !before.is_empty() => format!("{} and {last}", before.join(", ")),
-        _ => words.concat(),
-    }
-}
-
-fn name(curve: &Curve) -> String {
-    format!("{}{}", curve.link.name(), if curve.firth { ", Firth" } else { "" })
-}
-
 /// What came of the series; `missing` is how many of its shots have not been fired, and `beside` how many others stand
 /// in the table.
 pub fn report(scene: &Scene, series: &Series, [missing, beside]: [usize; 2], output: &Path) -> String {
-    let [stopped, through, undecided, errors] = series.counts();
+    let (speed, [stopped, through, undecided, errors]) = (unit(&scene.units, SPEED), series.counts());
     let of_errors = if errors + undecided > 0 { ", which the curves leave out" } else { "" };
     let mut counts = format!(
         "{} shots by design {}: {stopped} stopped, {through} through, {undecided} undecided, {errors} errors{of_errors}",
@@ -71,9 +43,9 @@ pub fn report(scene: &Scene, series: &Series, [missing, beside]: [usize; 2], out
     }
     let parts = [
         folded(&counts, WIDTH) + "\n" + &weights(scene) + &strength(scene) + &of_undecided(scene, undecided),
-        curves(scene, series),
-        said(scene, series),
-        means(scene, series),
+        curves(&series.told, &speed, Steepness::Slope),
+        said(&series.told, &speed),
+        means(&series.told, &speed),
         residual(scene, series),
         speeds_and_costs(series),
         unsound(series),
@@ -102,59 +74,10 @@ fn of_undecided(scene: &Scene, undecided: usize) -> String {
     folded(&text, WIDTH) + "\n"
 }
 
-fn curves(scene: &Scene, series: &Series) -> String {
-    let speed = unit(&scene.units, SPEED);
-    let column = |above: &str, below: &str, entry: &dyn Fn(&Curve) -> String| Column {
-        heading: [above.to_string(), below.to_string()],
-        entries: series.curves.iter().map(entry).collect(),
-    };
-    let value = |estimate: &Estimate| or_dash(estimate.value, figure);
-    let mut columns = vec![column("curve", "", &name)];
-    for (place, of) in SPEEDS.into_iter().enumerate() {
-        columns.push(column(of, &speed, &|curve| value(&curve.speeds[place])));
-        columns.push(column(&format!("{of}, 95 %"), &speed, &|curve| interval(&curve.speeds[place].interval)));
-    }
-    columns.push(column("slope at V50", &format!("1/({speed})"), &|curve| value(&curve.slope)));
-    columns.push(column("slope, 95 %", &format!("1/({speed})"), &|curve| interval(&curve.slope.interval)));
-    table(columns, WIDTH)
-}
-
-/// What there is to say of the curves.
-fn said(scene: &Scene, series: &Series) -> String {
-    let speed = unit(&scene.units, SPEED);
-    let of_mix = match series.mix {
-        Mix::Separated([stop, through]) => Some(format!(
-            "No zone of mixed results: the fastest stop is at {} {speed}, the slowest perforation at {} {speed}. The curve may be a step \
-             anywhere between, whose slope is unbounded, and the likelihood has no one largest place; the intervals are what the shots \
-             do not refuse. More shots between these two speeds would help, or --firth.",
-            number(stop),
-            number(through)
-        )),
-        Mix::Level => Some(
-            "No curve that rises with the speed suits the shots better than a level one: a wider range of speeds, or more \
-             shots, would help."
-                .to_string(),
-        ),
-        Mix::Mixed | Mix::AllThrough | Mix::AllStopped => None,
-    };
-    let is_unbounded = |place: usize| series.curves.iter().any(|curve| !curve.speeds[place].interval.is_bounded());
-    let unbounded: Vec<&str> = (0..SPEEDS.len()).filter(|&place| is_unbounded(place)).map(|at| SPEEDS[at]).collect();
-    let of_ends = (!unbounded.is_empty()).then(|| {
-        format!(
-            "Intervals of {} are unbounded: the shots do not refuse curves so level that these speeds lie as far away as one likes. More \
-             shots, or a wider range of speeds, would help.",
-            listed(&unbounded)
-        )
-    });
-    [of_mix, of_ends].into_iter().flatten().map(|text| folded(&text, WIDTH) + "\n").collect()
-}
-
 /// Why there is no curve.
 pub fn no_curve(scene: &Scene, series: &Series) -> Option<Error> {
     let speed = unit(&scene.units, SPEED);
-    let speeds = series.fates.iter().map(|fate| fate.speed);
-    let (least, most) =
-        speeds.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), speed| (low.min(speed), high.max(speed)));
+    let [least, most] = series.told.range();
     let [low, high] = scene.shots.speeds;
     let [.., undecided, errors] = series.counts();
     let of_others = match undecided + errors {
@@ -162,11 +85,11 @@ pub fn no_curve(scene: &Scene, series: &Series) -> Option<Error> {
         _ => format!("{undecided} shots are undecided, {errors} ended with an error, and all others"),
     };
     let far = NEAR_END * (high - low);
-    let message = match series.mix {
-        _ if series.fates.len() < 2 => format!(
+    let message = match series.told.mix {
+        _ if series.told.fates.len() < 2 => format!(
             "{} shots have a known fate, {undecided} are undecided, {errors} ended with an error; allowed: two or more, by a larger extension or \
              what the errors say",
-            series.fates.len()
+            series.told.fates.len()
         ),
         Mix::AllThrough => {
             let more = if least - low > far {
@@ -192,7 +115,7 @@ pub fn no_curve(scene: &Scene, series: &Series) -> Option<Error> {
                 1.0 / scene.units.from_si(1.0, SPEED)
             )
         }
-        _ if series.curves.is_empty() => {
+        _ if series.told.curves.is_empty() => {
             format!(
                 "{of_others} have one speed, {} {speed}; allowed: a range of speeds, or another design",
                 number(least)
@@ -201,25 +124,6 @@ pub fn no_curve(scene: &Scene, series: &Series) -> Option<Error> {
         _ => return None,
     };
     Some(Error::Evaluation(format!("no curve: {message}")))
-}
-
-fn mean(mean: &Mean, speed: &str) -> String {
-    let Mean { each, speed: value, spread } = mean;
-    format!("{each} and {each}: {} {speed}, spread {}", number(*value), number(*spread))
-}
-
-/// What test houses print.
-fn means(scene: &Scene, series: &Series) -> String {
-    let speed = unit(&scene.units, SPEED);
-    let mut texts: Vec<String> = series.means.iter().map(|found| mean(found, &speed)).collect();
-    if let Some((spread, found)) = &series.within {
-        let found = found.as_ref().map_or("none".to_string(), |found| mean(found, &speed));
-        texts.push(format!("the most within a spread of {} {speed}: {found}", number(*spread)));
-    }
-    if texts.is_empty() {
-        return String::new();
-    }
-    folded(&format!("Mean of the fastest stops and the slowest perforations, {}.", texts.join("; ")), WIDTH) + "\n"
 }
 
 fn residual(scene: &Scene, series: &Series) -> String {
@@ -321,8 +225,8 @@ fn list_files(series: &Series, output: &Path) -> String {
     let written = [
         (true, "shots.csv", "a line for every shot"),
         (true, "shots.scene.toml", "the scene that they are of"),
-        (!series.curves.is_empty(), FIGURES, "a line for every curve, and the means"),
-        (!series.curves.is_empty(), "v50.svg, .png", "the curves with every shot, and the residual speeds"),
+        (!series.told.curves.is_empty(), FIGURES, "a line for every curve, and the means"),
+        (!series.told.curves.is_empty(), "v50.svg, .png", "the curves with every shot, and the residual speeds"),
     ];
     files(output, &written)
 }
@@ -332,45 +236,9 @@ fn list_files(series: &Series, output: &Path) -> String {
 /// # Errors
 /// The file cannot be written.
 pub fn write_figures(file: &Path, scene: &Scene, series: &Series) -> Result<(), Error> {
-    let counts: Vec<(String, String)> = ["stopped", "through", "undecided", "errors"]
-        .into_iter()
-        .zip(series.counts())
-        .map(|(name, count)| (name.to_string(), count.to_string()))
-        .collect();
-    let exact = |value: Option<f64>, none: &str| value.map_or(none.to_string(), |value| value.to_string());
-    let of_curve = |curve: &Curve| {
-        let mut line = vec![("curve".to_string(), name(curve))];
-        line.extend(counts.clone());
-        let mix = match curve.mix {
-            Mix::Separated(_) => "separated",
-            Mix::Level => "level",
-            _ => "mixed",
-        };
-        line.push(("results".to_string(), mix.to_string()));
-        let slope = format!("slope (1/({}))", unit(&scene.units, SPEED));
-        let speeds =
-            SPEEDS.iter().zip(&curve.speeds).map(|(name, estimate)| (title(name, SPEED, &scene.units), estimate));
-        for (name, estimate) in speeds.chain([(slope, &curve.slope)]) {
-            let (quantity, unit) = name.split_once(' ').unwrap_or((&name, ""));
-            line.push((name.clone(), exact(estimate.value, NONE)));
-            line.push((format!("{quantity}_low {unit}"), exact(estimate.interval.low, UNBOUNDED)));
-            line.push((format!("{quantity}_high {unit}"), exact(estimate.interval.high, UNBOUNDED)));
-        }
-        line.push(("log_likelihood".to_string(), curve.log_likelihood().to_string()));
-        line
-    };
-    let of_mean = |mean: &Mean, within: &str| {
-        let mut line = vec![("curve".to_string(), format!("mean of {} and {}{within}", mean.each, mean.each))];
-        line.extend(counts.clone());
-        line.push((title("V50", SPEED, &scene.units), mean.speed.to_string()));
-        line.push((title("spread", SPEED, &scene.units), mean.spread.to_string()));
-        line
-    };
-    let means = series.means.iter().map(|mean| of_mean(mean, ""));
-    let within = series.within.as_ref().and_then(|(spread, mean)| Some((spread, mean.as_ref()?)));
-    let within = within.map(|(spread, mean)| of_mean(mean, &format!(" within {spread}")));
-    let lines: Vec<_> = series.curves.iter().map(of_curve).chain(means).chain(within).collect();
-    write_csv(file, &lines)
+    let counts = ["stopped", "through", "undecided", "errors"].into_iter().zip(series.counts());
+    let counts: Vec<(String, String)> = counts.map(|(name, count)| (name.to_string(), count.to_string())).collect();
+    write_csv(file, &figures(&series.told, &unit(&scene.units, SPEED), &counts))
 }
 
 /// A line of a table of simulated experiments: design, curve, and what came of them.

@@ -1,4 +1,6 @@
 use super::*;
+use crate::v50::curve::Interval;
+use crate::v50::curves_report::{figure, interval};
 use crate::v50::designs::Design;
 use crate::v50::limit::Limit;
 use crate::v50::link::Link;
