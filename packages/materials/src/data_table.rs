@@ -25,8 +25,15 @@ pub struct DataTable {
     pub columns: Vec<Column>,
     /// The line of the header.
     pub header: usize,
-    /// The names of the other columns, and why each is none of numbers with a unit.
-    others: Vec<(String, Error)>,
+    others: Vec<Other>,
+}
+
+/// A column that is not of numbers with a unit, and why.
+#[derive(Clone, Debug)]
+struct Other {
+    name: String,
+    number: usize,
+    error: Error,
 }
 
 /// A column, with a value for each line of data.
@@ -80,13 +87,24 @@ impl DataTable {
             }
             match column(sheet, place, heading) {
                 Ok(column) => table.columns.push(column),
-                Err(error) => table.others.push((heading.name.clone(), error)),
+                Err(error) => table.others.push(Other { name: heading.name.clone(), number: place + 1, error }),
             }
         }
         match table.others.first() {
-            Some((_, error)) if table.columns.is_empty() => Err(error.clone()),
+            Some(other) if table.columns.is_empty() => Err(other.error.clone()),
             _ => Ok(table),
         }
+    }
+
+    /// The names of all columns with their numbers in the file, of those too that are not numbers with a unit.
+    pub fn names(&self) -> impl Iterator<Item = (&str, usize)> {
+        let others = self.others.iter().map(|other| (other.name.as_str(), other.number));
+        self.columns.iter().map(|column| (column.name.as_str(), column.number)).chain(others)
+    }
+
+    /// Whether a column has this name, which [`DataTable::column`] may refuse all the same.
+    pub fn has(&self, name: &str) -> bool {
+        self.names().any(|(known, _)| known == name)
     }
 
     /// The column of this name.
@@ -97,8 +115,8 @@ impl DataTable {
         if let Some(column) = self.columns.iter().find(|column| column.name == name) {
             return Ok(column);
         }
-        if let Some((_, error)) = self.others.iter().find(|(other, _)| other == name) {
-            return Err(error.clone());
+        if let Some(other) = self.others.iter().find(|other| other.name == name) {
+            return Err(other.error.clone());
         }
         let known: Vec<&str> = self.columns.iter().map(|column| column.name.as_str()).collect();
         let message = format!("no column \"{name}\"; there are: {}", known.join(", "));

@@ -16,7 +16,7 @@ pub struct Unit {
 }
 
 /// What may stand in the brackets of a header.
-pub const ALLOWED: &str = "-, % or ° for a number; else products and quotients of m, in, ft, g, t (tonne), slug, slinch, s, N, \
+pub const ALLOWED: &str = "-, % or ° for a number; else products and quotients of m, in, ft, fps, g, t (tonne), slug, slinch, s, N, \
                            lbf, gf, Pa, bar, psi, psf, ksi, J, W, tex, den with prefixes n µ (u) m c d k M G T P where they are metric, in \
                            capitals and small letters as here: N, kN, MPa, N/mm², mJ/mm^3, kg/(m s²), 1/s";
 

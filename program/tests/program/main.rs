@@ -28,6 +28,7 @@ mod meshes;
 mod one_element;
 mod presets;
 mod scene_decks;
+mod shots;
 mod sliding;
 mod v50;
 mod weave;

@@ -12,7 +12,7 @@ fn parse(text: &str) -> DataTable {
 /// What is wrong with a table, or with the first column that is none of numbers with a unit.
 #[track_caller]
 fn rejected(text: &str) -> String {
-    let error = DataTable::parse("data.csv", text).map(|table| table.others.first().map(|(_, error)| error.clone()));
+    let error = DataTable::parse("data.csv", text).map(|table| table.others.first().map(|other| other.error.clone()));
     error.unwrap_or_else(Some).unwrap_or_else(|| panic!("nothing is wrong with {text}")).to_string()
 }
 

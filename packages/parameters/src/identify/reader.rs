@@ -281,7 +281,7 @@ impl Reader<'_> {
             });
         }
         known.iter().position(|known| self.has(file, table, known)).ok_or_else(|| {
-            let columns: Vec<&str> = table.columns.iter().map(|column| column.name.as_str()).collect();
+            let columns: Vec<&str> = table.names().map(|(name, _)| name).collect();
             let message = format!(
                 "{} has the columns {}, none of which is an {key} of this loading; allowed: {}, or columns = {{ {} = \"name in \
                  the file\" }}",
@@ -306,8 +306,7 @@ impl Reader<'_> {
     }
 
     fn has(&self, file: &DataFile, table: &DataTable, quantity: &str) -> bool {
-        file.columns.iter().any(|(key, _)| key.get_ref() == quantity)
-            || table.columns.iter().any(|column| column.name == quantity)
+        file.columns.iter().any(|(key, _)| key.get_ref() == quantity) || table.has(quantity)
     }
 
     /// The column that holds a quantity: the one that `columns` names, or the one of the same name.

@@ -40,7 +40,7 @@ pub fn read(path: &Path, text: &str, units: &UnitSystem, name: String) -> Result
         history.set(quantity, curve(name, dimension)?);
     }
     // Of a panel; a yarn's history has none.
-    if table.columns.iter().any(|column| column.name == "deflection") {
+    if table.has("deflection") {
         history.set(Quantity::Deflection, curve("deflection", LENGTH)?);
     }
     history.failed = curve("deleted", NUMBER)?.first(|deleted| deleted > 0.0);

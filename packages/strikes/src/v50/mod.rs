@@ -17,6 +17,8 @@ mod limit;
 pub mod link;
 pub mod measured;
 mod plot;
+#[cfg(test)]
+mod published;
 mod records;
 mod report;
 mod run;

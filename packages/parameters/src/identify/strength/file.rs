@@ -119,7 +119,7 @@ impl Columns<'_> {
 
     fn has(&self, quantity: &str) -> bool {
         let known = self.file.columns.iter().any(|(key, _)| key.get_ref() == quantity);
-        known || self.table.column(quantity).is_ok()
+        known || self.table.has(quantity)
     }
 
     fn cells(&self, quantity: &str) -> Result<&[Cell], Error> {
@@ -152,14 +152,13 @@ impl Columns<'_> {
     fn check_names(&self) -> Result<(), Error> {
         let missing = || QUANTITIES.into_iter().filter(|quantity| !self.has(quantity));
         let is_read = |name: &str| QUANTITIES.iter().any(|quantity| self.name(quantity) == name);
-        for column in self.table.columns.iter().filter(|column| !is_read(&column.name)) {
-            if let Some(meant) = nearest(&column.name.to_lowercase(), missing()) {
+        for (name, number) in self.table.names().filter(|(name, _)| !is_read(name)) {
+            if let Some(meant) = nearest(&name.to_lowercase(), missing()) {
                 let message = format!(
-                    "it is not read, did you mean {meant}? allowed: the name {meant}, columns = {{ {meant} = \"{}\" }}, or a name that \
-                     is less alike",
-                    column.name
+                    "it is not read, did you mean {meant}? allowed: the name {meant}, columns = {{ {meant} = \"{name}\" }}, or a name that \
+                     is less alike"
                 );
-                return Err(self.table.error(self.table.header, column.number, &message));
+                return Err(self.table.error(self.table.header, number, &message));
             }
         }
         Ok(())
