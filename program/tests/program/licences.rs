@@ -35,6 +35,9 @@ const TARGET: &str = "x86_64-unknown-linux-gnu";
 const PROGRAM: [&str; 1] = ["toron-program"];
 /// Licences with an Apache-2.0 among them need no text of their own: it is this repository's.
 const COMMON: &str = "Apache-2.0";
+/// But for what stands behind an AND.
+const BOTH: &str = " AND ";
+const BESIDE: [&str; 1] = ["LICENSE-WHATWG"];
 const TEXTS: [&str; 5] = ["LICENSE-MIT", "LICENSE", "LICENSE.md", "LICENSE.txt", "UNLICENSE"];
 
 fn cargo(arguments: &[&str]) -> String {
@@ -88,9 +91,11 @@ fn generated() -> String {
         let found = (name.clone(), version.clone(), licence.clone());
         let places = table.entry((name.clone(), licence.clone())).or_default();
         *places = [places[0] || libraries.contains(&found), places[1] || program.contains(&found)];
-        if !licence.contains(COMMON) {
+        let is_common = licence.contains(COMMON);
+        if !is_common || licence.contains(BOTH) {
             let folder = &sources[&(name.clone(), version.clone())];
-            let file = TEXTS.iter().map(|file| folder.join(file)).find(|file| file.exists());
+            let files: &[&str] = if is_common { &BESIDE } else { &TEXTS };
+            let file = files.iter().map(|file| folder.join(file)).find(|file| file.exists());
             let file = file.unwrap_or_else(|| panic!("{name} {version}: no licence text"));
             texts.entry(lines(&file)).or_default().insert(name.clone());
         }
