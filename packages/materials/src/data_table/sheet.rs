@@ -101,8 +101,8 @@ impl Sheet {
         let any_unit = headings.iter().any(Heading::has_unit);
         // What stands between words is no decimal sign.
         let numbers = |row: &Row| {
-            let in_numbers = row.cells.iter().zip(&headings).filter(|(_, heading)| heading.has_unit() || !any_unit);
-            in_numbers.map(|(cell, _)| cell.contains(',')).any(|found| found)
+            let mut in_numbers = row.cells.iter().zip(&headings).filter(|(_, heading)| heading.has_unit() || !any_unit);
+            in_numbers.any(|(cell, _)| cell.contains(','))
         };
         let point = if delimiter != b',' && rows.iter().any(numbers) { ',' } else { '.' };
         let sheet = Sheet { name: name.to_string(), headings, header: line, rows, point };
