@@ -80,7 +80,7 @@ enum Command {
         restart: bool,
     },
     /// Fire a series of shots at a scene: V50, V5, V95 and slope with their intervals, and how sure the answer is.
-    V50(v50::command::Arguments),
+    V50(Box<v50::command::Arguments>),
     /// Strike a yarn whose fibres are rows of beads, in LAMMPS; write histories, plots, pictures and a table of them.
     Fibres(fibres::command::Arguments),
     /// Press a yarn's section, fibre by fibre, in CalculiX; write energies, pictures and the file that the fit reads.
