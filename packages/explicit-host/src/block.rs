@@ -177,7 +177,7 @@ pub struct History<T> {
     /// 1, or 0 once the element is deleted.
     pub intact: Vec<T>,
     viscosity: Viscosity<T>,
-    /// Of hourglass control where sections slide, see [`sliding`](super::sliding); else empty.
+    /// Of hourglass control where sections slide, see [`sliding`]; else empty.
     slid: Rows<T>,
     /// The deformation gradient at the start of the step, of the linear elastic law and of laws of one's own.
     f_old: Vec<T>,
