@@ -79,8 +79,7 @@ impl Pair {
         let slip = met.map_or([0.0; 3], |met| self.slip(own, master, met.weights));
         let way = dot(slip, slip).sqrt();
         if let Some(met) = met.filter(|_| self.on_face.stiffness == 0.0) {
-            // It may not have come here by its motion alone, but to another face.
-            self.ahead = self.ahead.min(way - met.depth).max(0.0);
+            self.begin(met.depth, way, -dot(met.normal, slip));
         }
         let Some(met) = met.filter(|met| met.depth > -self.ahead && met.depth < deepest) else {
             return (None, self.stay_apart(met, slip, [number, self.master as usize], [own, master], motion));
@@ -95,6 +94,15 @@ impl Pair {
         self.on_face =
             OnFace { force: total, weights: met.weights, stiffness: self.stiffness, counts: true, spring: 0.0 };
         (Some(total), lost + friction.dissipated)
+    }
+
+    /// Where it may begin to be pressed, after a motion by `way`, of which `nearer` against the face, to a depth: nothing
+    /// is held there. It may not have come by its motion alone, but to another face, and may have become slower.
+    fn begin(&mut self, depth: f64, way: f64, nearer: f64) {
+        self.ahead = self.ahead.min(way - depth).min(nearer).max(0.0);
+        if self.ahead > 0.0 {
+            self.depth = -self.ahead;
+        }
     }
 
     /// Takes over that the node does not touch, or no more, after a motion by `slip` against the face; returns the
@@ -169,7 +177,8 @@ impl Pair {
     fn update_penetration(&mut self, depth: f64, slip: f64, pressed: Option<f64>, out: f64) -> f64 {
         let before = if self.known { self.depth + self.uncounted } else { depth };
         // While it begins to be pressed, only what is more than its motion is a jump: what counts would change.
-        let jumps = self.uncounted > 0.0 && self.ahead == 0.0 || (depth - before).abs() > (1.0 + ROUNDING) * slip;
+        let jumps =
+            self.uncounted > 0.0 && self.depth >= self.ahead || (depth - before).abs() > (1.0 + ROUNDING) * slip;
         self.known = true;
         if let Some(pressed) = pressed.filter(|_| jumps) {
             if self.ahead > 0.0 {
@@ -338,6 +347,25 @@ mod tests {
             assert!(gain < 0.035, "{frequency}: {gain}");
         }
         assert!(worst(1.6, false) > 1.0 && worst(1.95, false) > 5.0);
+    }
+
+    /// However far before the face it was, and however much slower it comes than in the step before.
+    #[test]
+    fn nothing_is_lost_where_a_node_begins_to_be_pressed() {
+        for (gap, way) in [(1.5, 0.7), (1.05, 0.1), (0.9, 0.9), (0.2, 0.6)] {
+            for known in [true, false] {
+                let mut pair = Pair { stiffness: STIFFNESS, ahead: 1.0, known, ..Pair::default() };
+                let depth = way - gap;
+                pair.begin(depth, way, way);
+                if depth <= -pair.ahead {
+                    continue;
+                }
+                let lost = pair.update_penetration(depth, way, Some(0.0), way);
+                let (held, into) = (pair.held(pair.depth), pair.depth + pair.ahead);
+                assert!(lost == 0.0 && into <= way + 1e-15, "{gap} {way}: {lost} {into}");
+                assert!(held <= way * way * way / 6.0 / pair.ahead.max(1e-300), "{gap} {way}: {held}");
+            }
+        }
     }
 
     #[test]
