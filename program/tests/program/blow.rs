@@ -11,7 +11,8 @@ use toron_strikes::impact::run;
 use toron_strikes::impact::scene::Scene;
 use toron_test_support::library::folder;
 
-/// A short yarn under a heavy cylinder, to 4.5 µs.
+/// A short yarn under a heavy cylinder, to 4.5 µs. Elements of half a millimetre would be too long: where their sections
+/// slide, the answer to a property would be rough.
 const SCENE: &str = r#"
 units = "mm-g-ms"
 [scene]
@@ -19,7 +20,7 @@ law = "frictional"
 half-length = 4.0
 height = 0.115
 width = 0.5337
-layers = 16
+layers = 40
 rows = 2
 columns = 4
 mass = 9.91e-3
