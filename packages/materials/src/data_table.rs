@@ -79,9 +79,9 @@ impl DataTable {
         let mut table =
             DataTable { name: sheet.name.clone(), columns: Vec::new(), header: sheet.header, others: Vec::new() };
         for (place, heading) in sheet.headings.iter().enumerate() {
-            if let Some(other) = table.columns.iter().find(|other| other.name == heading.name && heading.unit.is_some())
-            {
-                let message = format!("the name \"{}\" is that of column {} as well", heading.name, other.number);
+            let is_same = |other: &Heading| other.name == heading.name && other.unit.is_some();
+            if let Some(other) = sheet.headings[..place].iter().position(is_same).filter(|_| heading.unit.is_some()) {
+                let message = format!("the name \"{}\" is that of column {} as well", heading.name, other + 1);
                 let message = format!("{message}; allowed: a name for each column");
                 return Err(Error::Input(format!("{}:{}:{}: {message}", sheet.name, sheet.header, place + 1)));
             }

@@ -147,8 +147,8 @@ fn zone(told: &Analysis, speed: &str) -> String {
 fn of_penalty(told: &Analysis) -> Option<String> {
     let separated = matches!(told.mix, Mix::Separated(_)) && told.curves.iter().any(|curve| curve.firth);
     separated.then(|| {
-        "Firth's curves have values here by their penalty, not by the shots: their intervals can be narrower than the gap, and hold \
-         less often than they say. Those without it are the shots' own."
+        "Firth's curves have values here by their penalty, not by the shots: their intervals can be narrower than the gap. \
+         Those without it are the shots' own."
             .to_string()
     })
 }

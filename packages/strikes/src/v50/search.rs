@@ -11,7 +11,9 @@ pub fn maximum(mut of: impl FnMut(f64) -> f64, [low, high]: [f64; 2]) -> (f64, f
     let (mut left, mut right) = (low, high);
     let mut inner = [right - GOLDEN * (right - left), left + GOLDEN * (right - left)];
     let mut values = inner.map(&mut of);
-    while right - left > NARROW * (high - low) {
+    // Numbers themselves are no narrower.
+    let narrow = (NARROW * (high - low)).max(4.0 * f64::EPSILON * low.abs().max(high.abs()));
+    while right - left > narrow {
         if values[0] < values[1] {
             left = inner[0];
             (inner[0], values[0]) = (inner[1], values[1]);
@@ -41,5 +43,7 @@ mod tests {
         assert!((place - 0.3).abs() < 1e-7 && (value - 2.0).abs() < 1e-14, "{place} {value}");
         assert_eq!(maximum(|x| x, [-1.0, 2.0]), (2.0, 2.0));
         assert_eq!(maximum(|x| -x, [-1.0, 2.0]), (-1.0, 1.0));
+        let (place, _) = maximum(|x| -(x - 500.861_306).powi(2), [500.861_305_86, 500.861_306_43]);
+        assert!((place - 500.861_306).abs() < 1e-8, "between places that are next to each other: {place}");
     }
 }

@@ -124,21 +124,21 @@ fn write(output: &Path, tables: &[Measured], told: &[Analysis], found: &[Differe
     let lines: Vec<_> = tables.iter().zip(told).flat_map(of_table).collect();
     write_csv(&output.join(FIGURES), &lines)?;
     if !found.is_empty() {
-        let unit = if told[0].asked.logarithm { "-" } else { &tables[0].unit.text };
-        write_csv(&output.join(DIFFERENCE), &found.iter().map(|found| cells(found, unit)).collect::<Vec<_>>())?;
+        let of = if told[0].asked.logarithm { ["ratio", "-"] } else { ["difference", &tables[0].unit.text] };
+        write_csv(&output.join(DIFFERENCE), &found.iter().map(|found| cells(found, of)).collect::<Vec<_>>())?;
     }
     draw(output, tables, told)
 }
 
-/// The cells of a difference.
-fn cells(found: &Difference, unit: &str) -> Vec<(String, String)> {
+/// The cells of a difference, or of a ratio, and its unit.
+fn cells(found: &Difference, [name, unit]: [&str; 2]) -> Vec<(String, String)> {
     let exact = |value: Option<f64>, none: &str| value.map_or(none.to_string(), |value| value.to_string());
     let Difference { link, estimate, one_v50, one_curve, least } = found;
     [
         ("curve".to_string(), link.name().to_string()),
-        (format!("difference ({unit})"), exact(estimate.value, NONE)),
-        (format!("difference_low ({unit})"), exact(estimate.interval.low, UNBOUNDED)),
-        (format!("difference_high ({unit})"), exact(estimate.interval.high, UNBOUNDED)),
+        (format!("{name} ({unit})"), exact(estimate.value, NONE)),
+        (format!("{name}_low ({unit})"), exact(estimate.interval.low, UNBOUNDED)),
+        (format!("{name}_high ({unit})"), exact(estimate.interval.high, UNBOUNDED)),
         ("one_v50_deviance".to_string(), one_v50[0].to_string()),
         ("one_v50_chance".to_string(), one_v50[1].to_string()),
         ("one_curve_deviance".to_string(), one_curve[0].to_string()),

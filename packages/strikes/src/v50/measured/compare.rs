@@ -11,8 +11,10 @@ use crate::v50::search::maximum;
 /// The first step to an end of the interval, and the farthest, over the deviations of the speeds.
 const FIRST_STEP: f64 = 0.25;
 const FARTHEST: f64 = 2048.0;
-/// Places between the two V50 at which the common one is sought first.
+/// Places between the two V50 at which the common one is sought first, and about each, over its curve's spread: a level
+/// curve is likeliest far from all shots.
 const PLACES: usize = 24;
+const ABOUT: [f64; 5] = [0.25, 0.5, 1.0, 2.0, 4.0];
 /// How often a difference of the least size shows.
 pub const POWER: f64 = 0.8;
 
@@ -44,10 +46,14 @@ impl Difference {
         let level = refusal_at(asked.level);
         let end = |first: f64| crossing(deviance, start, first * scale, level, FARTHEST * scale);
         let (low, high) = (end(-FIRST_STEP), end(FIRST_STEP));
-        let arm = low.zip(high).map(|(low, high)| (start - low).max(high - start));
         let [at_level, at_power] = [0.5 + 0.5 * asked.level, POWER].map(|part| Normal::standard().inverse_cdf(part));
         let out = |place: f64| if asked.logarithm { place.exp() } else { place };
         let has_value = one.v50.value.is_some() && other.v50.value.is_some();
+        // Where there is no value, any place in the gap would be as good a start.
+        let arm_of = |(low, high): (f64, f64)| {
+            if has_value { (start - low).max(high - start) } else { 0.5 * (high - low) }
+        };
+        let arm = low.zip(high).map(arm_of);
         let apart = deviance(0.0).max(0.0);
         let curves = (2.0 * (best - pooled.largest())).max(0.0);
         Some(Difference {
@@ -68,11 +74,17 @@ impl Difference {
 fn together(one: &Curve, other: &Curve, difference: f64) -> f64 {
     let of = |place: f64| one.with_v50(place) + other.with_v50(place + difference);
     let [a, b] = [one.likeliest_place(), other.likeliest_place() - difference];
-    let at = |i: usize| a + (b - a) * i as f64 / PLACES as f64;
-    let values: Vec<f64> = (0..=PLACES).map(|i| of(at(i))).collect();
+    let [low, high] = [a.min(b), a.max(b)];
+    let between = (0..=PLACES).map(|i| low + (high - low) * i as f64 / PLACES as f64);
+    let about = [(a, one.spread()), (b, other.spread())].into_iter().flat_map(|(place, spread)| {
+        ABOUT.into_iter().flat_map(move |part| [place - part * spread, place + part * spread])
+    });
+    let mut places: Vec<f64> = between.chain(about.filter(|place| (low..=high).contains(place))).collect();
+    places.sort_by(f64::total_cmp);
+    let values: Vec<f64> = places.iter().map(|&place| of(place)).collect();
     let best = (0..values.len()).fold(0, |best, i| if values[i] > values[best] { i } else { best });
-    let bounds = [at(best.saturating_sub(1)), at((best + 1).min(PLACES))];
-    maximum(of, [bounds[0].min(bounds[1]), bounds[0].max(bounds[1])]).1.max(values[best])
+    let bounds = [places[best.saturating_sub(1)], places[(best + 1).min(places.len() - 1)]];
+    maximum(of, bounds).1.max(values[best])
 }
 
 #[cfg(test)]
@@ -117,6 +129,14 @@ mod tests {
         let found = Difference::of(&told(&ONE, true), &told(&moved, true), Link::Probit).expect("curves");
         assert!((found.estimate.value.expect("a value") - 1.1).abs() < 1e-7, "{found:?}");
         assert!(found.least.is_some_and(|least| least > 1.0), "{found:?}");
+    }
+
+    /// The curve of a table without a slope is likeliest far away; one V50 for both is sought beside the other's.
+    #[test]
+    fn a_level_table_refuses_nothing() {
+        let level = told(&[(100.0, 4, 8), (110.0, 4, 8), (120.0, 4, 8)], false);
+        let found = Difference::of(&level, &told(&ONE, false), Link::Probit).expect("curves");
+        assert!(found.one_v50[0] < 1e-3 && found.one_v50[1] > 0.95, "{found:?}");
     }
 
     /// Separated tables have an interval of their difference and no value; without a curve there is none.

@@ -66,6 +66,12 @@ const KINDS: [&str; 9] =
     ["ply", "plies", "layers", "number of plies", "obliquity", "angle", "areal density", "projectile", "threat"];
 const YES: [&str; 9] = ["yes", "y", "1", "true", "x", "kept", "valid", "fair", "ok"];
 const NO: [&str; 8] = ["no", "n", "0", "false", "unfair", "invalid", "excluded", "left out"];
+/// What keeps a shot in a column of those that are left out.
+const NOT_LEFT_OUT: [&str; 10] = ["", "-", "no", "n", "0", "false", "kept", "valid", "fair", "ok"];
+/// Speeds of a shot that are not the one it struck with.
+const OTHER_SPEEDS: [&str; 6] = ["residual", "exit", "rest", "muzzle", "vr", "v r"];
+/// In m/s; what is slower as a point and three digits have it may be thousands.
+const SLOW: f64 = 10.0;
 
 /// What a user says of a table.
 #[derive(Clone, Debug, Default)]
@@ -127,6 +133,7 @@ impl Measured {
             }
         }
         let words = words_of(sheet, &kept, outcome, choice.through.as_deref())?;
+        check_thousands(sheet, &kept, speed, &unit)?;
         for row in &kept {
             let meaning = words.meaning(&row.cells[outcome]);
             if meaning == Meaning::None && row.cells[speed].is_empty() {
@@ -214,7 +221,13 @@ fn speed_column(sheet: &Sheet, choice: Option<&str>) -> Result<usize, Error> {
     }
     let mut found = columns(sheet, &SPEEDS);
     if found.is_empty() {
-        let is_speed = |place: &usize| matches!(&sheet.headings[*place].unit, Some(Ok(unit)) if unit.measures(SPEED));
+        let is_speed = |place: &usize| {
+            let heading = &sheet.headings[*place];
+            let name = plain(&heading.name);
+            let is_other =
+                OTHER_SPEEDS.iter().any(|other| name == *other || name.split(' ').any(|word| word == *other));
+            !is_other && matches!(&heading.unit, Some(Ok(unit)) if unit.measures(SPEED))
+        };
         found = (0..sheet.headings.len()).filter(is_speed).collect();
     }
     only_one(sheet, &found, "the speed", "--speed", "a heading as \"speed (m/s)\"")
@@ -233,6 +246,32 @@ fn unit_of(sheet: &Sheet, speed: usize) -> Result<Unit, Error> {
         heading.name
     );
     Err(Error::Input(format!("{}:{}:{}: {message}", sheet.name, sheet.header, speed + 1)))
+}
+
+/// A point or comma before three digits is a decimal sign, unless all that have one are so and others have none, or all
+/// would be slower than any shot: then it may stand for thousands.
+fn check_thousands(sheet: &Sheet, rows: &[&Row], speed: usize, unit: &Unit) -> Result<(), Error> {
+    let looks_so = |cell: &str| {
+        cell.split_once(['.', ',']).is_some_and(|(whole, part)| {
+            let digits = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
+            digits(whole) && whole.len() <= 3 && !whole.starts_with('0') && digits(part) && part.len() == 3
+        })
+    };
+    let filled = rows.iter().filter(|row| !row.cells[speed].is_empty());
+    let (signed, bare): (Vec<&&Row>, Vec<&&Row>) = filled.partition(|row| row.cells[speed].contains(['.', ',']));
+    let Some(first) = signed.first().filter(|_| signed.iter().all(|row| looks_so(&row.cells[speed]))) else {
+        return Ok(());
+    };
+    let metres = Unit::parse("m/s").map_err(|message| Error::Input(message.to_string()))?;
+    let is_slow =
+        |row: &&&Row| sheet.number(row, speed).is_ok_and(|value| unit.scale.convert(value, &metres.scale) < SLOW);
+    if bare.is_empty() && !signed.iter().all(is_slow) {
+        return Ok(());
+    }
+    let cell = shortened(&first.cells[speed]);
+    let message =
+        format!("the cell is \"{cell}\", a fraction or thousands; allowed: speeds without a sign for thousands");
+    Err(sheet.error(first.line, speed + 1, &message))
 }
 
 fn outcome_column(sheet: &Sheet, choice: Option<&str>, speed: usize) -> Result<usize, Error> {
@@ -290,12 +329,12 @@ impl LeftOut {
     fn why(&self, row: &Row) -> Option<String> {
         let (place, keeps) = self.column?;
         let cell = plain(&row.cells[place]);
-        let is_no = NO.contains(&cell.as_str());
-        let is_kept = if keeps { !is_no } else { is_no || cell.is_empty() || cell == "-" };
+        let is_kept = if keeps { !NO.contains(&cell.as_str()) } else { NOT_LEFT_OUT.contains(&cell.as_str()) };
         if is_kept {
             return None;
         }
-        let own = (!keeps && !YES.contains(&cell.as_str())).then(|| row.cells[place].clone());
+        let is_bare = YES.contains(&cell.as_str()) || NO.contains(&cell.as_str());
+        let own = (!keeps && !is_bare).then(|| row.cells[place].clone());
         let said = self.reasons.iter().map(|&place| row.cells[place].clone()).filter(|text| !text.is_empty());
         let reasons: Vec<String> = own.into_iter().chain(said).collect();
         Some(if reasons.is_empty() { "no reason given".to_string() } else { reasons.join("; ") })

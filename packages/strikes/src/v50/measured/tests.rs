@@ -43,6 +43,10 @@ fn shots_are_left_out_with_a_reason() {
     assert_eq!(measured.left_out, [(3, "no speed".to_string())]);
     let measured = read("v (m/s),result,excluded\n645,C,\n650,C,yaw 7°\n612,P,-\n", &Choice::default()).expect("shots");
     assert_eq!((measured.fates.len(), &measured.left_out[..]), (2, &[(3, "yaw 7°".to_string())][..]));
+    // By the word of the heading, and kept by its contrary.
+    let table = "v (m/s),result,excluded\n645,C,excluded\n612,P,\n650,C,fair\n640,C,Unfair\n";
+    let measured = read(table, &Choice::default()).expect("shots");
+    assert_eq!((measured.fates.len(), measured.left_out.len()), (2, 2), "{measured:?}");
     // A column in which nobody has marked anything leaves nothing out; else a blank is neither yes nor no.
     assert_eq!(shots("v (m/s),result,fair\n645,C,\n612,P,\n").len(), 2);
     let message = read("v (m/s),result,fair\n645,C,x\n612,P,\n", &Choice::default()).expect_err("a blank");
@@ -94,6 +98,13 @@ fn what_is_ambiguous_is_refused_at_its_place() {
             "3:1: column \"v\": the cell is \"1.645,2\"; allowed: a finite number with",
         ),
         (
+            "v (ft/s);result\n985;P\n1,012;P\n2,145;C\n",
+            "3:1: column \"v\": the cell is \"1,012\", a fraction or thousands; allowed: speeds without",
+        ),
+        ("v (ft/s),result\n1.985,P\n2.145,C\n", "2:1: column \"v\": the cell is \"1.985\", a fraction or thousands;"),
+        ("V0;Result;residual velocity (m/s)\n645;C;120\n", "1:1: no column is the speed; there are: V0, Result,"),
+        ("v (m/s),pass/stop\n645,1\n612,0\n", "2:2: column \"pass/stop\": the cell is \"1\", under \"pass/stop\";"),
+        (
             "v (m/s),result\n645 m/s,C\n645,P\n",
             "2:1: column \"v\": the cell is \"645 m/s\"; a unit in a cell; units belong",
         ),
@@ -101,6 +112,8 @@ fn what_is_ambiguous_is_refused_at_its_place() {
         let message = read(text, &none).expect_err(text);
         assert!(message.trim_start_matches("shots.csv:").starts_with(wanted), "{message}");
     }
+    assert_eq!(shots("v (km/s),result\n1.012,P\n1.145,C\n"), [(1.012, false), (1.145, true)]);
+    assert_eq!(shots("v (m/s),result\n645.125,P\n712.250,C\n"), [(645.125, false), (712.25, true)]);
     let two = "v1 (m/s),v2 (m/s),a\n645,650,pass\n612,613,stop\n";
     assert_eq!(read(two, &choice(Some("v2"), Some("a"))).expect("chosen").fates[0].speed, 650.0);
     let message = read(two, &choice(Some("v3"), Some("a"))).expect_err("none");

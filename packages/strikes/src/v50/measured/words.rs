@@ -28,15 +28,13 @@ const FAMILIES: [Family; 4] = [
     [&["0", "no", "n", "false"], &["1", "yes", "y", "true"]],
 ];
 const NO_FATE: [&str; 8] = ["", "-", "–", "undecided", "error", "n/a", "na", "void"];
-/// What a column may be called of which 1 or yes is a stop.
-const OF_STOPS: [&str; 8] = ["stop", "stopped", "held", "caught", "partial", "partial penetration", "pp", "gestoppt"];
+/// What a column has in its name of which 1 may be a stop.
+const OF_STOPS: [&str; 8] = ["stop", "pass", "held", "caught", "partial", "pp", "gestoppt", "valid"];
 /// What a column may be called that yes and no answer.
-const OF_PERFORATIONS: [&str; 14] = [
+const OF_PERFORATIONS: [&str; 12] = [
     "perforation",
     "perforated",
     "through",
-    "pass",
-    "passed",
     "complete",
     "complete penetration",
     "complete perforation",
@@ -143,7 +141,8 @@ fn check_answers(heading: &str, words: &[String]) -> Result<(), (String, String)
     };
     let heading = heading.trim_end_matches('?').trim_end();
     let is_digit = word == "0" || word == "1";
-    let is_clear = if is_digit { !OF_STOPS.contains(&heading) } else { OF_PERFORATIONS.contains(&heading) };
+    let is_clear =
+        if is_digit { !OF_STOPS.iter().any(|stop| heading.contains(stop)) } else { OF_PERFORATIONS.contains(&heading) };
     if is_clear {
         return Ok(());
     }
