@@ -19,6 +19,8 @@ pub struct Sheet {
     /// The line of the header.
     pub header: usize,
     pub rows: Vec<Row>,
+    /// Lines behind the header that begin with #, and are no rows.
+    pub comments: Vec<usize>,
     /// The decimal sign.
     pub point: char,
 }
@@ -78,8 +80,9 @@ impl Sheet {
         let text = text.trim_start_matches('\u{feff}').replace("\r\n", "\n").replace('\r', "\n");
         let numbered = text.lines().enumerate().map(|(i, line)| (i + 1, line));
         let is_blank = |line: &str| line.chars().all(|c| c.is_whitespace() || c == ',' || c == ';');
-        let lines = numbered.filter(|(_, line)| !is_blank(line) && !line.starts_with('#'));
-        let lines: Vec<(usize, &str)> = lines.collect();
+        type Lines<'a> = Vec<(usize, &'a str)>;
+        let (comments, lines): (Lines, Lines) =
+            numbered.filter(|(_, line)| !is_blank(line)).partition(|(_, line)| line.starts_with('#'));
         // Excel's line, which says how cells are separated.
         let separator = lines.first().and_then(|(_, line)| line.trim().strip_prefix("sep=")?.bytes().next());
         let lines = &lines[usize::from(separator.is_some())..];
@@ -105,7 +108,8 @@ impl Sheet {
             in_numbers.any(|(cell, _)| cell.contains(','))
         };
         let point = if delimiter != b',' && rows.iter().any(numbers) { ',' } else { '.' };
-        let sheet = Sheet { name: name.to_string(), headings, header: line, rows, point };
+        let comments = comments.iter().map(|(line, _)| *line).filter(|comment| *comment > line).collect();
+        let sheet = Sheet { name: name.to_string(), headings, header: line, rows, point, comments };
         sheet.check_rows()?;
         Ok(sheet)
     }

@@ -110,6 +110,10 @@ impl Measured {
     }
 
     fn of(sheet: &Sheet, choice: &Choice) -> Result<Measured, Error> {
+        if let Some(&line) = sheet.comments.first() {
+            let message = "the line begins with #: a comment, a number or a fault of the spreadsheet? allowed: comments before the heading";
+            return Err(sheet.error(line, 1, message));
+        }
         let only: Result<Vec<(usize, String)>, Error> =
             choice.only.iter().map(|(name, value)| Ok((named(sheet, "--only", name)?, plain(value)))).collect();
         let only = only?;

@@ -92,6 +92,7 @@ fn what_is_ambiguous_is_refused_at_its_place() {
             "1:2: v (m/s), velocity (m/s) could each be the speed; allowed:",
         ),
         ("v (m/s),left\n645,pass\n", "1:1: no column is the outcome; there are: v (m/s), left; allowed: a heading as"),
+        ("v (m/s),result\n645,C\n#WERT!,P\n612,P\n", "3:1: column \"v\": the line begins with #: a comment, a number"),
         ("v (m/s),result\n-5,C\n", "2:1: column \"v\": the cell is \"-5\"; allowed: a speed above 0"),
         (
             "v (m/s);result\n645,2;C\n1.645,2;P\n",
