@@ -499,14 +499,14 @@ impl<T: Number> Measures<T> {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
     use crate::stress::{Points, nominal_stress};
     use crate::viscosity::Viscosity;
 
-    const MODULUS: f64 = 0.6;
+    pub const MODULUS: f64 = 0.6;
     /// A skewed brick, and a prism whose upper rear edge has shrunk to nothing.
-    const NODES: [[f64; 3]; 8] = [
+    pub const NODES: [[f64; 3]; 8] = [
         [0.0, 0.0, 0.0],
         [2.0, 0.1, 0.0],
         [0.1, 1.0, 0.1],

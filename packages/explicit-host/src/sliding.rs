@@ -136,21 +136,10 @@ mod tests {
     use nalgebra::{DMatrix, Matrix3, Rotation3, Vector3};
 
     use super::*;
+    use crate::element::tests::{MODULUS, NODES};
 
-    const MODULUS: f64 = 0.6;
     /// Below the stress of the modes of `crooked`, 0.02 and more across the fibre.
     const LIMIT: f64 = 4e-3;
-    /// A skewed brick.
-    const NODES: [[f64; 3]; 8] = [
-        [0.0, 0.0, 0.0],
-        [2.0, 0.1, 0.0],
-        [0.1, 1.0, 0.1],
-        [2.1, 1.2, 0.0],
-        [0.0, 0.1, 1.5],
-        [2.0, 0.0, 1.4],
-        [0.2, 1.0, 1.5],
-        [2.0, 1.1, 1.6],
-    ];
 
     /// One element, where it is and what has slid.
     struct Element {

@@ -95,7 +95,7 @@ pub struct Curve {
     pub mix: Mix,
     /// Of the chances that were asked for.
     pub speeds: Vec<Estimate>,
-    pub v50: Estimate,
+    v50: Estimate,
     /// Of the chance, by speed or by its logarithm, where it is a half.
     pub slope: Estimate,
     logarithm: bool,

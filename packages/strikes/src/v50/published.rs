@@ -77,7 +77,7 @@ fn published_figures_are_met() {
         [("2", 5.3921, 1.0411, 1.3e-4), ("4", 64.307, 4.573, 5e-4), ("13", 989.20, 50.30, 6e-3)]
     {
         let curve = Curve::fit(&fates(set), Link::Probit, false).expect("a curve");
-        let found = [curve.v50.value, curve.scale().value].map(|value| value.expect("a value"));
+        let found = [curve.v50().value, curve.scale().value].map(|value| value.expect("a value"));
         assert!((found[0] - v50).abs() < half && (found[1] - scale).abs() < half, "{set}: {found:?}");
     }
 }

@@ -172,7 +172,7 @@ fn draw(output: &Path, tables: &[Measured], told: &[Analysis]) -> Result<(), Err
 
 /// V50, as the curve that is drawn last has it.
 fn title(told: &[Analysis], speed: &str) -> String {
-    let v50 = |told: &Analysis| told.asked.links.last().and_then(|&link| told.drawn(link)?.v50.value);
+    let v50 = |told: &Analysis| told.asked.links.last().and_then(|&link| told.drawn(link)?.v50().value);
     let all: Vec<String> = told.iter().map(|told| v50(told).map_or(NONE.to_string(), number)).collect();
     if all.iter().all(|value| value == NONE) { "V50".to_string() } else { format!("V50 {} {speed}", all.join(" and ")) }
 }

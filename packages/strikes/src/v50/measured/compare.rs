@@ -48,7 +48,7 @@ impl Difference {
         let (low, high) = (end(-FIRST_STEP), end(FIRST_STEP));
         let [at_level, at_power] = [0.5 + 0.5 * asked.level, POWER].map(|part| Normal::standard().inverse_cdf(part));
         let out = |place: f64| if asked.logarithm { place.exp() } else { place };
-        let has_value = one.v50.value.is_some() && other.v50.value.is_some();
+        let has_value = one.v50().value.is_some() && other.v50().value.is_some();
         // Where there is no value, any place in the gap would be as good a start.
         let arm_of = |(low, high): (f64, f64)| {
             if has_value { (start - low).max(high - start) } else { 0.5 * (high - low) }

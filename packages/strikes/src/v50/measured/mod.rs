@@ -69,7 +69,7 @@ const NO: [&str; 8] = ["no", "n", "0", "false", "unfair", "invalid", "excluded",
 /// What keeps a shot in a column of those that are left out.
 const NOT_LEFT_OUT: [&str; 10] = ["", "-", "no", "n", "0", "false", "kept", "valid", "fair", "ok"];
 /// Speeds of a shot that are not the one it struck with.
-const OTHER_SPEEDS: [&str; 6] = ["residual", "exit", "rest", "muzzle", "vr", "v r"];
+const OTHER_SPEEDS: [&str; 8] = ["residual", "exit", "rest", "muzzle", "vr", "v r", "nominal", "asked"];
 /// In m/s; what is slower as a point and three digits have it may be thousands.
 const SLOW: f64 = 10.0;
 
@@ -155,6 +155,7 @@ impl Measured {
         }
         let mut notes = vec![how_read(sheet, speed, outcome, &words)];
         notes.extend(of_kinds(sheet, &kept));
+        notes.extend(of_contrary(&fates));
         Ok(Measured { name: sheet.name.clone(), unit, fates, without_fate, left_out, notes })
     }
 
@@ -289,7 +290,8 @@ fn outcome_column(sheet: &Sheet, choice: Option<&str>, speed: usize) -> Result<u
 
 fn words_of(sheet: &Sheet, rows: &[&Row], outcome: usize, through: Option<&str>) -> Result<Words, Error> {
     let cells: Vec<&str> = rows.iter().map(|row| row.cells[outcome].as_str()).collect();
-    Words::of(&sheet.headings[outcome].name, &cells, through).map_err(|(word, message)| {
+    // What stands in parentheses is no unit here.
+    Words::of(&sheet.headings[outcome].text, &cells, through).map_err(|(word, message)| {
         let line = rows.iter().find(|row| plain(&row.cells[outcome]) == word).map_or(sheet.header, |row| row.line);
         sheet.error(line, outcome + 1, &format!("the cell is \"{}\", {message}", shortened(&word)))
     })
@@ -361,6 +363,17 @@ fn how_read(sheet: &Sheet, speed: usize, outcome: usize, words: &Words) -> Strin
         sheet.headings[outcome].text,
         said.join(", ")
     )
+}
+
+/// Words that were taken the wrong way round make a curve that falls.
+fn of_contrary(fates: &[Fate]) -> Option<String> {
+    let mean = |through: bool| {
+        let speeds: Vec<f64> = fates.iter().filter(|fate| fate.through == through).map(|fate| fate.speed).collect();
+        (!speeds.is_empty()).then(|| speeds.iter().sum::<f64>() / speeds.len() as f64)
+    };
+    let warning = "warning: the perforations were slower than the stops, in the mean; are the words the other way round? \
+                   --through WORD is the word of the perforations";
+    (mean(true)? < mean(false)?).then(|| warning.to_string())
 }
 
 /// Shots of several kinds have no one V50.

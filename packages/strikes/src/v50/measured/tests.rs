@@ -121,6 +121,16 @@ fn what_is_ambiguous_is_refused_at_its_place() {
     assert_eq!(message, "shots.csv:1: --speed: no column \"v3\"; there are: v1 (m/s), v2 (m/s), a");
 }
 
+/// A curve that falls is no answer without a word.
+#[test]
+fn words_the_wrong_way_round_are_noticed() {
+    let lines = "v (m/s),result\n600,C\n610,C\n605,P\n640,P\n650,P\n";
+    let notes = read(lines, &Choice::default()).expect("shots").notes;
+    assert!(notes[1].starts_with("warning: the perforations were slower than the stops"), "{notes:?}");
+    let other = Choice { through: Some("P".to_string()), ..Choice::default() };
+    assert_eq!(read(lines, &other).expect("shots").notes.len(), 1);
+}
+
 /// Shots of which no curve can be made end in a sentence.
 #[test]
 fn degenerate_tables_end_in_sentences() {
@@ -134,7 +144,10 @@ fn degenerate_tables_end_in_sentences() {
             "600,stop,yes\n610,stop,yes\n",
             "all shots were stopped, the fastest at 610.0 m/s; allowed: a perforation, by",
         ),
-        ("600,pass,yes\n610,pass,yes\n", "all shots went through, the slowest at 600.0 m/s; allowed: a stop among"),
+        (
+            "600,through,yes\n610,through,yes\n",
+            "all shots went through, the slowest at 600.0 m/s; allowed: a stop among",
+        ),
         ("600,stop,yes\n", "one shot is kept that has a fate; allowed: two or more, a stop and a perforation"),
         ("600,stop,no\n610,pass,no\n", "no shot is kept that has a fate; allowed: two or more"),
         ("600,stop,yes\n600,pass,yes\n", "all shots have one speed, 600.0 m/s; allowed: several speeds"),

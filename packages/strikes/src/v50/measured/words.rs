@@ -129,6 +129,10 @@ fn by_families(heading: &str, words: Vec<String>) -> Result<Vec<(String, Meaning
         let Some(&meaning) = meaning else { return Err((word.clone(), format!("allowed: {ALLOWED}"))) };
         meanings.push((word.clone(), meaning));
     }
+    if words.iter().all(|word| word == "pass" || word == "passed") && !words.is_empty() {
+        let message = "the armour, or the shot through it? allowed: --through WORD, the word of the perforations";
+        return Err((words[0].clone(), message.to_string()));
+    }
     check_answers(heading, &words)?;
     Ok(meanings)
 }
@@ -139,10 +143,13 @@ fn check_answers(heading: &str, words: &[String]) -> Result<(), (String, String)
     let Some(word) = words.iter().find(|word| no.contains(&word.as_str()) || yes.contains(&word.as_str())) else {
         return Ok(());
     };
-    let heading = heading.trim_end_matches('?').trim_end();
+    let question = heading.split(['(', '[']).next().unwrap_or(heading).trim_end().trim_end_matches('?').trim_end();
     let is_digit = word == "0" || word == "1";
-    let is_clear =
-        if is_digit { !OF_STOPS.iter().any(|stop| heading.contains(stop)) } else { OF_PERFORATIONS.contains(&heading) };
+    let is_clear = if is_digit {
+        !OF_STOPS.iter().any(|stop| heading.contains(stop))
+    } else {
+        OF_PERFORATIONS.contains(&question)
+    };
     if is_clear {
         return Ok(());
     }
@@ -184,6 +191,7 @@ mod tests {
             assert_eq!(of("Result", &[stop, pass], None), both, "{stop} {pass}");
         }
         assert_eq!(of("Perforated?", &["no", "Yes"], None), both);
+        assert_eq!(of("Perforated? (y/n)", &["n", "y"], None), both);
         assert_eq!(of("Result", &["pass", "fail"], Some("Fail")), both);
         assert_eq!(of("Stopped", &["1", "0"], Some("0")), both);
         let three = of("ending", &["stopped", "undecided", "through", ""], None);
@@ -197,6 +205,8 @@ mod tests {
         for (heading, cells, wanted) in [
             ("Result", &["P", "P"][..], "p: which is partial for some and perforation for others; allowed: --through"),
             ("Result", &["pass", "fail"], "fail: of the armour, or of the shot? allowed: --through WORD"),
+            ("Result", &["pass", "pass"], "pass: the armour, or the shot through it? allowed: --through WORD"),
+            ("Result (1 = stopped)", &["1", "0"], "1: under \"result (1 = stopped)\"; allowed: --through"),
             ("Result", &["yes", "no"], "yes: under \"result\"; allowed: --through yes or --through no"),
             ("Stopped", &["0", "1"], "0: under \"stopped\"; allowed: --through 0 or --through 1"),
             ("Result", &["stop", "maybe"], "maybe: allowed: stop and pass,"),
