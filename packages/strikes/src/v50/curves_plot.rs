@@ -3,7 +3,7 @@
 use plotters::prelude::*;
 
 use super::analysis::Analysis;
-use super::curve::Curve;
+use super::curve::{Curve, Interval};
 use super::curves_report::percent;
 use super::link::Link;
 use toron_pictures::legend::{self, BAND, Mark};
@@ -125,9 +125,44 @@ fn band(curve: &Curve, low: f64, high: f64) -> Vec<(f64, f64)> {
     let [first, second] = EXTREMES;
     let chances: Vec<f64> = [first, second].into_iter().chain(inner).chain([1.0 - second, 1.0 - first]).collect();
     let intervals: Vec<_> = chances.iter().map(|&chance| curve.speed_interval(chance)).collect();
-    let slow = |end: Option<f64>| end.unwrap_or(low).clamp(low, high);
-    let fast = |end: Option<f64>| end.unwrap_or(high).clamp(low, high);
-    let up = chances.iter().zip(&intervals).map(|(&chance, interval)| (slow(interval.low), chance));
-    let down = chances.iter().zip(&intervals).map(|(&chance, interval)| (fast(interval.high), chance)).rev();
-    up.chain(down).collect()
+    let ends = |end: fn(&Interval) -> Option<f64>, missing: f64| -> Vec<(f64, f64)> {
+        let places =
+            chances.iter().zip(&intervals).map(|(&chance, interval)| (end(interval).unwrap_or(missing), chance));
+        within(&places.collect::<Vec<_>>(), low, high)
+    };
+    let up = ends(|interval| interval.low, low);
+    let down = ends(|interval| interval.high, high);
+    up.into_iter().chain(down.into_iter().rev()).collect()
+}
+
+/// A line with what is outside of two speeds on these, and the places at which it passes them.
+fn within(line: &[(f64, f64)], low: f64, high: f64) -> Vec<(f64, f64)> {
+    let mut drawn = Vec::new();
+    for (place, &(speed, chance)) in line.iter().enumerate() {
+        if let Some(&(before, chance_before)) = place.checked_sub(1).and_then(|before| line.get(before)) {
+            let passes = |border: &f64| (before - border) * (speed - border) < 0.0;
+            let mut borders: Vec<f64> = [low, high].into_iter().filter(passes).collect();
+            borders.sort_by(|a, b| (a - before).abs().total_cmp(&(b - before).abs()));
+            let at = |border: f64| chance_before + (chance - chance_before) * (border - before) / (speed - before);
+            drawn.extend(borders.into_iter().map(|border| (border, at(border))));
+        }
+        drawn.push((speed.clamp(low, high), chance));
+    }
+    drawn
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_line_passes_the_borders_where_it_does() {
+        let line = [(-4.0, 0.1), (4.0, 0.3), (12.0, 0.5)];
+        assert_eq!(within(&line, 0.0, 10.0), [(0.0, 0.1), (0.0, 0.2), (4.0, 0.3), (10.0, 0.45), (10.0, 0.5)]);
+        assert_eq!(
+            within(&[(-5.0, 0.0), (15.0, 1.0)], 0.0, 10.0),
+            [(0.0, 0.0), (0.0, 0.25), (10.0, 0.75), (10.0, 1.0)]
+        );
+        assert_eq!(within(&line[1..2], 0.0, 10.0), [(4.0, 0.3)]);
+    }
 }
