@@ -6,7 +6,7 @@ use super::blocks::Block;
 use super::entry_points::of_points;
 use super::points::Point;
 use super::structures::read;
-use crate::law::block::{Points, Precision, at_fault};
+use crate::law::block::{Points, Precision, at_fault, evaluate_one};
 use crate::law::error::Error;
 use crate::law::frictional::Frictional;
 use crate::law::interface::Law;
@@ -27,10 +27,11 @@ pub unsafe fn point<T: Precision>(law: &Frictional<T>, point: *const Point<T>) -
         if point.deformation_gradient.is_null() {
             return Err(Error::Null { name: "deformation_gradient" });
         }
-        law.step(&Points {
-            state_old: Frictional::<T>::parts(point.state_old, 1),
-            state_new: Frictional::<T>::parts_mut(point.state_new, 1),
-            ..point.points()?
+        point.as_points(|points| {
+            let (state_old, state_new) = (point.state_old, point.state_new);
+            let (state_old, state_new) =
+                (Frictional::<T>::parts(state_old, 1), Frictional::<T>::parts_mut(state_new, 1));
+            Ok(evaluate_one(law, &Points { state_old, state_new, ..points }))
         })
     }
 }

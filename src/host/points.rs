@@ -213,14 +213,17 @@ impl<T> Point<T> {
 }
 
 impl<T: Scalar> Point<T> {
-    /// The point as a block of one, without its state.
+    /// Calls `evaluate` with the point as a block of one, without its state: a structure of 500 bytes, which is not
+    /// returned, since the processor would wait for each copy of it.
     ///
     /// # Errors
-    /// An argument is wrong.
-    pub(super) fn points(&self) -> Result<Points<T>, Error> {
+    /// An argument is wrong, or what `evaluate` finds.
+    #[inline(always)]
+    pub(super) fn as_points(&self, evaluate: impl FnOnce(Points<T>) -> Result<i32, Error>) -> Result<i32, Error> {
         let level = level(self.level)?;
         check_density::<T>(self.density, !self.wave_speed.is_null())?;
-        Ok(Points {
+        let measure = measure_of(self.tangent, self.measure)?;
+        evaluate(Points {
             f_new: components(self.deformation_gradient, 1),
             fibre: components(self.fibre, 1),
             limit: self.limit,
@@ -229,7 +232,7 @@ impl<T: Scalar> Point<T> {
             modes: self.modes,
             wave_speed: self.wave_speed,
             tangent: self.tangent,
-            measure: measure_of(self.tangent, self.measure)?,
+            measure,
             level,
             ..Points::without_arrays(1, 1)
         })

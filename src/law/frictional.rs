@@ -103,6 +103,7 @@ unsafe impl<T: Precision> Law<T> for Frictional<T> {
         Some(ShearLimit::new([self.elastic.p, self.friction.mu, self.friction.cohesion]))
     }
 
+    #[inline(always)]
     unsafe fn step(&self, points: &Points<T>) -> Result<i32, Error> {
         // SAFETY: the points are valid.
         unsafe { evaluate(self, points) }

@@ -38,13 +38,14 @@ pub(super) unsafe fn sweep<T: Scalar, R: Lanes<T>, const WANT: u8>(
     let (lanes, friction) = (law.lanes::<R>(), friction.lanes::<R>());
     let law = Yarn { elastic: &lanes, friction: &friction };
     let mut worst = R::splat(0.0);
-    let (registers, mut first) = (block.n.div_ceil(R::COUNT), 0);
+    // Of one point alone the compiler then knows that there is no loop.
+    let (registers, mut first) = (if R::ALONE { 1 } else { block.n.div_ceil(R::COUNT) }, 0);
     // Without a way out before the first turn: it would be taken before the stack frame is made, and LLVM's probes of a
     // frame of more than eight pages overwrite r11, which may hold n by then.
     loop {
         let left = registers - first;
         let count = match left {
-            _ if R::ALONE => 1, // known to the compiler, which then needs no arrays
+            _ if R::ALONE => 1, // and that it needs no arrays
             0..=STAGED => left,
             // Two groups of the same size take less time than a large and a small one.
             _ if left <= 2 * STAGED => left.div_ceil(2),
@@ -162,7 +163,7 @@ unsafe fn evaluate<T: Scalar, R: Lanes<T>, const WANT: u8>(
 /// before it if fewer than COUNT points are left.
 #[inline(always)]
 fn place<T, R: Lanes<T>>(block: &Points<T>, i: usize, k: usize) -> usize {
-    (i + k * R::COUNT).min(block.n - R::COUNT)
+    if R::ALONE { 0 } else { (i + k * R::COUNT).min(block.n - R::COUNT) }
 }
 
 /// The axes of each register of a group, and where they are usable: `None` for everywhere.

@@ -45,4 +45,4 @@ pub use dispatch::Precision;
 pub(crate) use kernel::least_code;
 pub use points::{Circumstances, PARTS, Points, Strides, components, components_mut};
 pub(crate) use points::{MOST, check_layout, distances, parts};
-pub(crate) use run::{Kernels, at_fault, evaluate};
+pub(crate) use run::{Kernels, at_fault, evaluate, evaluate_one};

@@ -109,7 +109,16 @@ impl<T> Circumstances<T> {
     ///
     /// # Errors
     /// A number that is needed and not finite, a step of negative length, no temperatures.
+    #[inline(always)]
     fn check(&self, reads: &Reads, n: usize) -> Result<(), Error> {
+        let Reads { time_increment, time, temperature, .. } = *reads;
+        if time_increment || time || temperature { self.check_those_read(reads, n) } else { Ok(()) }
+    }
+
+    /// # Errors
+    /// As for [`check`](Self::check).
+    #[inline(never)]
+    fn check_those_read(&self, reads: &Reads, n: usize) -> Result<(), Error> {
         let wrong = |name, value: f64, wanted| Err(Error::Argument { name, value: Value::of(value), wanted });
         let unknown = |text| Err(Error::Setting { code: status::BAD_ARGUMENT, text });
         if reads.time_increment && self.time_increment.is_nan() {

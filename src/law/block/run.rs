@@ -106,11 +106,10 @@ pub(crate) unsafe fn evaluate<T: Precision, L: Kernels<T>>(law: &L, points: &Poi
         if points.strides != Strides::UNIT {
             return Ok(in_copies(law, points));
         }
-        if !L::IN_PLACE || points.in_place() {
-            return Ok(law.run(points));
+        if points.n == 1 {
+            return Ok(evaluate_one(law, points));
         }
-        if points.n == 1 && points.has_old_state() {
-            points.keep_old_state_of_one(&needs.parts);
+        if !L::IN_PLACE || points.in_place() {
             return Ok(law.run(points));
         }
         // An old state in other arrays is copied part by part, so that the copy is still in the first-level cache when
@@ -123,6 +122,28 @@ pub(crate) unsafe fn evaluate<T: Precision, L: Kernels<T>>(law: &L, points: &Poi
             worst = worst.min(law.run(&part));
         }
         Ok(worst)
+    }
+}
+
+/// Evaluates a law at one point of which [`evaluate`] need find out nothing: as it has been checked, or as a host makes
+/// it of its own structure for one point. Returns its status code.
+///
+/// # Safety
+/// The points are valid, see [`Points`], with n = 1 and strides of 1, and [`Points::check`] finds nothing wrong.
+#[inline(always)]
+pub(crate) unsafe fn evaluate_one<T: Precision, L: Kernels<T>>(law: &L, point: &Points<T>) -> i32 {
+    let parts = const { &Needs::of::<T, L>().parts };
+    // SAFETY: as the caller promises.
+    unsafe {
+        if L::IN_PLACE && !point.in_place() {
+            if !point.has_old_state() {
+                let mut fresh = *point;
+                fresh.copy_old_state(parts);
+                return law.run(&fresh);
+            }
+            point.keep_old_state_of_one(parts);
+        }
+        law.run(point)
     }
 }
 
