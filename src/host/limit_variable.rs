@@ -57,9 +57,11 @@ pub(super) fn at<T>(variables: *const T, place: Option<usize>) -> *const T {
     place.map_or(null(), |place| variables.wrapping_add(place))
 }
 
-/// The limit of a point as its law takes it: null where points of the law have none.
+/// The limit of a point as its law takes it: null where points of the law have none, or where it is 0, that of the
+/// properties: the kernels for points without limits take less time.
 pub(super) fn of<T: Precision, L: Law<T>>(limit: &T) -> *const T {
-    if L::HAS_LIMIT { limit } else { null() }
+    let given: f64 = (*limit).into();
+    if L::HAS_LIMIT && given != 0.0 { limit } else { null() }
 }
 
 /// The limit, or 0 where there is none or the point has failed before, by its `latch`. Refuses one that means nothing,

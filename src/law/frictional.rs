@@ -30,7 +30,7 @@
 //! and the rate.
 
 use super::block::{PARTS, Points, Precision, evaluate};
-use super::bounds::check;
+use super::bounds::{check, limits, within};
 use super::description::{self, Description};
 use super::error::Error;
 use super::hyperelastic::{Hyperelastic, Kirchhoff};
@@ -58,12 +58,15 @@ impl<T: Precision> Frictional<T> {
     /// # Errors
     /// The first property that is wrong, with its value and what is allowed.
     pub fn new(properties: &[T]) -> Result<Self, Error> {
-        check(&parameters::FRICTIONAL, properties)?;
-        let Ok(&[k_el, k_tc, p, k_td, k_ld, eps_lim, alpha, beta, m_1, m_2, m_3, mu, cohesion]) =
-            <&[T; FRICTIONAL_PROPERTIES]>::try_from(properties)
-        else {
-            return Err(Error::Plain(status::PROPERTY_COUNT)); // not reached: the count is checked
+        const LIMITS: [[f64; FRICTIONAL_PROPERTIES]; 2] = limits(&parameters::FRICTIONAL);
+        let Ok(properties) = <&[T; FRICTIONAL_PROPERTIES]>::try_from(properties) else {
+            check(&parameters::FRICTIONAL, properties)?;
+            return Err(Error::Plain(status::PROPERTY_COUNT)); // not reached: `check` has returned the error
         };
+        if !within(&LIMITS, properties) {
+            check(&parameters::FRICTIONAL, properties)?;
+        }
+        let &[k_el, k_tc, p, k_td, k_ld, eps_lim, alpha, beta, m_1, m_2, m_3, mu, cohesion] = properties;
         let elastic: [T; HYPERELASTIC_PROPERTIES] = [k_el, k_tc, p, k_td, k_ld, eps_lim, alpha, beta, m_1, m_2, m_3];
         Ok(Frictional { elastic: Hyperelastic::new(&elastic)?, friction: Friction::new(k_td, mu, cohesion) })
     }

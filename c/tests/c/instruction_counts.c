@@ -6,20 +6,22 @@
 #include "toron.h"
 
 enum { N = 1024, PROPERTIES = TORON_HYPERELASTIC_PROPERTIES, STATE = TORON_HYPERELASTIC_STATE };
+enum { FRICTIONAL = TORON_FRICTIONAL_PROPERTIES, FRICTIONAL_STATE = TORON_FRICTIONAL_STATE };
 enum { LINEAR = TORON_LINEAR_ELASTIC_PROPERTIES, LINEAR_STATE = TORON_LINEAR_ELASTIC_STATE };
 
 static const double rest[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
 
 /* Columns of F, point by point and component-major, in both precisions; outputs. */
-static double point[N][9], gradient[9][N], rests[9][N], state[STATE][N], stress[6][N], tangent[36][N], axes[9][N];
+static double point[N][9], gradient[9][N], rests[9][N], state[FRICTIONAL_STATE][N], stress[6][N], tangent[36][N], axes[9][N];
 static float point_single[N][9], gradient_single[9][N], rests_single[9][N], state_single[STATE][N], stress_single[6][N];
 static float tangent_single[36][N];
 static int32_t status[N];
 
-static double values[PROPERTIES], linear_values[LINEAR];
+static double values[PROPERTIES], frictional_values[FRICTIONAL], linear_values[LINEAR];
 static float values_single[PROPERTIES], linear_values_single[LINEAR];
 static toron_hyperelastic_f64 law;
 static toron_hyperelastic_f32 law_single;
+static toron_frictional_f64 frictional_law;
 static toron_linear_elastic_f64 linear_law;
 static toron_linear_elastic_f32 linear_law_single;
 
@@ -52,6 +54,8 @@ static void prepare(void)
     expect(toron_preset_f32("kevlar-km2-600", "mm-tonne-s", values_single, PROPERTIES, NULL, NULL, 0), "preset");
     expect(toron_preset_f64("kevlar-km2-600-linear", "mm-tonne-s", linear_values, LINEAR, NULL, NULL, 0), "preset");
     expect(toron_preset_f32("kevlar-km2-600-linear", "mm-tonne-s", linear_values_single, LINEAR, NULL, NULL, 0), "preset");
+    expect(toron_preset_f64("kevlar-km2-600-frictional", "mm-tonne-s", frictional_values, FRICTIONAL, NULL, NULL, 0), "preset");
+    expect(toron_frictional_prepare_f64(&frictional_law, sizeof frictional_law, frictional_values, FRICTIONAL, NULL, 0), "law");
     expect(toron_hyperelastic_prepare_f64(&law, sizeof law, values, PROPERTIES, NULL, 0), "law");
     expect(toron_hyperelastic_prepare_f32(&law_single, sizeof law_single, values_single, PROPERTIES, NULL, 0), "law");
     expect(toron_linear_elastic_prepare_f64(&linear_law, sizeof linear_law, linear_values, LINEAR, NULL, 0), "law");
@@ -123,6 +127,40 @@ static void lsdyna_tangent_f64(void)
         memcpy(history + STATE, point[i], sizeof point[i]);
         expect(toron_lsdyna_utan_f64(values, history, STATE, c, NULL, 0), "utan");
     }
+}
+
+/* ---- The law with friction: its fibres slide at most of the deformations */
+
+static void run_frictional_points(double *to)
+{
+    double before[FRICTIONAL_STATE] = {0}, after[FRICTIONAL_STATE];
+    toron_point_f64 one = {.size = sizeof one, .state_old = before, .state_new = after, .stress = s, .tangent = to,
+                           .measure = TORON_TANGENT_JAUMANN};
+    for (int i = 0; i < N; i++) {
+        one.deformation_gradient = point[i];
+        expect(toron_frictional_point_f64(&frictional_law, &one, NULL, 0), "point");
+    }
+}
+
+static void frictional_point_f64(void) { run_frictional_points(NULL); }
+static void frictional_point_tangent_f64(void) { run_frictional_points(c); }
+
+static void frictional_umat_f64(void)
+{
+    double energy = 0, lost = 0, cut = 1;
+    for (int i = 0; i < N; i++) {
+        double kept[FRICTIONAL_STATE] = {0};
+        expect(toron_abaqus_frictional_umat_f64(s, kept, NULL, &energy, &lost, &cut, point[i], frictional_values, FRICTIONAL,
+                                                FRICTIONAL_STATE, 3, 3, 1, NULL, 0), "UMAT");
+    }
+}
+
+static void frictional_block_f64(void)
+{
+    toron_block_f64 block = {.size = sizeof block, .n = N, .deformation_gradient = {gradient[0]}, .stress = {stress[0]},
+                             .energies_old = state[0], .energies = state[0], .invariants_old = state[4], .invariants = state[4],
+                             .failure_old = state[8], .failure = state[8], .status = status};
+    expect(toron_frictional_block_f64(&frictional_law, &block, NULL, 0), "block");
 }
 
 /* ---- The same of the linear elastic law, from rest to the deformation in one step */
@@ -406,6 +444,10 @@ static const struct {
     {"mgis-f64", mgis_f64},
     {"mgis-tangent-f64", mgis_tangent_f64},
     {"calculix-f64", calculix_f64},
+    {"frictional-point-f64", frictional_point_f64},
+    {"frictional-point-tangent-f64", frictional_point_tangent_f64},
+    {"frictional-umat-f64", frictional_umat_f64},
+    {"frictional-block-f64", frictional_block_f64},
     {"linear-point-f64", linear_point_f64},
     {"linear-point-polar-f64", linear_point_polar_f64},
     {"linear-point-spin-f64", linear_point_spin_f64},

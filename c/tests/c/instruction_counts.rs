@@ -5,8 +5,8 @@
 //! too: record them anew with a new one. Valgrind knows no AVX-512, so that the block runs at AVX2.
 //!
 //! `umat` and `point` are one point a call, in fused arithmetic; both prepare the law at every call, `point-prepared`
-//! and `point-tangent` do not. Here the change of the floating-point environment is counted too. `linear` is the linear
-//! elastic law, whose frame follows the fibre where the name says nothing else.
+//! and `point-tangent` do not. Here the change of the floating-point environment is counted too. `frictional`
+//! is the law with friction between the fibres, and `linear` the linear elastic law, whose frame follows the fibre where the name says nothing else.
 #![cfg(all(target_arch = "x86_64", target_os = "linux"))]
 
 use std::fmt::Write;
@@ -20,7 +20,7 @@ use toron_test_support::update::is_asked;
 const POINTS: f64 = 1024.0;
 /// The program's names of what it runs, the function whose instructions count, and whether it evaluates the points in
 /// lanes.
-const ENTRIES: [(&str, &str, bool); 41] = [
+const ENTRIES: [(&str, &str, bool); 45] = [
     ("umat-f64", "toron_abaqus_umat_f64", false),
     ("umat-tangent-f64", "toron_abaqus_umat_tangent_f64", false),
     ("point-f64", "toron_hyperelastic_point_with_properties_f64", false),
@@ -42,6 +42,10 @@ const ENTRIES: [(&str, &str, bool); 41] = [
     ("mgis-f64", "ToronHyperelastic_Tridimensional", false),
     ("mgis-tangent-f64", "ToronHyperelastic_Tridimensional", false),
     ("calculix-f64", "HYPERELASTIC", false),
+    ("frictional-point-f64", "toron_frictional_point_f64", false),
+    ("frictional-point-tangent-f64", "toron_frictional_point_f64", false),
+    ("frictional-umat-f64", "toron_abaqus_frictional_umat_f64", false),
+    ("frictional-block-f64", "toron_frictional_block_f64", true),
     ("linear-point-f64", "toron_linear_elastic_point_f64", true),
     ("linear-point-polar-f64", "toron_linear_elastic_point_f64", true),
     ("linear-point-spin-f64", "toron_linear_elastic_point_f64", true),
