@@ -40,7 +40,7 @@ pub fn run(path: &Path, output: &Path, scene: Option<&Path>) -> Result<(), Error
         output::write_set(&output.join(of_set(&set.name)), set, fitted)?;
     }
     print(&report::report(&job, &fit));
-    if !job.problem.sets.is_empty() {
+    if plots(&job) {
         // The region takes a while along load paths.
         let border = region::border(&job.problem, &fit);
         let [svg, png] = PLOTS.map(|name| output.join(name));
@@ -68,10 +68,15 @@ fn of_set(name: &str) -> String {
 fn names(job: &Job) -> Vec<String> {
     let mut names = vec![format!("{}.toml", job.preset.name), PARAMETERS.to_string()];
     names.extend(job.problem.sets.iter().map(|set| of_set(&set.name)));
-    if !job.problem.sets.is_empty() {
+    if plots(job) {
         names.extend(PLOTS.map(String::from));
     }
     names
+}
+
+/// Whether there is anything to draw.
+fn plots(job: &Job) -> bool {
+    !job.problem.sets.is_empty() || !job.friction.points.is_empty()
 }
 
 /// The directory of the files, where those of another command or of other data are not overwritten.

@@ -34,11 +34,11 @@ pub struct Sliding {
 
 /// A set as a point: the pressure, the deviator less its dilatancy, and the standard error of that.
 #[derive(Clone, Copy, Debug)]
-struct Point {
-    p_t: f64,
-    q: f64,
+pub struct Point {
+    pub p_t: f64,
+    pub q: f64,
     error: f64,
-    is_free: bool,
+    pub is_free: bool,
 }
 
 impl Point {
@@ -70,6 +70,8 @@ pub struct Friction {
     pub free: Option<Told>,
     /// The pressures of the data, from the least to the largest.
     pub pressures: [f64; 2],
+    /// The sets.
+    pub points: Vec<Point>,
 }
 
 /// µ and c from these sets, with what the file gives of them; `untold` is c where nothing tells it.
@@ -121,6 +123,7 @@ pub fn fit(sets: &[Sliding], given: [Option<f64>; 2], untold: f64) -> Result<Fri
         values,
         free: of_free(&free),
         pressures: range,
+        points,
     })
 }
 

@@ -1,4 +1,5 @@
-//! The plot of a fit: each set with its fit and its residuals, and the joint region of k_tc and p.
+//! The plot of a fit: each set with its fit and its residuals, the joint region of k_tc and p, and the sections that
+//! slide with the line of their friction.
 
 use std::path::Path;
 
@@ -8,6 +9,7 @@ use super::data::{Axis, DataSet, Loading};
 use super::file::Job;
 use super::fit::{Fit, SetFit};
 use super::parameter::Parameter;
+use toron::law::parameters::STRESS;
 use toron_materials::units::unit;
 use toron_pictures::legend::{self, Mark};
 use toron_pictures::page::{self, Area, Drawn};
@@ -37,9 +39,9 @@ pub fn write(svg: &Path, png: &Path, job: &Job, fit: &Fit, border: Option<&[[f64
     page::write(svg, png, [WIDTH * columns as u32, HEAD + ROW * rows as u32], |root| draw(root, job, fit, border))
 }
 
-/// Rows and columns of pairs of panels: a pair for each set, and the joint region in place of another.
+/// Rows and columns of pairs of panels: a pair for each set, and another one for the joint region and the friction.
 fn grid(job: &Job, border: Option<&[[f64; 2]]>) -> [usize; 2] {
-    let pairs = job.problem.sets.len() + usize::from(border.is_some());
+    let pairs = job.problem.sets.len() + usize::from(border.is_some() || !job.friction.points.is_empty());
     let columns = if pairs > MOST_IN_A_COLUMN { 2 } else { 1 };
     [pairs.div_ceil(columns), columns]
 }
@@ -60,9 +62,14 @@ fn draw(root: &Area, job: &Job, fit: &Fit, border: Option<&[[f64; 2]]>) -> Drawn
         draw_set(&left, set, fitted, &over)?;
         draw_residuals(&right, set, fitted, &over)?;
     }
-    if let (Some(border), Some(place)) = (border, places.get(job.problem.sets.len())) {
-        let (left, _) = place.split_horizontally(fine(WIDTH as i32 / 2));
-        draw_region(&left, job, fit, border)?;
+    if let Some(place) = places.get(job.problem.sets.len()) {
+        let (left, right) = place.split_horizontally(fine(WIDTH as i32 / 2));
+        if let Some(border) = border {
+            draw_region(&left, job, fit, border)?;
+        }
+        if !job.friction.points.is_empty() {
+            draw_friction(if border.is_some() { &right } else { &left }, job)?;
+        }
     }
     Ok(())
 }
@@ -181,5 +188,31 @@ fn draw_region(area: &Area, job: &Job, fit: &Fit, border: &[[f64; 2]]) -> Drawn<
     chart.draw_series(LineSeries::new(corners, stroke(GREY, 1)))?;
     chart.draw_series(LineSeries::new(border.iter().map(|pair| (pair[1], pair[0])), stroke(COLOURS[1], 3)))?;
     chart.draw_series([Circle::new((p.value, k_tc.value), fine(POINT), COLOURS[1].filled())])?;
+    Ok(())
+}
+
+/// The sections that slide, and the line that µ and c make of them.
+fn draw_friction(area: &Area, job: &Job) -> Drawn<()> {
+    let (points, [mu, c]) = (&job.friction.points, job.friction.values);
+    let line = |p_t: f64| mu * p_t + c;
+    let x = bounds(&points.iter().map(|point| point.p_t).chain([0.0]).collect::<Vec<_>>());
+    let stress = unit(&job.units, STRESS);
+    let frame = Frame {
+        title: format!("Sections that slide: q − p_t dI_tc/dI_td ({stress}), which µ p_t + c is"),
+        legend: &[
+            (Mark::Point(COLOURS[0]), "under pressure"),
+            (Mark::Point(COLOURS[2]), "with free sides"),
+            (Mark::Line(COLOURS[1]), "fit"),
+        ],
+        x,
+        y: bounds(&points.iter().map(|point| point.q).chain([0.0, line(x.0), line(x.1)]).collect::<Vec<_>>()),
+        x_name: format!("p_t ({stress})"),
+    };
+    let mut chart = frame.draw(area)?;
+    chart.draw_series(LineSeries::new([x.0, x.1].map(|p_t| (p_t, line(p_t))), stroke(COLOURS[1], 2)))?;
+    chart.draw_series(points.iter().map(|point| {
+        let colour = COLOURS[if point.is_free { 2 } else { 0 }];
+        Circle::new((point.p_t, point.q), fine(POINT), colour.filled())
+    }))?;
     Ok(())
 }
