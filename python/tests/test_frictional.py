@@ -65,7 +65,7 @@ def test_truth(layout):
 
 def test_tables_and_presets():
     law = toron.Frictional.from_preset("kevlar-km2-600-frictional", units="mm-tonne-s")
-    assert law.properties["mu"] == 0.25 and law.properties["cohesion"] == 0.0
+    assert law.properties["mu"] == 0.15 and law.properties["cohesion"] == 0.0
     assert len(law.properties_table()) == 13 and len(law.state_table()) == 15
     assert law.replace(cohesion=0.2).properties["cohesion"] == 0.2
     with pytest.raises(toron.PropertyError, match="property 12 .mu, .* is 1.0; allowed: a number from 0 to below 1"):
