@@ -154,7 +154,14 @@ fn errors_name_the_file_that_is_wrong() {
     wrong(&format!("{YARN}m_1 = 0\n"), "", &format!("yarns/wrong.toml:11: {direction}"));
     assert_eq!(said(&format!("{YARN}m_1 = 0\n"), "fibre = [0, 1, 0]").0, Some(0));
     wrong(YARN, "fibre = [0, 0, 0]", &format!("path.toml:4: {direction}"));
-    wrong(YARN, "law = \"linear-elastic\"", "path.toml:4: preset \"my-yarn\" belongs to the other law");
+    let other = "path.toml:4: preset \"my-yarn\" is of the law hyperelastic; allowed: hyperelastic";
+    wrong(YARN, "law = \"linear-elastic\"", other);
+    // A yarn gets friction between its fibres: that law has all of its properties.
+    let mu = "property mu (friction of the section: sine of its angle of friction) is missing, and yarns/wrong.toml does not give it";
+    wrong(YARN, "law = \"frictional\"", &format!("path.toml:2: {mu}; allowed: a number from 0 to below 1"));
+    assert_eq!(said(YARN, "law = \"frictional\"\nproperties = { mu = 0.15 }").0, Some(0));
+    let k_tc = YARN.replace("k_tc = ", "k_tc = -");
+    wrong(&k_tc, "law = \"frictional\"\nproperties = { mu = 0.15 }", &format!("yarns/wrong.toml:7: {negative}"));
     // Allowed in the file's units, not in those of the load path.
     let huge = "property 1 (k_el, longitudinal elongation stiffness) is 2e25; allowed: a number from 0 to 1e25";
     let giga = YARN.replace("mm-tonne-s", "mm-kg-ms").replace("82445.3", "2e22");

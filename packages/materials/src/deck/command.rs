@@ -179,13 +179,10 @@ fn preset(laws: Laws, arguments: &Arguments, law: Option<LawName>) -> Result<Pre
                 .ok_or_else(|| Error::Input("--preset or --properties is missing; allowed: a file".into()))?
         }
     };
-    match law {
-        Some(law) if law != preset.law => {
-            let (name, own) = (&preset.name, preset.law.text());
-            Err(Error::Input(format!("--law {}: {name} is of the law {own}; allowed: {own}", law.text())))
-        }
-        _ => Ok(preset),
-    }
+    let Some(law) = law else { return Ok(preset) };
+    let (name, own) = (preset.name.clone(), preset.law.text());
+    let wrong = || Error::Input(format!("--law {}: {name} is of the law {own}; allowed: {own}", law.text()));
+    preset.for_law(law).ok_or_else(wrong)
 }
 
 /// The deck's units, or those of the yarn's file.

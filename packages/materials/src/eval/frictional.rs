@@ -5,6 +5,7 @@ use std::io::{self, BufRead, Write};
 use std::marker::PhantomData;
 
 use nalgebra::Matrix3;
+use serde::de::IgnoredAny;
 use serde::{Deserialize, Serialize};
 
 use super::command::Entry;
@@ -30,6 +31,9 @@ struct Input {
     params: BTreeMap<String, f64>,
     /// Both components of the slip, I_te and the energy lost before the first step; all 0 where it is left out.
     before: Option<[f64; 4]>,
+    /// Keys of the record's own.
+    #[serde(flatten)]
+    others: BTreeMap<String, IgnoredAny>,
 }
 
 /// What a step leaves. Stresses are 11 22 33 12 13 23.
@@ -101,6 +105,9 @@ fn properties(input: &Input) -> Result<[f64; PROPERTIES], String> {
     let known = |key: &str| FRICTIONAL.iter().any(|property| property.name == key);
     if let Some(unknown) = input.params.keys().find(|key| !known(key)) {
         return Err(format!("\"params\" has the key \"{}\"; allowed: {}", shortened(unknown), names()));
+    }
+    if let Some(key) = input.others.keys().find(|key| known(key)) {
+        return Err(format!("the key \"{key}\" stands beside \"params\"; allowed: within it"));
     }
     let mut values = [0.0; PROPERTIES];
     for (to, Property { name, meaning, allowed, default, .. }) in values.iter_mut().zip(&FRICTIONAL) {

@@ -125,9 +125,14 @@ pub fn read_material(
     let law_name = named.or(preset.as_ref().map(|preset| preset.law)).or(laws.only());
     let law_name = law_name
         .ok_or_else(|| source.error(span.clone(), "the material needs a preset, or a law and its properties"))?;
-    if let (Some(law), Some(preset)) = (&file.law, preset.as_ref().filter(|preset| preset.law != law_name)) {
-        return Err(source.error(law.span(), &format!("preset \"{}\" belongs to the other law", preset.name)));
-    }
+    let preset = match (preset, &file.law) {
+        (Some(preset), Some(law)) => {
+            let (name, own) = (preset.name.clone(), preset.law.text());
+            let wrong = || source.error(law.span(), &format!("preset \"{name}\" is of the law {own}; allowed: {own}"));
+            Some(preset.for_law(law_name).ok_or_else(wrong)?)
+        }
+        (preset, _) => preset,
+    };
     let Values { values, places } = values(source, file, preset.as_ref(), law_name, units, &span)?;
     let (frame, criterion) = options(source, file, law_name)?;
     let law = Law::new(law_name, &values, frame, criterion).map_err(|error| {

@@ -81,6 +81,15 @@ struct File {
     lines: Vec<Option<usize>>,
 }
 
+/// What one law's properties have, at their places among those of another one.
+fn spread<X: Copy>(places: &[usize], from: &[Option<X>], law: LawName) -> Vec<Option<X>> {
+    let mut to = vec![None; law.table().len()];
+    for (&place, &value) in places.iter().zip(from) {
+        to[place] = value;
+    }
+    to
+}
+
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct PresetFile {
@@ -116,6 +125,21 @@ impl Preset {
         let values = vec![None; law.table().len()];
         let (name, source, guesses) = (name.to_string(), source.to_string(), Guesses::default());
         Preset { name, source, law, units, values, density: None, guesses, file: None }
+    }
+
+    /// The preset for another law, whose properties include all of its own, as those of the law with friction include the
+    /// hyperelastic law's; none for any other law.
+    pub fn for_law(self, law: LawName) -> Option<Preset> {
+        if self.law == law {
+            return Some(self);
+        }
+        let place = |property: &Property| {
+            let same = |other: &Property| other.name == property.name && other.dimension == property.dimension;
+            law.table().iter().position(same)
+        };
+        let places: Vec<usize> = self.law.table().iter().map(place).collect::<Option<_>>()?;
+        let file = self.file.map(|file| File { lines: spread(&places, &file.lines, law), ..file });
+        Some(Preset { values: spread(&places, &self.values, law), law, file, ..self })
     }
 
     /// The preset of this name among those of the laws, or the file, where the name ends in `.toml`; a relative one is

@@ -197,6 +197,10 @@ fn lines_that_cannot_be_read_say_what_is_allowed() {
         ("{\"m\": [1, 0, 0], \"params\": {}}", "line 1: \"params\" lacks k_el"),
         ("{\"F\": [[1,0,0],[0,1,0],[0,0,1]], \"params\": {\"nu\": 1}}", "has the key \"nu\"; allowed: k_el, k_tc"),
         (
+            "{\"F\": [[1,0,0],[0,1,0],[0,0,1]], \"cohesion\": 1, \"params\": {}}",
+            "the key \"cohesion\" stands beside \"params\"; allowed: within it",
+        ),
+        (
             "{\"params\": {\"k_el\": 1, \"k_tc\": 1, \"p\": 2.2, \"k_td\": 1, \"mu\": 0.2}}",
             "\"F\" or \"path\" is missing, or both are there; allowed: one of them",
         ),

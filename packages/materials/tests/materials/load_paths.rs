@@ -274,7 +274,7 @@ fn input_errors_name_file_line_and_what_was_expected() {
         (
             format!("units = \"si\"\n[material]\nlaw = \"linear-elastic\"\npreset = \"kevlar-km2-600\"\n{step}"),
             3,
-            "belongs to the other law",
+            "preset \"kevlar-km2-600\" is of the law hyperelastic; allowed: hyperelastic",
         ),
         (format!("element = [1, 0, 1]\n{HEAD}{step}"), 1, "element is [1, 0, 1]; allowed: each a finite number > 0"),
         ("units = \"si\"\nsteps = [\n".to_string(), 2, ""),

@@ -108,6 +108,13 @@ pub fn fit(sets: &[Sliding], given: [Option<f64>; 2], untold: f64) -> Result<Fri
         found = line(&points, [start[0], 0.0], bounded);
         found[1] = Told { value: 0.0, low: 0.0, high: unbounded[1].high.max(0.0), ..unbounded[1] };
     }
+    if sought[0] && unbounded[0].high < 0.0 {
+        return refused(&format!(
+            "mu would be {:.4}, with 95 % from {:.4} to {:.4}; allowed: {}. Is q half the principal stress of the side that is \
+             pressed less that of the other, pressure positive?",
+            unbounded[0].value, unbounded[0].low, unbounded[0].high, FRICTIONAL[MU].allowed
+        ));
+    }
     if found[0].value < 0.0 {
         let c = line(&points, [0.0, start[1]], [false, sought[1]])[1];
         found = [Told { value: 0.0, low: 0.0, high: unbounded[0].high.max(0.0), ..unbounded[0] }, c];
@@ -293,6 +300,11 @@ mod tests {
         assert!(said.contains("missing: data with loading = \"biaxial\", which tell mu"), "{said}");
         let said = fit(&[free], [Some(0.25), Some(0.4)], 0.0).expect_err("nothing is left").to_string();
         assert!(said.contains("both given"), "{said}");
+        // With the signs of q exchanged the sections would give back what they lose.
+        let mut exchanged = by_the_law("biaxial", [0.25, 0.0], 10.0, false);
+        exchanged.parts.iter_mut().for_each(|part| part.q = -part.q);
+        let said = fit(&[exchanged], [None; 2], 0.0).expect_err("friction takes").to_string();
+        assert!(said.contains("allowed: a number from 0 to below 1. Is q half"), "{said}");
         // One pressure tells µ p_t + c; c is its default then.
         let one = by_the_law("biaxial", [0.25, 0.4], 10.0, false);
         let p_t = one.parts[0].p_t;
