@@ -265,7 +265,13 @@ fn simulate(scene: &Scene, experiments: u64, arguments: &Arguments) -> Result<()
         let message = format!("--truth is {v50} {true_deviation}; allowed: a speed, and a finite deviation > 0");
         return Err(Error::Input(message));
     }
-    let designs = [Design::Even, Design::Langlie, Design::UpAndDown { step }, Design::DOptimal { deviation }];
+    let designs = [
+        Design::Even,
+        Design::Langlie,
+        Design::UpAndDown { step },
+        Design::DOptimal { deviation },
+        Design::ThreePod { deviation, approach: None },
+    ];
     let corrections: &[bool] = if arguments.firth { &[false, true] } else { &[false] };
     let mut lines = Vec::new();
     for design in designs {

@@ -184,6 +184,14 @@ impl Curve {
         [likelihood.speed(-offset / slope), likelihood.scale / slope]
     }
 
+    /// V50 of the likeliest normal distribution with this deviation.
+    pub fn likeliest_of_deviation(fates: &[Fate], deviation: f64) -> f64 {
+        let likelihood = Likelihood::new(fates, Link::Probit, false);
+        let slope = likelihood.scale / deviation;
+        let (offset, _) = likelihood.with_slope(slope);
+        likelihood.speed(-offset / slope)
+    }
+
     /// Whether the likelihood is largest at one curve that rises.
     fn has_values(&self) -> bool {
         self.mix == Mix::Mixed || self.firth && self.mix != Mix::Level

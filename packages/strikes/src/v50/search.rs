@@ -33,9 +33,57 @@ pub fn maximum(mut of: impl FnMut(f64) -> f64, [low, high]: [f64; 2]) -> (f64, f
         .fold((low, f64::NEG_INFINITY), |best, found| if found.1 > best.1 { found } else { best })
 }
 
+/// Steps of Newton's at most, halvings included.
+const STEPS: usize = 200;
+
+/// Where a function that falls between two places, and whose slope is known, passes 0; an end that it does not reach.
+pub fn falling_root(mut of: impl FnMut(f64) -> [f64; 2], [mut low, mut high]: [f64; 2], start: f64) -> f64 {
+    if of(low)[0] <= 0.0 {
+        return low;
+    }
+    if of(high)[0] >= 0.0 {
+        return high;
+    }
+    let mut place = start.clamp(low, high);
+    let mut width = high - low;
+    for step in 1..=STEPS {
+        let [value, slope] = of(place);
+        if value == 0.0 {
+            return place;
+        }
+        if value > 0.0 {
+            low = place
+        } else {
+            high = place
+        }
+        let newton = place - value / slope;
+        // Bisection where Newton leaves the bracket, or has not halved it in four steps.
+        let is_slow = step % 4 == 0 && high - low > 0.5 * width;
+        if step % 4 == 0 {
+            width = high - low;
+        }
+        let next = if newton > low && newton < high && !is_slow { newton } else { 0.5 * (low + high) };
+        let is_there = (next - place).abs() <= 1e-13 * (1.0 + place.abs());
+        place = next;
+        if is_there {
+            break;
+        }
+    }
+    place
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_root_is_found_inside_or_at_an_end() {
+        let of = |x: f64| [2.0 - x.exp(), -x.exp()];
+        assert!((falling_root(of, [-50.0, 50.0], 0.0) - 2.0_f64.ln()).abs() < 1e-12);
+        assert!((falling_root(of, [-50.0, 50.0], -49.0) - 2.0_f64.ln()).abs() < 1e-12);
+        assert_eq!(falling_root(of, [1.0, 50.0], 2.0), 1.0);
+        assert_eq!(falling_root(of, [-50.0, 0.5], 0.0), 0.5);
+    }
 
     #[test]
     fn a_maximum_is_found_inside_or_at_an_end() {
