@@ -86,6 +86,14 @@ pub struct Estimate {
     pub interval: Interval,
 }
 
+/// The likeliest V50, whether its interval has a low and a high end, and whether it holds another one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OfV50 {
+    pub value: Option<f64>,
+    pub ends: [bool; 2],
+    pub holds: bool,
+}
+
 /// A curve that is fitted to shots.
 #[derive(Clone, Debug)]
 pub struct Curve {
@@ -182,6 +190,31 @@ impl Curve {
         let likelihood = Likelihood::new(fates, Link::Probit, false);
         let [offset, slope, _] = likelihood.best();
         [likelihood.speed(-offset / slope), likelihood.scale / slope]
+    }
+
+    /// What the shots say of a V50, in less time than a whole curve takes; none where there is no curve.
+    pub fn of_v50(fates: &[Fate], link: Link, v50: f64) -> Option<OfV50> {
+        let found = mix(fates);
+        let same_speed = fates.windows(2).all(|pair| pair[0].speed == pair[1].speed);
+        if same_speed || matches!(found, Mix::AllThrough | Mix::AllStopped) {
+            return None;
+        }
+        let likelihood = Likelihood::new(fates, link, false);
+        let is_separated = matches!(found, Mix::Separated(_));
+        // A step in the gap leaves nothing to chance.
+        let [offset, slope, largest] = if is_separated { [0.0; 3] } else { likelihood.best() };
+        let refuses = |likelihood: f64| 2.0 * (largest - likelihood) > refusal_at(LEVEL);
+        let is_level = !is_separated && slope <= 2.0 * SLOPES[0];
+        let has_end = |below: bool| !is_level && refuses(likelihood.level(0.0, below));
+        let ends = [true, false].map(has_end);
+        let value = (!is_separated && !is_level).then(|| likelihood.speed(-offset / slope));
+        let place = match found {
+            Mix::Separated([stop, through]) => 0.5 * (stop + through),
+            _ => value.unwrap_or(v50),
+        };
+        let is_within = !refuses(likelihood.through(0.0, (v50 - likelihood.mean) / likelihood.scale));
+        let holds = is_within || !ends[usize::from(v50 > place)];
+        Some(OfV50 { value, ends, holds })
     }
 
     /// V50 of the likeliest normal distribution with this deviation.

@@ -27,7 +27,8 @@ pub struct Likelihood {
     link: Link,
     firth: bool,
     shots: Vec<Fate>,
-    mean: f64,
+    /// The mean speed.
+    pub mean: f64,
     /// The deviation of the speeds.
     pub scale: f64,
 }

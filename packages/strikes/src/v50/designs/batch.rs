@@ -1,7 +1,8 @@
 //! Several shots at a time, before the fates of any of them are known.
 
 use super::d_optimal::{ends, estimate, most_told};
-use super::{Design, Estimate, Fired, Next, Plan, SLOWEST, fates};
+use super::why::Rule;
+use super::{Design, Estimate, Fired, Next, Plan, SLOWEST, Step, fates};
 use crate::v50::curve::{Fate, Mix, mix};
 use crate::v50::link::Link;
 
@@ -46,11 +47,9 @@ impl Batch {
         let fates = fates(before);
         let mut found: Vec<Next> = Vec::new();
         let mut taken = self.pending.clone();
-        let number = before.len() + self.pending.len() + 1;
-        let plan = design.plan(number, before, &fates, self.range, self.size);
         let wanted = self.size.saturating_sub(self.pending.len());
-        if let (Plan::At(_), false) = (plan, matches!(design, Design::UpAndDown { .. } | Design::Even)) {
-            found = self.by_courses(design, before, wanted);
+        if let (Rule::Courses(curve), _) = self.rule(design, before) {
+            found = self.by_courses(design, before, wanted, curve);
             taken.extend(found.iter().map(|next| next.speed));
         }
         while found.len() < wanted {
@@ -71,6 +70,20 @@ impl Batch {
         found
     }
 
+    /// By which rule, and what the first shot of the batch is for.
+    pub fn rule(&self, design: Design, before: &[Fired]) -> (Rule, Step) {
+        let fates = fates(before);
+        let plan = design.plan(before.len() + 1, before, &fates, self.range, self.size);
+        let rule = match (plan, design) {
+            (_, Design::UpAndDown { .. } | Design::Even) => Rule::Series,
+            (Plan::MostTold { .. }, _) => Rule::MostTold,
+            (Plan::About { .. }, _) => Rule::About,
+            (Plan::At(Next { speed, .. }), _) => Rule::Courses(self.supposed(&fates, speed)),
+        };
+        (rule, plan.step())
+    }
+
+    /// How near two shots of the batch may stand.
     fn least(&self, deviation: f64) -> f64 {
         (APART * deviation).max(self.resolution.unwrap_or(0.0))
     }
@@ -90,8 +103,7 @@ impl Batch {
     }
 
     /// The speeds that the design may ask for next, the likeliest courses of what comes first.
-    fn by_courses(&self, design: Design, before: &[Fired], wanted: usize) -> Vec<Next> {
-        let curve = self.supposed(design, before);
+    fn by_courses(&self, design: Design, before: &[Fired], wanted: usize, curve: Estimate) -> Vec<Next> {
         let mut found: Vec<Next> = Vec::new();
         let mut courses = vec![Course { shots: before.to_vec(), chance: 1.0 }];
         for _ in 0..COURSES {
@@ -121,24 +133,17 @@ impl Batch {
         found
     }
 
-    /// The curve by which fates are supposed where there is no estimate.
-    fn supposed(&self, design: Design, before: &[Fired]) -> Estimate {
-        let fates = fates(before);
+    /// The curve by which fates are supposed where there is no estimate; `first` is the speed of the first shot.
+    fn supposed(&self, fates: &[Fate], first: f64) -> Estimate {
         let middle = 0.5 * (self.range[0] + self.range[1]);
-        let first = || design.plan(before.len() + 1, before, &fates, self.range, self.size).speed(&fates);
-        let v50 = match mix(&fates) {
-            _ if before.is_empty() => middle,
-            Mix::AllStopped => middle.max(first()),
-            Mix::AllThrough => middle.min(first()),
+        let [slowest, fastest] = ends(fates);
+        let v50 = match mix(fates) {
+            _ if fates.is_empty() => middle,
+            Mix::AllStopped => middle.max(first),
+            Mix::AllThrough => middle.min(first),
             Mix::Separated([stop, through]) => 0.5 * (stop + through),
-            Mix::Mixed | Mix::Level => {
-                let [slowest, fastest] = ends(&fates);
-                return if fastest > slowest {
-                    estimate(&fates)
-                } else {
-                    Estimate { v50: slowest, deviation: self.guess, is_flat: true }
-                };
-            }
+            Mix::Mixed | Mix::Level if fastest > slowest => return estimate(fates),
+            Mix::Mixed | Mix::Level => slowest,
         };
         Estimate { v50, deviation: self.guess, is_flat: false }
     }

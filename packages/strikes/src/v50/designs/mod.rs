@@ -11,7 +11,7 @@ pub use self::batch::Batch;
 pub use self::d_optimal::Estimate;
 use self::d_optimal::most_told;
 pub use self::three_pod::OF_RANGE;
-pub use self::why::Step;
+pub use self::why::{Rule, Step};
 use super::curve::Fate;
 use super::search::GOLDEN;
 

@@ -160,6 +160,41 @@ impl Step {
     }
 }
 
+/// By which rule the shots of a batch are chosen, before the fates of any of them are known.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Rule {
+    /// Each where it tells most with those before it.
+    MostTold,
+    /// About one speed.
+    About,
+    /// In as many series.
+    Series,
+    /// Where the design would go next, for the likelier fates by this curve.
+    Courses(Estimate),
+}
+
+impl Rule {
+    /// What a batch of so many shots does, in sentences.
+    pub fn why(&self, size: usize, unit: &str) -> String {
+        match self {
+            Rule::MostTold => {
+                "Each shot of the batch counts as fired for the next one: where that tells most does not hang on results.".to_string()
+            }
+            Rule::About => "The batch stands about one speed, and makes one step with its mean result.".to_string(),
+            Rule::Series => format!(
+                "{size} series go on side by side, without an estimate: each shot follows that of {size} shots before, by the \
+                 speed that was asked for."
+            ),
+            Rule::Courses(Estimate { v50, deviation, .. }) => format!(
+                "No result of the batch is known yet and there is no estimate to go by: its further shots stand where the design \
+                 would go next after the likelier results of those before them, as if V50 were {} {unit} and σ {} {unit}.",
+                number(*v50),
+                number(*deviation)
+            ),
+        }
+    }
+}
+
 fn fate(through: bool) -> &'static str {
     if through { "perforation" } else { "stop" }
 }
