@@ -31,6 +31,8 @@ pub struct Likelihood {
     pub mean: f64,
     /// The deviation of the speeds.
     pub scale: f64,
+    /// A slope near which the best one of a line is sought first.
+    pub near: f64,
 }
 
 impl Likelihood {
@@ -40,7 +42,11 @@ impl Likelihood {
         let mean = fates.iter().map(|fate| fate.speed).sum::<f64>() / n;
         let scale = (fates.iter().map(|fate| (fate.speed - mean).powi(2)).sum::<f64>() / n).sqrt();
         let shots = fates.iter().map(|fate| Fate { speed: (fate.speed - mean) / scale, ..*fate }).collect();
-        Likelihood { link, firth, shots, mean, scale }
+        Likelihood { link, firth, shots, mean, scale, near: 1.0 }
+    }
+
+    pub fn count(&self) -> usize {
+        self.shots.len()
     }
 
     /// The speed at a place x.
@@ -67,20 +73,26 @@ impl Likelihood {
         })
     }
 
+    /// The slopes of the logarithm of the likelihood in a and b, and its second derivatives, aa, ab and bb.
+    pub fn derivatives(&self, a: f64, b: f64) -> ([f64; 2], [f64; 3]) {
+        let (mut slopes, mut bends) = ([0.0; 2], [0.0; 3]);
+        for shot in &self.shots {
+            let side = if shot.through { 1.0 } else { -1.0 };
+            let [_, one, two] = self.link.log_chance_with_slopes(side * (a + b * shot.speed));
+            let x = shot.speed;
+            slopes = [slopes[0] + side * one, slopes[1] + side * one * x];
+            bends = [bends[0] + two, bends[1] + two * x, bends[2] + two * x * x];
+        }
+        (slopes, bends)
+    }
+
     /// The best curve by Newton's steps, where there is one that rises; without a penalty the likelihood is concave.
     fn newton(&self) -> Option<[f64; 3]> {
         let share = self.shots.iter().filter(|shot| shot.through).count() as f64 / self.shots.len() as f64;
         let (mut a, mut b) = (self.link.quantile(share.clamp(0.01, 0.99)), 1.0);
         let mut value = self.log_likelihood(a, b);
         for _ in 0..NEWTON {
-            let (mut slopes, mut bends) = ([0.0; 2], [0.0; 3]);
-            for shot in &self.shots {
-                let side = if shot.through { 1.0 } else { -1.0 };
-                let [_, one, two] = self.link.log_chance_with_slopes(side * (a + b * shot.speed));
-                let x = shot.speed;
-                slopes = [slopes[0] + side * one, slopes[1] + side * one * x];
-                bends = [bends[0] + two, bends[1] + two * x, bends[2] + two * x * x];
-            }
+            let (slopes, bends) = self.derivatives(a, b);
             let determinant = bends[0] * bends[2] - bends[1] * bends[1];
             let step = [
                 (bends[1] * slopes[1] - bends[2] * slopes[0]) / determinant,
@@ -112,7 +124,7 @@ impl Likelihood {
 
     /// What is maximised: the log-likelihood, plus half the logarithm of the information's determinant with Firth's
     /// correction.
-    fn objective(&self, a: f64, b: f64) -> f64 {
+    pub fn objective(&self, a: f64, b: f64) -> f64 {
         self.log_likelihood(a, b) + if self.firth { 0.5 * self.log_information(a, b) } else { 0.0 }
     }
 
@@ -164,7 +176,7 @@ impl Likelihood {
     /// The largest likelihood of a curve that has this η at a place x.
     pub fn through(&self, eta: f64, x: f64) -> f64 {
         if !self.firth {
-            let b = falling_root(|b| self.along(|b| [eta - b * x, b], [-x, 1.0], b), SLOPES, 1.0);
+            let b = falling_root(|b| self.along(|b| [eta - b * x, b], [-x, 1.0], b), SLOPES, self.near);
             return self.log_likelihood(eta - b * x, b);
         }
         maximum(

@@ -233,7 +233,7 @@ fn speeds(planned: &Planned, next: &[Next]) -> String {
         |above: &str, below: &str, entries: Vec<String>| Column { heading: [above, below].map(String::from), entries };
     let numbers = (first..).take(next.len()).map(|number| number.to_string()).collect();
     let asked = next.iter().map(|next| rounded(next.speed)).collect();
-    table(vec![column("shot", "", numbers), column("fire at", &planned.unit.text, asked)], WIDTH)
+    table(vec![column("shot", "number", numbers), column("fire at", &planned.unit.text, asked)], WIDTH)
 }
 
 /// A speed with the digits that somebody can set, at least.

@@ -37,7 +37,7 @@ fn a_table_has_its_next_shot() {
     assert_said(
         head,
         POD,
-        &["0 shots fired", "quarter and three quarters of the range", "shot fire at m/s ---- ------- 1 6"],
+        &["0 shots fired", "quarter and three quarters of the range", "shot fire at number m/s ------ ------- 1 6"],
     );
     let shots = format!("{head}6,6.1,stop\n17,17,pass\n");
     assert_said(
@@ -72,7 +72,11 @@ fn shots_still_to_be_fired_are_told() {
         "1 shot is still to be fired, line 5 at 11.50 m/s: they count as the first of the batch, and no further one";
     assert_said(table, POD, &["1 still to be fired, 1 without a fate", "Without a fate, line 4", none]);
     let three = POD.replace("--next 1", "--next 3");
-    assert_said(table, &three, &["and 2 more make 3", "No result of the batch is known yet", "shot fire at m/s"]);
+    assert_said(
+        table,
+        &three,
+        &["and 2 more make 3", "No result of the batch is known yet", "shot fire at number m/s"],
+    );
     let one = "speed (m/s),outcome\n6,stop\n17,pass\n11.5,\n";
     assert_said(one, POD, &["1 shot is still to be fired, line 4 at 11.50 m/s"]);
 }
