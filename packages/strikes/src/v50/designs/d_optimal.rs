@@ -172,7 +172,7 @@ pub fn most_told(fates: &[Fate], taken: &[f64], of: Estimate, least: f64) -> f64
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::v50::designs::{Design, Fired};
+    use crate::v50::designs::{Design, Fired, Next};
 
     fn fates(shots: &[(f64, u8)]) -> Vec<Fate> {
         shots.iter().map(|&(speed, through)| Fate { speed, through: through == 1 }).collect()
@@ -237,6 +237,22 @@ mod tests {
             let is_near = |found: f64, published: f64| (found - published).abs() < 0.0101;
             assert!(is_near(found.v50, v50) && is_near(found.deviation, deviation), "{count}: {found:?}");
         }
+    }
+
+    /// By hand: a gap of 4 below a guess of 5 is halved no more, and each shot that leaves it a gap leaves four fifths of
+    /// the guess.
+    #[test]
+    fn the_guess_shrinks_in_the_gap() {
+        let shots = fates(&[(150.0, 0), (154.0, 1), (147.0, 0), (158.0, 1)]);
+        for (count, left) in [(2, 5.0), (3, 4.0)] {
+            let found = plan(&shots[..count], [100.0, 200.0], 5.0);
+            let Plan::MostTold { of, shrinking, .. } = found else { panic!("{found:?}") };
+            assert!((of.deviation - left).abs() < 1e-12, "{count}: {of:?}");
+            assert_eq!((of.v50, shrinking), (152.0, 0.8));
+        }
+        // The gap is wider than the 3.2 that are left then.
+        let found = plan(&shots, [100.0, 200.0], 5.0);
+        assert!(matches!(found, Plan::At(Next { speed: 152.0, step: Step::Halving { .. } })), "{found:?}");
     }
 
     /// Perforations that were no faster than stops: the flow chart's clips, and nothing that rounding decides.

@@ -186,7 +186,7 @@ impl Rule {
                  speed that was asked for."
             ),
             Rule::Courses(Estimate { v50, deviation, .. }) => format!(
-                "No result of the batch is known yet and there is no estimate to go by: its further shots stand where the design \
+                "No result of the batch is known yet, and the design has no estimate to go by: its further shots stand where the design \
                  would go next after the likelier results of those before them, as if V50 were {} {unit} and σ {} {unit}.",
                 number(*v50),
                 number(*deviation)
