@@ -68,7 +68,18 @@ fn tables_are_compared() {
     let output = folder("shots-compared");
     let second = output.join("second.csv");
     std::fs::copy(Path::new(ROOT).join(TABLE), &second).expect("a copy");
-    let options = ["--with", second.to_str().expect("a path"), "--link", "probit", "--percentile", "1", "90", "--level", "90", "--log"];
+    let options = [
+        "--with",
+        second.to_str().expect("a path"),
+        "--link",
+        "probit",
+        "--percentile",
+        "1",
+        "90",
+        "--level",
+        "90",
+        "--log",
+    ];
     let answer = analyse(TABLE, &output, &options);
     let text = said(&answer);
     assert!(answer.status.success(), "{text}");

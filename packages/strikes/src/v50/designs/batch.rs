@@ -7,7 +7,7 @@ use crate::v50::curve::{Fate, Mix, mix};
 use crate::v50::link::Link;
 
 /// No two shots of a batch are nearer to each other than this part of the deviation, guessed or estimated.
-const APART: f64 = 0.05;
+pub const APART: f64 = 0.05;
 /// So many courses of what may come are looked at, at most.
 const COURSES: usize = 256;
 /// Chances that differ by so little of them are the same.

@@ -7,7 +7,7 @@ mod why;
 
 use statrs::distribution::{ContinuousCDF, Normal};
 
-pub use self::batch::Batch;
+pub use self::batch::{APART, Batch};
 pub use self::d_optimal::Estimate;
 use self::d_optimal::most_told;
 pub use self::three_pod::OF_RANGE;

@@ -5,7 +5,7 @@ use std::path::Path;
 use super::planned::Planned;
 use super::{Choice, read};
 use crate::v50::curves_report::{WIDTH, listed, paragraph, percent};
-use crate::v50::designs::{Approach, Batch, Design, Next, OF_RANGE};
+use crate::v50::designs::{APART, Approach, Batch, Design, Next, OF_RANGE};
 use toron_shared::console::print;
 use toron_shared::error::Error;
 use toron_shared::numbers::number;
@@ -156,7 +156,7 @@ fn said(planned: &Planned, wanted: &Wanted) -> String {
     let (rule, step) = batch.rule(wanted.design, &planned.fired);
     let mut reasons = vec![format!("{}: {}", step.phase(), step.why(unit))];
     if wanted.size > 1 {
-        reasons.push(rule.why(wanted.size, unit));
+        reasons.push(format!("{} {}", rule.why(wanted.size, unit), of_distances(wanted, unit)));
     }
     parts.push(reasons.iter().map(|reason| paragraph(reason)).collect());
     parts.push(of_pending(planned, wanted, next.len()));
@@ -164,6 +164,17 @@ fn said(planned: &Planned, wanted: &Wanted) -> String {
         parts.push(speeds(planned, &next));
     }
     parts.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join("\n")
+}
+
+/// How near the shots of a batch stand to each other.
+fn of_distances(wanted: &Wanted, unit: &str) -> String {
+    match wanted.resolution {
+        Some(resolution) if resolution > APART * wanted.guess => format!(
+            "No two have one speed: by the resolution they are {resolution} {unit} or more apart, also where the design would have \
+             them nearer."
+        ),
+        _ => "No two are nearer than a twentieth of σ.".to_string(),
+    }
 }
 
 fn head(planned: &Planned) -> String {

@@ -86,7 +86,7 @@ fn shots_still_to_be_fired_are_told() {
 fn batches_say_what_they_do() {
     let two = POD.replace("--next 1", "--next 2");
     let gap = "speed (m/s),outcome\n6,stop\n17,pass\n";
-    assert_said(gap, &two, &["as if V50 were 11.50 m/s and σ 3.000 m/s"]);
+    assert_said(gap, &two, &["No two are nearer than a twentieth of σ.", "as if V50 were 11.50 m/s and σ 3.000 m/s"]);
     assert_said(gap, &two.replace("3pod", "up-and-down"), &["2 series go on side by side"]);
     let mixed = "speed (m/s),outcome\n6,stop\n17,pass\n11,pass\n13,stop\n12,pass\n14,pass\n";
     assert_said(
@@ -99,6 +99,7 @@ fn batches_say_what_they_do() {
     assert_said(&pod, &third, &["phase III: The speed at which 90.00 of 100 shots go through", "about one speed"]);
     let coarse = format!("{} --resolution 4", two.replace("--next 2", "--next 5"));
     let said = answer(gap, &coarse).expect("speeds");
+    assert!(said.contains("by the resolution they are 4 m/s or more apart"), "{said}");
     let mut speeds: Vec<f64> = said.rsplit(' ').step_by(2).take(5).map(|word| word.parse().expect("a speed")).collect();
     speeds.sort_by(f64::total_cmp);
     assert!(speeds.windows(2).all(|pair| pair[1] - pair[0] >= 4.0 && pair[0] % 4.0 == 0.0), "{said}");
