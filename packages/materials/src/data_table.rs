@@ -14,6 +14,7 @@ use toron::law::parameters::Dimension;
 use toron_shared::error::Error;
 use toron_shared::toml_error::shortened;
 
+mod lines;
 pub mod sheet;
 
 /// A table of measured data. Lines are those of the file, from 1; so are the numbers of columns.

@@ -51,13 +51,14 @@ const POUND_FORCE: f64 = 44_482_216_152_605.0;
 const INCH: f64 = 254.0;
 const FOOT: f64 = 3048.0;
 
-const NAMED: [Named; 26] = [
+const NAMED: [Named; 27] = [
     plain("1", [0, 0, 0], 1.0, 0),
     plain("%", [0, 0, 0], 1.0, -2),
     plain("°", [0, 0, 0], std::f64::consts::PI / 180.0, 0),
     metric("m", [0, 1, 0], 0),
     metric("g", [1, 0, 0], -3),
     metric("s", [0, 0, 1], 0),
+    plain("sec", [0, 0, 1], 1.0, 0),
     metric("N", FORCE, 0),
     metric("Pa", PRESSURE, 0),
     metric("bar", PRESSURE, 5),

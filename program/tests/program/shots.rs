@@ -66,7 +66,20 @@ fn a_spreadsheet_is_analysed() {
 #[test]
 fn tables_are_compared() {
     let output = folder("shots-compared");
-    let options = ["--with", TABLE, "--link", "probit", "--percentile", "1", "90", "--level", "90", "--log"];
+    let second = output.join("second.csv");
+    std::fs::copy(Path::new(ROOT).join(TABLE), &second).expect("a copy");
+    let options = [
+        "--with",
+        second.to_str().expect("a path"),
+        "--link",
+        "probit",
+        "--percentile",
+        "1",
+        "90",
+        "--level",
+        "90",
+        "--log",
+    ];
     let answer = analyse(TABLE, &output, &options);
     let text = said(&answer);
     assert!(answer.status.success(), "{text}");
@@ -94,10 +107,65 @@ fn tables_are_compared() {
             "no curve: all shots were stopped, the fastest at 627.5 m/s",
         ),
         (vec!["--limit"], "cannot be used with"),
+        (
+            vec!["--with", "examples/shots/../shots/panel.csv"],
+            "panel.csv, the table of --analyse itself; allowed: another table",
+        ),
     ] {
         let answer = analyse(TABLE, &output.join("refused"), &options);
         let text = said(&answer);
         assert!(!answer.status.success() && text.contains(message), "{message}: {text}");
         assert!(!output.join("refused").exists(), "{message}");
+    }
+}
+
+/// Where the files cannot go, the message says which command wants to write them.
+#[test]
+fn an_output_that_is_none_is_told() {
+    let output = folder("shots-output").join("file");
+    std::fs::write(&output, "").expect("a file");
+    let text = said(&analyse(TABLE, &output, &[]));
+    assert!(text.contains("toron v50 --analyse writes its files to -o: output is "), "{text}");
+    let text = said(&analyse(TABLE, &output.join("below"), &[]));
+    assert!(text.contains("toron v50 --analyse writes its files to -o: "), "{text}");
+}
+
+/// An experiment from its first shot on: the table grows by what is asked for, and is read again.
+#[test]
+fn the_next_shot_is_told() {
+    let folder = folder("shots-next");
+    let table = folder.join("own.csv");
+    let next = |count: &str, options: &[&str]| {
+        let mut program = Command::new(env!("CARGO_BIN_EXE_toron"));
+        program.current_dir(&folder).args(["v50", "--next", count, "own.csv"]).args(options);
+        said(&program.output().expect("it starts"))
+    };
+    let options = ["--design", "3pod", "--range", "550", "650", "--guess", "12"];
+    let mut text = "asked (m/s),speed (m/s),outcome\n".to_string();
+    for (shot, wanted, lines) in
+        [("1", "575", "575,577,stop\n"), ("2", "625", "625,623,pass\n"), ("3", "600", "600,,\n")]
+    {
+        std::fs::write(&table, &text).expect("a table");
+        let said = next("1", &options);
+        assert!(said.contains(&format!(" {shot} {wanted}")), "{said}");
+        text += lines;
+    }
+    std::fs::write(&table, &text).expect("a table");
+    let said = next("1", &options);
+    assert!(said.contains("1 shot is still to be fired, line 4 at 600.0 m/s") && !said.contains("fire at"), "{said}");
+    let said = next("4", &[&options[..], &["--json"]].concat());
+    assert!(said.starts_with('{') && said.contains("\"fire at\", \"m/s\"") && said.contains("3 more make 4"), "{said}");
+    let said = next("0", &options);
+    assert!(said.contains("--next is 0; allowed: 1 to 20 shots"), "{said}");
+}
+
+/// Designs are compared without a scene.
+#[test]
+fn designs_are_compared() {
+    let output = Command::new(env!("CARGO_BIN_EXE_toron")).args(["v50", "--compare-designs", "2"]).output();
+    let text = said(&output.expect("it starts"));
+    let lines = 3 * 3 * 4 * 3;
+    for design in ["langlie", "up-and-down", "d-optimal", "3pod"] {
+        assert_eq!(text.matches(&format!(" {design} ")).count(), lines, "{design}: {text}");
     }
 }

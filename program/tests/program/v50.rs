@@ -287,7 +287,7 @@ fn experiments_are_simulated() {
         report.contains("20 simulated experiments of 10 shots") && report.contains("V50 130, deviation 10"),
         "{report}"
     );
-    for design in ["even", "langlie", "up-and-down", "d-optimal"] {
+    for design in ["even", "langlie", "up-and-down", "d-optimal", "3pod"] {
         assert_eq!(report.lines().filter(|line| line.starts_with(design)).count(), 4, "{report}");
     }
 }

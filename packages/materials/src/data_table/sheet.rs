@@ -6,6 +6,7 @@ use std::path::Path;
 use csv::{ReaderBuilder, Trim};
 use encoding_rs::{Encoding, UTF_16BE, UTF_16LE, WINDOWS_1252};
 
+use super::lines;
 use crate::unit_expression::Unit;
 use toron_shared::error::Error;
 use toron_shared::toml_error::shortened;
@@ -61,6 +62,14 @@ impl Sheet {
     /// # Errors
     /// An input error that names the file, or file, line and column.
     pub fn read(path: &Path) -> Result<Sheet, Error> {
+        Sheet::read_like(path, EXAMPLE)?.filled()
+    }
+
+    /// The same, with a header alone if there is no more; where there is none the message has this example of one.
+    ///
+    /// # Errors
+    /// An input error that names the file, or file, line and column.
+    pub fn read_like(path: &Path, example: &str) -> Result<Sheet, Error> {
         let name = path.display().to_string();
         let bytes = std::fs::read(path).map_err(|error| Error::Input(format!("{name}: {error}")))?;
         let is_control = |c: char| c.is_control() && !c.is_whitespace();
@@ -69,7 +78,7 @@ impl Sheet {
             let what = if bytes.starts_with(b"PK") { "a workbook of a spreadsheet" } else { "no text" };
             Error::Input(format!("{name}: {what}; allowed: a CSV file in UTF-8, UTF-16 or Latin-1"))
         })?;
-        Sheet::parse(&name, &text)
+        Sheet::parse_like(&name, &text, example)
     }
 
     /// The table that `text` describes; `name` stands for the file in messages.
@@ -77,8 +86,17 @@ impl Sheet {
     /// # Errors
     /// An input error that names file, line and column: there is no header, or a line has more or fewer cells.
     pub fn parse(name: &str, text: &str) -> Result<Sheet, Error> {
+        Sheet::parse_like(name, text, EXAMPLE)?.filled()
+    }
+
+    /// The same, with a header alone if there is no more.
+    ///
+    /// # Errors
+    /// As for [`Sheet::parse`].
+    pub fn parse_like(name: &str, text: &str, example: &str) -> Result<Sheet, Error> {
         let text = text.trim_start_matches('\u{feff}').replace("\r\n", "\n").replace('\r', "\n");
-        let numbered = text.lines().enumerate().map(|(i, line)| (i + 1, line));
+        let whole = lines::whole(&text);
+        let numbered = whole.iter().map(|(number, line)| (*number, line.as_ref()));
         let is_blank = |line: &str| line.chars().all(|c| c.is_whitespace() || c == ',' || c == ';');
         type Lines<'a> = Vec<(usize, &'a str)>;
         let (comments, lines): (Lines, Lines) =
@@ -88,7 +106,7 @@ impl Sheet {
         let lines = &lines[usize::from(separator.is_some())..];
         let header = find_header(lines, separator);
         let Some(&(line, first)) = lines.get(header.as_ref().map_or(0, |(place, _)| *place)) else {
-            return Err(Error::Input(format!("{name}:1:1: no header; allowed: columns as in \"{EXAMPLE}\"")));
+            return Err(Error::Input(format!("{name}:1:1: no header; allowed: columns as in \"{example}\"")));
         };
         let (mut headings, delimiter, data) = match header {
             Some((place, Header { headings, delimiter, lines: used })) => (headings, delimiter, &lines[place + used..]),
@@ -114,10 +132,14 @@ impl Sheet {
         Ok(sheet)
     }
 
-    fn check_rows(&self) -> Result<(), Error> {
+    fn filled(self) -> Result<Sheet, Error> {
         if self.rows.is_empty() {
             return Err(self.error(self.header, 1, "no line of data follows the header; allowed: one at least"));
         }
+        Ok(self)
+    }
+
+    fn check_rows(&self) -> Result<(), Error> {
         let wanted = self.headings.len();
         match self.rows.iter().find(|row| row.cells.len() != wanted) {
             None => Ok(()),
@@ -284,7 +306,7 @@ fn drop_empty_columns(headings: &mut Vec<String>, rows: &mut [Row]) {
 
 const EXAMPLE: &str = "displacement (mm), force (N)";
 
-/// The cells of a line, without the blanks around them. A line has no line break in quotes: its number would be wrong.
+/// The cells of a line, without the blanks around them.
 fn cells(line: &str, delimiter: u8) -> Vec<String> {
     let mut builder = ReaderBuilder::new();
     builder.has_headers(false).flexible(true).trim(Trim::All).delimiter(delimiter).buffer_capacity(line.len() + 1);

@@ -4,6 +4,7 @@
 use serde::Deserialize;
 use toml::Spanned;
 
+use crate::v50::designs::OF_RANGE;
 use toron::host::units::UnitSystem;
 use toron_materials::material::model::Material;
 use toron_shared::checked::{Checked, NotNegative, Positive, value};
@@ -50,6 +51,8 @@ pub enum DesignName {
     Langlie,
     UpAndDown,
     DOptimal,
+    #[serde(rename = "3pod")]
+    ThreePod,
 }
 
 /// Where shots meet the panel.
@@ -116,15 +119,22 @@ pub fn read_shots<'m>(
         return error("number", &number, file.number.span(), &allowed);
     }
     let design = file.design.unwrap_or_default();
-    for (key, value, of) in
-        [("step", &file.step, DesignName::UpAndDown), ("deviation", &file.deviation, DesignName::DOptimal)]
-    {
-        if let Some(value) = value.as_ref().filter(|_| design != of) {
-            let with = if of == DesignName::UpAndDown { "up-and-down" } else { "d-optimal" };
-            return error(key, &value.value(), value.span(), &format!("with design = \"{with}\""));
+    let by_guess = [DesignName::DOptimal, DesignName::ThreePod];
+    for (key, value, of, with) in [
+        ("step", &file.step, &[DesignName::UpAndDown][..], "design = \"up-and-down\""),
+        ("deviation", &file.deviation, &by_guess[..], "design = \"d-optimal\" or design = \"3pod\""),
+    ] {
+        if let Some(value) = value.as_ref().filter(|_| !of.contains(&design)) {
+            return error(key, &value.value(), value.span(), &format!("with {with}"));
         }
     }
     let range = high - low;
+    let most = OF_RANGE * range;
+    if let Some(given) = file.deviation.as_ref().filter(|value| design == DesignName::ThreePod && value.value() > most)
+    {
+        let allowed = format!("up to {most} with design = \"3pod\", a sixth of the range of speeds");
+        return error("deviation", &given.value(), given.span(), &allowed);
+    }
     let extension = value(&file.extension).unwrap_or(EXTENSION);
     if let Some(given) = file.extension.as_ref().filter(|_| !(1.0..=MOST_EXTENSION).contains(&extension)) {
         return error("extension", &extension, given.span(), &format!("1 to {MOST_EXTENSION}"));

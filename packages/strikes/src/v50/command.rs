@@ -12,7 +12,7 @@ use super::scene::Scene;
 use super::series::Series;
 use super::shot::Ended;
 use super::simulation::{Experiment, Truth};
-use super::{limit, measured, plot, report, shot};
+use super::{comparison, limit, measured, plot, report, shot};
 use crate::scene_keys::shots::Shots;
 use toron_explicit_host::judgement::warnings;
 use toron_shared::console::{print, print_error, print_note};
@@ -32,8 +32,8 @@ const TRUTH: [f64; 2] = [0.5, 0.125];
 #[derive(clap::Args)]
 pub struct Arguments {
     /// The scene of `toron fabric` or `toron impact`, with a table `[shots]` (`toron init v50` writes one); - is the
-    /// standard input.
-    #[arg(required_unless_present = "analyse")]
+    /// standard input. With --next, the table of shots.
+    #[arg(required_unless_present_any = ["analyse", "compare_designs"])]
     scene: Option<PathBuf>,
     /// Where the tables and the picture go.
     #[arg(short, long, default_value = "toron-out/v50")]
@@ -67,8 +67,14 @@ pub struct Arguments {
     /// Threads: as many shots are fired side by side, or one in all of them; all processors if not given.
     #[arg(long)]
     threads: Option<usize>,
+    /// Strike nothing: simulate so many experiments by each design of --next, with one and with several shots at a
+    /// time, and print how far V50 is off and what its intervals are worth.
+    #[arg(long, value_name = "EXPERIMENTS", conflicts_with_all = ["scene", "analyse", "next", "simulate", "limit", "shots"])]
+    compare_designs: Option<u64>,
     #[command(flatten)]
-    measured: measured::command::Measurements,
+    pub(in crate::v50) measured: measured::command::Measurements,
+    #[command(flatten)]
+    pub(in crate::v50) next: measured::next::NextShots,
 }
 
 impl Arguments {
@@ -85,6 +91,20 @@ impl Arguments {
 pub fn run(arguments: &Arguments) -> Result<(), Error> {
     if let Some(table) = &arguments.measured.analyse {
         return measured::command::run(table, &arguments.measured, arguments.firth, &arguments.output);
+    }
+    match arguments.compare_designs {
+        Some(0) => {
+            return Err(Error::Input("--compare-designs is 0; allowed: 1 or more, 1000 for two digits".to_string()));
+        }
+        Some(experiments) => {
+            print(&comparison::report(experiments));
+            return Ok(());
+        }
+        None => {}
+    }
+    if arguments.next.next.is_some() {
+        let Arguments { next, measured, .. } = arguments;
+        return measured::next::run(arguments.scene(), next, &measured.choice()?, &measured.percentile);
     }
     let scene = Scene::read(arguments.scene(), arguments.case.as_deref())?;
     if arguments.threads == Some(0) {
@@ -265,7 +285,13 @@ fn simulate(scene: &Scene, experiments: u64, arguments: &Arguments) -> Result<()
         let message = format!("--truth is {v50} {true_deviation}; allowed: a speed, and a finite deviation > 0");
         return Err(Error::Input(message));
     }
-    let designs = [Design::Even, Design::Langlie, Design::UpAndDown { step }, Design::DOptimal { deviation }];
+    let designs = [
+        Design::Even,
+        Design::Langlie,
+        Design::UpAndDown { step },
+        Design::DOptimal { deviation },
+        Design::ThreePod { deviation, approach: None },
+    ];
     let corrections: &[bool] = if arguments.firth { &[false, true] } else { &[false] };
     let mut lines = Vec::new();
     for design in designs {

@@ -5,6 +5,10 @@
 //! the value best (the profile likelihood). Where the shots do not refuse a level curve the interval of a speed has no
 //! end; where no speed has seen both fates that of the slope has none.
 
+use std::f64::consts::TAU;
+
+use rayon::prelude::*;
+
 use super::likelihood::{Likelihood, SLOPES};
 use super::link::Link;
 use crate::confidence::{LEVEL, crossing, refusal_at};
@@ -16,6 +20,10 @@ pub const CHANCES: [f64; 3] = [0.05, 0.5, 0.95];
 const FIRST_STEP: f64 = 0.25;
 /// An end as far from the estimate as this, in the same units, is as good as none.
 const FARTHEST: f64 = 2048.0;
+
+/// Of more shots the intervals of a picture are traced, at so many places of their outline.
+const MANY: usize = 1000;
+const OUTLINE: usize = 96;
 
 /// A shot whose fate is known.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -86,6 +94,14 @@ pub struct Estimate {
     pub interval: Interval,
 }
 
+/// The likeliest V50, whether its interval has a low and a high end, and whether it holds another one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OfV50 {
+    pub value: Option<f64>,
+    pub ends: [bool; 2],
+    pub holds: bool,
+}
+
 /// A curve that is fitted to shots.
 #[derive(Clone, Debug)]
 pub struct Curve {
@@ -141,14 +157,16 @@ impl Curve {
         }
         let logarithm = asked.logarithm;
         let place = |fate: &Fate| Fate { speed: if logarithm { fate.speed.ln() } else { fate.speed }, ..*fate };
-        let likelihood = Likelihood::new(&fates.iter().map(place).collect::<Vec<_>>(), link, firth);
+        let mut likelihood = Likelihood::new(&fates.iter().map(place).collect::<Vec<_>>(), link, firth);
         let best = likelihood.best();
+        likelihood.near = best[1];
         let found = if best[1] > 2.0 * SLOPES[0] { found } else { Mix::Level };
         let (refusal, none) = (refusal_at(asked.level), Estimate::default());
         let (speeds, v50, slope) = (Vec::new(), none, none);
         let mut curve = Curve { link, firth, mix: found, speeds, v50, slope, logarithm, refusal, likelihood, best };
         curve.speeds = asked.chances.iter().map(|&chance| curve.estimate(chance)).collect();
-        curve.v50 = curve.estimate(0.5);
+        let told = asked.chances.iter().position(|&chance| chance == 0.5);
+        curve.v50 = told.map_or_else(|| curve.estimate(0.5), |place| curve.speeds[place]);
         curve.slope = Estimate {
             value: curve.has_values().then(|| link.slope() * best[1] / curve.likelihood.scale),
             interval: curve.slope_interval(),
@@ -182,6 +200,39 @@ impl Curve {
         let likelihood = Likelihood::new(fates, Link::Probit, false);
         let [offset, slope, _] = likelihood.best();
         [likelihood.speed(-offset / slope), likelihood.scale / slope]
+    }
+
+    /// What the shots say of a V50, in less time than a whole curve takes; none where there is no curve.
+    pub fn of_v50(fates: &[Fate], link: Link, v50: f64) -> Option<OfV50> {
+        let found = mix(fates);
+        let same_speed = fates.windows(2).all(|pair| pair[0].speed == pair[1].speed);
+        if same_speed || matches!(found, Mix::AllThrough | Mix::AllStopped) {
+            return None;
+        }
+        let likelihood = Likelihood::new(fates, link, false);
+        let is_separated = matches!(found, Mix::Separated(_));
+        // A step in the gap leaves nothing to chance.
+        let [offset, slope, largest] = if is_separated { [0.0; 3] } else { likelihood.best() };
+        let refuses = |likelihood: f64| 2.0 * (largest - likelihood) > refusal_at(LEVEL);
+        let is_level = !is_separated && slope <= 2.0 * SLOPES[0];
+        let has_end = |below: bool| !is_level && refuses(likelihood.level(0.0, below));
+        let ends = [true, false].map(has_end);
+        let value = (!is_separated && !is_level).then(|| likelihood.speed(-offset / slope));
+        let place = match found {
+            Mix::Separated([stop, through]) => 0.5 * (stop + through),
+            _ => value.unwrap_or(v50),
+        };
+        let is_within = !refuses(likelihood.through(0.0, (v50 - likelihood.mean) / likelihood.scale));
+        let holds = is_within || !ends[usize::from(v50 > place)];
+        Some(OfV50 { value, ends, holds })
+    }
+
+    /// V50 of the likeliest normal distribution with this deviation.
+    pub fn likeliest_of_deviation(fates: &[Fate], deviation: f64) -> f64 {
+        let likelihood = Likelihood::new(fates, Link::Probit, false);
+        let slope = likelihood.scale / deviation;
+        let (offset, _) = likelihood.with_slope(slope);
+        likelihood.speed(-offset / slope)
     }
 
     /// Whether the likelihood is largest at one curve that rises.
@@ -249,6 +300,48 @@ impl Curve {
             crossing(deviance, self.place(chance), first, self.refusal, FARTHEST).map(|x| self.speed(x))
         };
         Interval { low: end(true), high: end(false) }
+    }
+
+    /// The speeds that may have these chances, as a picture shows them: of many shots the outline of all curves that are
+    /// not refused is traced once, and the ends are those of its places.
+    pub fn speed_intervals(&self, chances: &[f64]) -> Vec<Interval> {
+        let outline = if self.likelihood.count() > MANY { self.outline() } else { None };
+        let Some(outline) = outline else {
+            return chances.par_iter().map(|&chance| self.speed_interval(chance)).collect();
+        };
+        let of = |&chance: &f64| {
+            let eta = self.link.quantile(chance);
+            let speeds = outline.iter().map(|[a, b]| self.speed((eta - a) / b));
+            let ends = [f64::INFINITY, f64::NEG_INFINITY];
+            let [low, high] = speeds.fold(ends, |[low, high], speed| [low.min(speed), high.max(speed)]);
+            Interval { low: Some(low), high: Some(high) }
+        };
+        chances.iter().map(of).collect()
+    }
+
+    /// Offsets and slopes around all curves that are not refused; none where some of these are level.
+    fn outline(&self) -> Option<Vec<[f64; 2]>> {
+        let [a, b, _] = self.best;
+        if self.mix != Mix::Mixed || self.slope.interval.low.is_none_or(|low| low <= 0.0) {
+            return None;
+        }
+        // In these directions the curves that are just not refused are about as far.
+        let (_, [aa, ab, bb]) = self.likelihood.derivatives(a, b);
+        let first = (-aa).sqrt();
+        let second = (ab * ab / aa - bb).sqrt();
+        let first_step = self.refusal.sqrt();
+        let end = |place: usize| {
+            let (sine, cosine) = (TAU * place as f64 / OUTLINE as f64).sin_cos();
+            let along_b = sine / second;
+            let along = [(cosine + ab / first * along_b) / first, along_b];
+            let at = |part: f64| [a + part * along[0], b + part * along[1]];
+            let deviance = |part: f64| {
+                let [a, b] = at(part);
+                if b > 0.0 { self.deviance(self.likelihood.objective(a, b)) } else { f64::NAN }
+            };
+            crossing(deviance, 0.0, first_step, self.refusal, FARTHEST).map(at)
+        };
+        (0..OUTLINE).into_par_iter().map(end).collect()
     }
 
     fn slope_interval(&self) -> Interval {
@@ -419,6 +512,31 @@ mod tests {
         let falling = Curve::fit(&fates(&speeds, &[1, 1, 0, 1]), Link::Probit, false).expect("a curve");
         assert_eq!((falling.mix, falling.v50().value), (Mix::Level, None));
         assert_eq!(falling.v50().interval, Interval { low: None, high: None });
+    }
+
+    /// Of many shots the intervals of a picture are those of whole curves, to a thousandth of their widths.
+    #[test]
+    fn intervals_of_many_shots_are_traced() {
+        let shot = |i: u64| {
+            let speed = 550.0 + 100.0 * crate::chance::uniform(1, [i, 0]);
+            let chance = Link::Probit.chance((speed - 600.0) / 15.0);
+            Fate { speed, through: crate::chance::uniform(1, [i, 1]) < chance }
+        };
+        let shots: Vec<Fate> = (0..MANY as u64 + 1).map(shot).collect();
+        let chances = [0.002, 0.1, 0.5, 0.98];
+        for link in Link::BOTH {
+            let curve = Curve::fit(&shots, link, false).expect("a curve");
+            assert!(curve.outline().is_some());
+            for (chance, found) in chances.iter().zip(curve.speed_intervals(&chances)) {
+                let exact = curve.speed_interval(*chance);
+                let [found, exact] = [found, exact].map(|it| it.low.zip(it.high).expect("ends"));
+                let apart = (found.0 - exact.0).abs().max((found.1 - exact.1).abs());
+                assert!(apart < 1e-3 * (exact.1 - exact.0), "{chance}: {found:?} {exact:?}");
+            }
+        }
+        // Of few shots they are the same.
+        let few = Curve::fit(&shots[..40], Link::Logit, false).expect("a curve");
+        assert_eq!(few.speed_intervals(&[0.5]), [few.speed_interval(0.5)]);
     }
 
     /// Speeds of another unit are the same shots.

@@ -124,7 +124,7 @@ fn band(curve: &Curve, low: f64, high: f64) -> Vec<(f64, f64)> {
     let inner = (1..STEPS).map(|i| i as f64 / STEPS as f64);
     let [first, second] = EXTREMES;
     let chances: Vec<f64> = [first, second].into_iter().chain(inner).chain([1.0 - second, 1.0 - first]).collect();
-    let intervals: Vec<_> = chances.iter().map(|&chance| curve.speed_interval(chance)).collect();
+    let intervals = curve.speed_intervals(&chances);
     let ends = |end: fn(&Interval) -> Option<f64>, missing: f64| -> Vec<(f64, f64)> {
         let places =
             chances.iter().zip(&intervals).map(|(&chance, interval)| (end(interval).unwrap_or(missing), chance));

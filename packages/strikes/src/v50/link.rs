@@ -48,6 +48,25 @@ impl Link {
         }
     }
 
+    /// F(η)'s logarithm with its first and its second derivative.
+    pub fn log_chance_with_slopes(self, eta: f64) -> [f64; 3] {
+        let value = self.log_chance(eta);
+        match self {
+            Link::Logit => {
+                let rest = self.chance(-eta);
+                [value, rest, -rest * (1.0 - rest)]
+            }
+            Link::Probit if eta < TAIL => {
+                let part = 1.0 / (eta * eta);
+                [value, -eta * (1.0 + part - 2.0 * part * part), -1.0 + part]
+            }
+            Link::Probit => {
+                let ratio = (Normal::standard().ln_pdf(eta) - value).exp();
+                [value, ratio, -ratio * (ratio + eta)]
+            }
+        }
+    }
+
     /// η of a chance.
     pub fn quantile(self, chance: f64) -> f64 {
         match self {
@@ -92,6 +111,13 @@ mod tests {
             let step = 1e-4;
             let slope = (link.chance(step) - link.chance(-step)) / (2.0 * step);
             assert!((slope - link.slope()).abs() < 1e-8, "{link:?}");
+            for eta in [-30.0, -2.0, 0.0, 1.5, 6.0] {
+                let [value, first, second] = link.log_chance_with_slopes(eta);
+                let [below, above] = [eta - step, eta + step].map(|eta| link.log_chance(eta));
+                let bends = (above - 2.0 * value + below) / (step * step);
+                assert!((first - (above - below) / (2.0 * step)).abs() < 1e-6 * (1.0 + first), "{link:?} {eta}");
+                assert!((second - bends).abs() < 1e-3, "{link:?} {eta}: {second} {bends}");
+            }
             for eta in [-2.0, 0.0, 1.5] {
                 let slope = (link.chance(eta + step) - link.chance(eta - step)) / (2.0 * step);
                 let expected = slope * slope / (link.chance(eta) * link.chance(-eta));

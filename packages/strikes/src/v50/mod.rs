@@ -6,6 +6,7 @@
 
 mod analysis;
 pub mod command;
+mod comparison;
 pub mod curve;
 mod curves_plot;
 mod curves_report;

@@ -161,6 +161,7 @@ impl Scene {
             DesignName::Langlie => Design::Langlie,
             DesignName::UpAndDown => Design::UpAndDown { step },
             DesignName::DOptimal => Design::DOptimal { deviation },
+            DesignName::ThreePod => Design::ThreePod { deviation, approach: None },
         }
     }
 
@@ -478,7 +479,8 @@ mod tests {
             ("whole", "seed = -1", "seed is -1; allowed: a whole number >= 0"),
             ("whole", "tolerance = 1e-9", "tolerance is 0.000000001; allowed: 1.2"),
             ("whole", "scatter = -1.0", "scatter is -1.0; allowed: a finite number >= 0"),
-            ("whole", "deviation = 3.0", "deviation is 3; allowed: with design = \"d-optimal\""),
+            ("whole", "deviation = 3.0", "deviation is 3; allowed: with design = \"d-optimal\" or design = \"3pod\""),
+            ("whole", "design = \"3pod\"\ndeviation = 7.0", "deviation is 7; allowed: up to 6.66"),
             ("whole", "design = \"up-and-down\"\nstep = 0.0", "step is 0.0; allowed: a finite number > 0"),
             ("whole", "[[case]]\nname = \"a\"\n[[case]]\nname = \"b\"\nspeed = 90.0", "--case with one of a, b"),
         ] {

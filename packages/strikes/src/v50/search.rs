@@ -33,9 +33,55 @@ pub fn maximum(mut of: impl FnMut(f64) -> f64, [low, high]: [f64; 2]) -> (f64, f
         .fold((low, f64::NEG_INFINITY), |best, found| if found.1 > best.1 { found } else { best })
 }
 
+/// Steps of Newton's at most, halvings included.
+const STEPS: usize = 200;
+/// Steps of so little of a place end there.
+const THERE: f64 = 1e-12;
+
+/// Where a function that falls between two places, and whose slope is known, passes 0; an end that it does not reach.
+pub fn falling_root(mut of: impl FnMut(f64) -> [f64; 2], [mut low, mut high]: [f64; 2], start: f64) -> f64 {
+    let mut place = start.clamp(low, high);
+    let mut width = high - low;
+    for step in 1..=STEPS {
+        let [value, slope] = of(place);
+        if value == 0.0 {
+            return place;
+        }
+        if value > 0.0 {
+            low = place
+        } else {
+            high = place
+        }
+        let newton = place - value / slope;
+        // Bisection where Newton leaves the bracket, or has not halved it in six steps: by size, where there is one.
+        let is_slow = step % 6 == 0 && high - low > 0.5 * width;
+        if step % 6 == 0 {
+            width = high - low;
+        }
+        let middle = if low > 0.0 { (low * high).sqrt() } else { 0.5 * (low + high) };
+        let next = if newton > low && newton < high && !is_slow { newton } else { middle };
+        let is_there = (next - place).abs() <= THERE * place.abs().max(next.abs()).max(THERE);
+        place = next;
+        if is_there {
+            break;
+        }
+    }
+    place
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_root_is_found_inside_or_at_an_end() {
+        let of = |x: f64| [2.0 - x.exp(), -x.exp()];
+        assert!((falling_root(of, [-50.0, 50.0], 0.0) - 2.0_f64.ln()).abs() < 1e-12);
+        assert!((falling_root(of, [-50.0, 50.0], -49.0) - 2.0_f64.ln()).abs() < 1e-12);
+        assert!((falling_root(of, [1.0, 50.0], 2.0) - 1.0).abs() < 1e-9);
+        assert!((falling_root(of, [-50.0, 0.5], 0.0) - 0.5).abs() < 1e-9);
+        assert!((falling_root(|x| [1e-3 - x, -1.0], [1e-6, 1e6], 1.0) - 1e-3).abs() < 1e-12);
+    }
 
     #[test]
     fn a_maximum_is_found_inside_or_at_an_end() {

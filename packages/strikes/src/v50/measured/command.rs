@@ -16,7 +16,7 @@ use toron_pictures::style::{GREY, INK, TEXT, TITLE, fine, text};
 use toron_shared::console::print;
 use toron_shared::error::Error;
 use toron_shared::numbers::number;
-use toron_shared::run_directory::{RunDirectory, Writes};
+use toron_shared::run_directory::{Locked, RunDirectory, Writes};
 use toron_shared::text_table::{NONE, files, write_csv};
 
 const FIGURES: &str = "v50.csv";
@@ -32,15 +32,17 @@ pub struct Measurements {
     #[arg(
         long,
         value_name = "TABLE",
+        group = "table",
         conflicts_with_all = ["scene", "case", "restart", "shots", "collect", "limit", "simulate", "threads"]
     )]
     pub analyse: Option<PathBuf>,
     /// A second table, measured or of toron v50: both in one picture, and the difference of their V50.
     #[arg(long, value_name = "TABLE", requires = "analyse")]
     with: Option<PathBuf>,
-    /// The percentiles whose speeds are told beside V50; 5 and 95 if not given.
-    #[arg(long, value_name = "PERCENT", num_args = 1.., requires = "analyse")]
-    percentile: Vec<f64>,
+    /// The percentiles whose speeds are told beside V50; 5 and 95 if not given. With --next, the one that 3pod
+    /// approaches.
+    #[arg(long, value_name = "PERCENT", num_args = 1.., requires = "table")]
+    pub percentile: Vec<f64>,
     /// The level of the intervals in percent; 95 if not given.
     #[arg(long, value_name = "PERCENT", requires = "analyse")]
     level: Option<f64>,
@@ -54,16 +56,16 @@ pub struct Measurements {
     #[arg(long, value_name = "SPEED", requires = "analyse")]
     spread: Option<f64>,
     /// The column of the speeds, where its name does not tell.
-    #[arg(long, value_name = "COLUMN", requires = "analyse")]
+    #[arg(long, value_name = "COLUMN", requires = "table")]
     speed: Option<String>,
     /// The column of the outcomes, where its name does not tell.
-    #[arg(long, value_name = "COLUMN", requires = "analyse")]
+    #[arg(long, value_name = "COLUMN", requires = "table")]
     outcome: Option<String>,
     /// The word of the perforations; the other word is that of the stops.
-    #[arg(long, value_name = "WORD", requires = "analyse")]
+    #[arg(long, value_name = "WORD", requires = "table")]
     through: Option<String>,
     /// Only the shots that have this value in this column; may be given several times.
-    #[arg(long, value_name = "COLUMN=VALUE", requires = "analyse")]
+    #[arg(long, value_name = "COLUMN=VALUE", requires = "table")]
     only: Vec<String>,
 }
 
@@ -73,6 +75,10 @@ pub struct Measurements {
 /// The arguments, a table, a file that cannot be written, or shots without a curve.
 pub fn run(table: &Path, arguments: &Measurements, firth: bool, output: &Path) -> Result<(), Error> {
     let (asked, choice) = (arguments.asked(firth)?, arguments.choice()?);
+    if let Some(with) = arguments.with.as_deref().filter(|with| is_same_file(table, with)) {
+        let message = format!("--with is {}, the table of --analyse itself; allowed: another table", with.display());
+        return Err(Error::Input(message));
+    }
     let first = Measured::read(table, &choice)?;
     let second = arguments.with.as_deref().map(|table| Measured::read(table, &choice)).transpose()?;
     let second = second.map(|second| second.in_unit(&first.unit));
@@ -80,7 +86,7 @@ pub fn run(table: &Path, arguments: &Measurements, firth: bool, output: &Path) -
     let told: Vec<Analysis> = tables.iter().map(|table| Analysis::of(table.fates.clone(), &asked)).collect();
     let names = ["v50", "difference"].map(String::from).to_vec();
     let given = [Some(table), arguments.with.as_deref()].into_iter().flatten().collect();
-    let writes = Writes { command: "v50", files: given, names, ..Writes::default() };
+    let writes = Writes { command: "v50 --analyse", files: given, names, ..Writes::default() };
     let found: Vec<Difference> = match &told[..] {
         [one, other] => asked.links.iter().filter_map(|&link| Difference::of(one, other, link)).collect(),
         _ => Vec::new(),
@@ -92,7 +98,11 @@ pub fn run(table: &Path, arguments: &Measurements, firth: bool, output: &Path) -
         parts.push(report::difference([one, other], [a, b], &found));
     }
     if told.iter().any(|told| !told.curves.is_empty()) {
-        let directory = RunDirectory::lock(output, writes)?.claim()?;
+        let of_output = |error: Error| match error {
+            Error::Input(message) => Error::Input(format!("toron v50 --analyse writes its files to -o: {message}")),
+            other => other,
+        };
+        let directory = RunDirectory::lock(output, writes).and_then(Locked::claim).map_err(of_output)?;
         for name in [FIGURES, DIFFERENCE, "v50.svg", "v50.png"] {
             directory.remove(name)?;
         }
@@ -107,6 +117,11 @@ pub fn run(table: &Path, arguments: &Measurements, firth: bool, output: &Path) -
     print(&parts.join("\n"));
     let missing = tables.iter().zip(&told).find_map(|(table, told)| report::no_curve(table, told));
     missing.map_or(Ok(()), Err)
+}
+
+fn is_same_file(one: &Path, other: &Path) -> bool {
+    let [one, other] = [one, other].map(std::fs::canonicalize);
+    one.ok().zip(other.ok()).is_some_and(|(one, other)| one == other)
 }
 
 fn write(output: &Path, tables: &[Measured], told: &[Analysis], found: &[Difference]) -> Result<(), Error> {
@@ -156,7 +171,10 @@ fn draw(output: &Path, tables: &[Measured], told: &[Analysis]) -> Result<(), Err
         .iter()
         .zip(told)
         .zip(&names)
-        .map(|((table, told), name)| Shown { name, told, without_fate: (table.without_fate.clone(), "no fate".into()) })
+        .map(|((table, told), name)| {
+            let speeds = table.without_fate.iter().filter_map(|(_, speed)| *speed).collect();
+            Shown { name, told, without_fate: (speeds, "no fate".into()) }
+        })
         .collect();
     let count =
         |told: &Analysis, name: &str| format!("{name}: {} stopped, {} through", told.count(false), told.count(true));
@@ -207,7 +225,11 @@ impl Measurements {
         Ok(Asked { links, firth, chances, level, logarithm: self.log, spread: self.spread })
     }
 
-    fn choice(&self) -> Result<Choice, Error> {
+    /// What a user says of the table.
+    ///
+    /// # Errors
+    /// `--only` is no pair.
+    pub fn choice(&self) -> Result<Choice, Error> {
         let pair = |text: &String| {
             let wrong = || Error::Input(format!("--only is {text}; allowed: COLUMN=VALUE, as in \"plies=20\""));
             let (name, value) = text.split_once('=').ok_or_else(wrong)?;

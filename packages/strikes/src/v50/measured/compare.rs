@@ -15,6 +15,8 @@ const FARTHEST: f64 = 2048.0;
 /// curve is likeliest far from all shots.
 const PLACES: usize = 24;
 const ABOUT: [f64; 5] = [0.25, 0.5, 1.0, 2.0, 4.0];
+/// A deviance of so little of the likelihood is what its digits have lost.
+const ROUNDING: f64 = 1e-10;
 /// How often a difference of the least size shows.
 pub const POWER: f64 = 0.8;
 
@@ -54,8 +56,9 @@ impl Difference {
             if has_value { (start - low).max(high - start) } else { 0.5 * (high - low) }
         };
         let arm = low.zip(high).map(arm_of);
-        let apart = deviance(0.0).max(0.0);
-        let curves = (2.0 * (best - pooled.largest())).max(0.0);
+        let known = |deviance: f64| if deviance > ROUNDING * (1.0 + best.abs()) { deviance } else { 0.0 };
+        let apart = known(deviance(0.0));
+        let curves = known(2.0 * (best - pooled.largest()));
         Some(Difference {
             link,
             estimate: Estimate {

@@ -3,9 +3,12 @@
 
 pub mod command;
 mod compare;
+pub mod next;
+mod planned;
 mod report;
 pub mod words;
 
+use std::collections::HashSet;
 use std::path::Path;
 
 use self::words::{Meaning, Words, plain};
@@ -64,10 +67,16 @@ const REASONS: [&str; 9] =
 /// Of one V50 are shots of one kind of these.
 const KINDS: [&str; 9] =
     ["ply", "plies", "layers", "number of plies", "obliquity", "angle", "areal density", "projectile", "threat"];
-const YES: [&str; 9] = ["yes", "y", "1", "true", "x", "kept", "valid", "fair", "ok"];
-const NO: [&str; 8] = ["no", "n", "0", "false", "unfair", "invalid", "excluded", "left out"];
+const YES: [&str; 13] = ["yes", "y", "1", "true", "x", "kept", "valid", "fair", "ok", "ja", "j", "oui", "gültig"];
+const NO: [&str; 11] =
+    ["no", "n", "0", "false", "unfair", "invalid", "excluded", "left out", "nein", "non", "ungültig"];
 /// What keeps a shot in a column of those that are left out.
-const NOT_LEFT_OUT: [&str; 10] = ["", "-", "no", "n", "0", "false", "kept", "valid", "fair", "ok"];
+const NOT_LEFT_OUT: [&str; 13] =
+    ["", "-", "no", "n", "0", "false", "kept", "valid", "fair", "ok", "nein", "non", "gültig"];
+/// What a table of shots has at least.
+const EXAMPLE: [&str; 2] = ["speed (m/s),outcome", "645.2,pass"];
+/// So many kinds of shots are named, and no more.
+const NAMED: usize = 6;
 /// Speeds of a shot that are not the one it struck with.
 const OTHER_SPEEDS: [&str; 8] = ["residual", "exit", "rest", "muzzle", "vr", "v r", "nominal", "asked"];
 /// In m/s; what is slower as a point and three digits have it may be thousands.
@@ -92,8 +101,8 @@ pub struct Measured {
     /// Of the speeds.
     pub unit: Unit,
     pub fates: Vec<Fate>,
-    /// The speeds of shots without a fate.
-    pub without_fate: Vec<f64>,
+    /// The lines of shots without a fate, and their speeds, where they have one.
+    pub without_fate: Vec<(usize, Option<f64>)>,
     /// The lines of shots that are left out, and why.
     pub left_out: Vec<(usize, String)>,
     /// How the table was read, and what is to be thought of.
@@ -106,10 +115,64 @@ impl Measured {
     /// # Errors
     /// An input error that names file, line and column, what is there and what is allowed.
     pub fn read(path: &Path, choice: &Choice) -> Result<Measured, Error> {
-        Measured::of(&Sheet::read(path)?, choice)
+        Measured::of(&read(path)?, choice)
     }
 
     fn of(sheet: &Sheet, choice: &Choice) -> Result<Measured, Error> {
+        let [header, example] = EXAMPLE;
+        if sheet.rows.is_empty() {
+            let message = format!(
+                "no line of data follows the header; allowed: lines as \"{example}\" below a header as \"{header}\""
+            );
+            return Err(sheet.error(sheet.header, 1, &message));
+        }
+        let shots = Shots::of(sheet, choice)?;
+        let (mut fates, mut without_fate) = (Vec::new(), Vec::new());
+        for row in &shots.kept {
+            let has_speed = !row.cells[shots.speed].is_empty();
+            match shots.words.meaning(&row.cells[shots.outcome]) {
+                Meaning::None => {
+                    without_fate.push((row.line, has_speed.then(|| shots.speed_of(sheet, row)).transpose()?));
+                }
+                of => fates.push(Fate { speed: shots.speed_of(sheet, row)?, through: of == Meaning::Perforation }),
+            }
+        }
+        let mut notes = shots.notes(sheet);
+        notes.extend(of_contrary(&fates));
+        let Shots { unit, left_out, .. } = shots;
+        Ok(Measured { name: sheet.name.clone(), unit, fates, without_fate, left_out, notes })
+    }
+
+    /// The same shots with their speeds in another unit.
+    pub fn in_unit(mut self, unit: &Unit) -> Measured {
+        let convert = |speed: &mut f64| *speed = self.unit.scale.convert(*speed, &unit.scale);
+        self.fates.iter_mut().for_each(|fate| convert(&mut fate.speed));
+        self.without_fate.iter_mut().filter_map(|(_, speed)| speed.as_mut()).for_each(convert);
+        self.unit = unit.clone();
+        self
+    }
+}
+
+/// The sheet of a file.
+///
+/// # Errors
+/// It cannot be read, or has no header.
+fn read(path: &Path) -> Result<Sheet, Error> {
+    Sheet::read_like(path, EXAMPLE[0])
+}
+
+/// What the rows of a table are, before their numbers are read.
+struct Shots<'a> {
+    speed: usize,
+    unit: Unit,
+    outcome: usize,
+    words: Words,
+    kept: Vec<&'a Row>,
+    left_out: Vec<(usize, String)>,
+}
+
+impl Shots<'_> {
+    fn of<'a>(sheet: &'a Sheet, choice: &Choice) -> Result<Shots<'a>, Error> {
         if let Some(&line) = sheet.comments.first() {
             let message = "the line begins with #: a comment, a number or a fault of the spreadsheet? allowed: comments before the heading";
             return Err(sheet.error(line, 1, message));
@@ -119,7 +182,7 @@ impl Measured {
         let only = only?;
         let is_asked = |row: &&Row| only.iter().all(|(place, value)| plain(&row.cells[*place]) == *value);
         let rows: Vec<&Row> = sheet.rows.iter().filter(is_asked).collect();
-        if rows.is_empty() {
+        if rows.is_empty() && !sheet.rows.is_empty() {
             let asked: Vec<String> = choice.only.iter().map(|(name, value)| format!("{name}={value}")).collect();
             let message = format!("no line has {}; allowed: what stands in the table", asked.join(" and "));
             return Err(Error::Input(format!("{}: --only: {message}", sheet.name)));
@@ -128,8 +191,7 @@ impl Measured {
         let unit = unit_of(sheet, speed)?;
         let outcome = outcome_column(sheet, choice.outcome.as_deref(), speed)?;
         let left = LeftOut::of(sheet, &rows)?;
-        let (mut fates, mut without_fate, mut left_out) = (Vec::new(), Vec::new(), Vec::new());
-        let mut kept = Vec::new();
+        let (mut kept, mut left_out) = (Vec::new(), Vec::new());
         for row in &rows {
             match left.why(row) {
                 Some(why) => left_out.push((row.line, why)),
@@ -138,35 +200,28 @@ impl Measured {
         }
         let words = words_of(sheet, &kept, outcome, choice.through.as_deref())?;
         check_thousands(sheet, &kept, speed, &unit)?;
-        for row in &kept {
-            let meaning = words.meaning(&row.cells[outcome]);
-            if meaning == Meaning::None && row.cells[speed].is_empty() {
-                continue;
-            }
-            let value = sheet.number(row, speed)?;
-            if value <= 0.0 {
-                let message = format!("the cell is \"{}\"; allowed: a speed above 0", shortened(&row.cells[speed]));
-                return Err(sheet.error(row.line, speed + 1, &message));
-            }
-            match meaning {
-                Meaning::None => without_fate.push(value),
-                of => fates.push(Fate { speed: value, through: of == Meaning::Perforation }),
-            }
-        }
-        let mut notes = vec![how_read(sheet, speed, outcome, &words)];
-        notes.extend(of_kinds(sheet, &kept));
-        notes.extend(of_contrary(&fates));
-        Ok(Measured { name: sheet.name.clone(), unit, fates, without_fate, left_out, notes })
+        Ok(Shots { speed, unit, outcome, words, kept, left_out })
     }
 
-    /// The same shots with their speeds in another unit.
-    pub fn in_unit(mut self, unit: &Unit) -> Measured {
-        let convert = |speed: &mut f64| *speed = self.unit.scale.convert(*speed, &unit.scale);
-        self.fates.iter_mut().for_each(|fate| convert(&mut fate.speed));
-        self.without_fate.iter_mut().for_each(convert);
-        self.unit = unit.clone();
-        self
+    fn speed_of(&self, sheet: &Sheet, row: &Row) -> Result<f64, Error> {
+        speed_in(sheet, row, self.speed)
     }
+
+    fn notes(&self, sheet: &Sheet) -> Vec<String> {
+        let mut notes = vec![how_read(sheet, self.speed, self.outcome, &self.words)];
+        notes.extend(of_kinds(sheet, &self.kept));
+        notes
+    }
+}
+
+/// The speed in a cell.
+fn speed_in(sheet: &Sheet, row: &Row, place: usize) -> Result<f64, Error> {
+    let value = sheet.number(row, place)?;
+    if value > 0.0 {
+        return Ok(value);
+    }
+    let message = format!("the cell is \"{}\"; allowed: a speed above 0", shortened(&row.cells[place]));
+    Err(sheet.error(row.line, place + 1, &message))
 }
 
 /// The column that a user names.
@@ -355,13 +410,13 @@ fn how_read(sheet: &Sheet, speed: usize, outcome: usize, words: &Words) -> Strin
     };
     let said = [(Meaning::Stop, "a stop"), (Meaning::Perforation, "a perforation"), (Meaning::None, "neither")];
     let said: Vec<String> = said.into_iter().filter_map(|(meaning, what)| of(meaning, what)).collect();
+    let said = if said.is_empty() { String::new() } else { format!(": {}", said.join(", ")) };
     format!(
-        "Speed: column {}, \"{}\". Outcome: column {}, \"{}\": {}.",
+        "Speed: column {}, \"{}\". Outcome: column {}, \"{}\"{said}.",
         speed + 1,
         sheet.headings[speed].text,
         outcome + 1,
         sheet.headings[outcome].text,
-        said.join(", ")
     )
 }
 
@@ -379,17 +434,16 @@ fn of_contrary(fates: &[Fate]) -> Option<String> {
 /// Shots of several kinds have no one V50.
 fn of_kinds(sheet: &Sheet, rows: &[&Row]) -> Vec<String> {
     let note = |place: usize| {
-        let mut values: Vec<&str> = Vec::new();
-        for row in rows {
-            if !values.contains(&row.cells[place].as_str()) {
-                values.push(&row.cells[place]);
-            }
-        }
+        let mut known = HashSet::new();
+        let values: Vec<&str> =
+            rows.iter().map(|row| row.cells[place].as_str()).filter(|&it| known.insert(it)).collect();
         let text = &sheet.headings[place].text;
         (values.len() > 1).then(|| {
+            let more = values.len().saturating_sub(NAMED);
+            let more = if more == 0 { String::new() } else { format!(" and {more} more") };
             format!(
-                "warning: \"{text}\" differs among the shots ({}); one V50 is of one of them: --only \"{}={}\"",
-                values.join(", "),
+                "warning: \"{text}\" differs among the shots ({}{more}); one V50 is of one of them: --only \"{}={}\"",
+                values.iter().take(NAMED).copied().collect::<Vec<_>>().join(", "),
                 sheet.headings[place].name,
                 values[0]
             )

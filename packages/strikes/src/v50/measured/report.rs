@@ -20,7 +20,8 @@ pub fn report(measured: &Measured, told: &Analysis) -> String {
 }
 
 fn head(measured: &Measured, told: &Analysis) -> String {
-    let Measured { name, without_fate, left_out, notes, .. } = measured;
+    let Measured { name, without_fate, left_out, notes, unit, .. } = measured;
+    let speed = &unit.text;
     let all = told.fates.len() + without_fate.len() + left_out.len();
     let [stopped, through] = [false, true].map(|through| told.count(through));
     let mut text = paragraph(&format!(
@@ -32,8 +33,23 @@ fn head(measured: &Measured, told: &Analysis) -> String {
     if told.asked.logarithm {
         text += "The curves are over the logarithm of the speed.\n";
     }
+    text += &of_lines(without_fate, speed);
     left_out.iter().for_each(|(line, why)| text += &paragraph(&format!("Left out, line {line}: {why}")));
     text
+}
+
+/// The lines without a fate.
+fn of_lines(without_fate: &[(usize, Option<f64>)], unit: &str) -> String {
+    let of = |(line, speed): &(usize, Option<f64>)| match speed {
+        Some(speed) => format!("{line} ({} {unit})", number(*speed)),
+        None => format!("{line} (no speed)"),
+    };
+    let listed: Vec<String> = without_fate.iter().map(of).collect();
+    match listed.len() {
+        0 => String::new(),
+        1 => paragraph(&format!("Without a fate, line {}", listed[0])),
+        _ => paragraph(&format!("Without a fate, lines {}", listed.join(", "))),
+    }
 }
 
 /// Why a table has no curve.

@@ -39,7 +39,7 @@ fn tables_of_any_form_are_the_same_shots() {
 fn shots_are_left_out_with_a_reason() {
     let table = "speed (m/s),outcome,kept,reason\n645,pass,yes,\n,pass,no,no speed\n612,stop,1,\n600,undecided,y,\n";
     let measured = read(table, &Choice::default()).expect("shots");
-    assert_eq!((measured.fates.len(), &measured.without_fate[..]), (2, &[600.0][..]));
+    assert_eq!((measured.fates.len(), &measured.without_fate[..]), (2, &[(5, Some(600.0))][..]));
     assert_eq!(measured.left_out, [(3, "no speed".to_string())]);
     let measured = read("v (m/s),result,excluded\n645,C,\n650,C,yaw 7°\n612,P,-\n", &Choice::default()).expect("shots");
     assert_eq!((measured.fates.len(), &measured.left_out[..]), (2, &[(3, "yaw 7°".to_string())][..]));
@@ -51,6 +51,67 @@ fn shots_are_left_out_with_a_reason() {
     assert_eq!(shots("v (m/s),result,fair\n645,C,\n612,P,\n").len(), 2);
     let message = read("v (m/s),result,fair\n645,C,x\n612,P,\n", &Choice::default()).expect_err("a blank");
     assert_eq!(message, "shots.csv:3:3: column \"fair\": the cell is \"\"; allowed: yes or no");
+}
+
+/// Rows without an outcome are listed with their lines, those without a speed too.
+#[test]
+fn rows_without_an_outcome_are_listed() {
+    let table = "shot,speed (m/s),outcome\n1,645,pass\n2,630,\n3,612,stop\n4,,\n5,601,void\n";
+    let measured = read(table, &Choice::default()).expect("shots");
+    let told = Analysis::of(measured.fates.clone(), &Asked::default());
+    let said = report::report(&measured, &told);
+    assert!(said.contains("3 without a fate"), "{said}");
+    assert!(said.contains("Without a fate, lines 3 (630.0 m/s), 5 (no speed), 6 (601.0 m/s)"), "{said}");
+}
+
+/// Yes and no of other languages, headings over several lines, and seconds by another name.
+#[test]
+fn tables_of_other_places_are_read() {
+    let table = "Nr;\"Geschwindigkeit\n(m/sec)\";Ergebnis;gültig;Bemerkung\n1;645,5;durchschuss;ja;\n2;612;gestoppt;Nein;Rand\n\
+                 3;620;gestoppt;ja;\"zwei\nZeilen\"\n4;621;gestoppt;ja;\n";
+    let measured = read(table, &Choice::default()).expect("shots");
+    assert_eq!((measured.fates.len(), &measured.left_out[..]), (3, &[(4, "Rand".to_string())][..]));
+    assert_eq!(measured.unit.text, "m/sec");
+    let metres = measured.in_unit(&Unit::parse("m/s").expect("a unit"));
+    assert_eq!(metres.fates[0].speed, 645.5);
+    // A line break in quotes takes its line.
+    let message = read(&table.replace("621", "x"), &Choice::default()).expect_err("no number");
+    assert!(message.starts_with("shots.csv:7:2: "), "{message}");
+}
+
+/// A table without shots says what one looks like.
+#[test]
+fn an_empty_table_is_shown_an_example() {
+    let message = Measured::of(
+        &Sheet::parse_like("shots.csv", "speed (m/s),outcome\n", EXAMPLE[0]).expect("a header"),
+        &Choice::default(),
+    );
+    let message = message.expect_err("no shots").to_string();
+    let wanted = "allowed: lines as \"645.2,pass\" below a header as \"speed (m/s),outcome\"";
+    assert!(message.starts_with("shots.csv:1:1: ") && message.ends_with(wanted), "{message}");
+    let message = Sheet::parse_like("shots.csv", " \n", EXAMPLE[0]).expect_err("nothing").to_string();
+    assert_eq!(message, "shots.csv:1:1: no header; allowed: columns as in \"speed (m/s),outcome\"");
+}
+
+/// What rounding leaves of two equal tables is no deviance.
+#[test]
+fn equal_shots_have_no_deviance() {
+    let shots = [(600.0, false), (612.5, true), (610.0, false), (618.0, true), (622.3, false), (630.0, true)];
+    let told = told(&shots, false);
+    for link in crate::v50::link::Link::BOTH {
+        let found = compare::Difference::of(&told, &told, link).expect("curves");
+        assert_eq!((found.one_v50, found.one_curve), ([0.0, 1.0], [0.0, 1.0]));
+    }
+}
+
+/// Of many kinds a few are named.
+#[test]
+fn many_kinds_are_counted() {
+    let rows: String =
+        (0..2_000).map(|i| format!("{i},{}.{:02},{}\n", 500 + i / 100, i % 100, ["P", "C"][i % 2])).collect();
+    let measured = read(&format!("projectile,v (m/s),result\n{rows}"), &Choice::default()).expect("shots");
+    assert_eq!(measured.fates.len(), 2_000);
+    assert!(measured.notes[1].contains("(0, 1, 2, 3, 4, 5 and 1994 more)"), "{}", measured.notes[1]);
 }
 
 /// Shots of several plies are told apart, and one kind of them can be chosen.

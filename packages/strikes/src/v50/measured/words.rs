@@ -1,5 +1,7 @@
 //! What became of a shot, in the words that tables have for it.
 
+use std::collections::HashSet;
+
 /// What a word says.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Meaning {
@@ -25,7 +27,7 @@ const FAMILIES: [Family; 4] = [
         &["np", "no perforation", "non-perforation", "non perforation", "not perforated", "no penetration"],
         &["p", "perforation", "perforated", "penetration"],
     ],
-    [&["0", "no", "n", "false"], &["1", "yes", "y", "true"]],
+    [&["0", "no", "n", "false", "nein", "non"], &["1", "yes", "y", "true", "ja", "j", "oui"]],
 ];
 const NO_FATE: [&str; 8] = ["", "-", "–", "undecided", "error", "n/a", "na", "void"];
 /// What a column has in its name of which 1 may be a stop.
@@ -67,12 +69,9 @@ impl Words {
     /// # Errors
     /// A word, and what is wrong with it.
     pub fn of(heading: &str, cells: &[&str], through: Option<&str>) -> Result<Words, (String, String)> {
-        let mut words: Vec<String> = Vec::new();
-        for word in cells.iter().map(|cell| plain(cell)) {
-            if !words.contains(&word) {
-                words.push(word);
-            }
-        }
+        let mut known = HashSet::new();
+        let words: Vec<String> =
+            cells.iter().map(|cell| plain(cell)).filter(|word| known.insert(word.clone())).collect();
         let (none, told): (Vec<String>, Vec<String>) =
             words.into_iter().partition(|word| NO_FATE.contains(&word.as_str()) && through != Some(word));
         let meanings = match through {
@@ -159,7 +158,12 @@ fn check_answers(heading: &str, words: &[String]) -> Result<(), (String, String)
 
 /// The word that goes with one, as it is written where it means a perforation.
 fn yes_of(word: &str) -> &'static str {
-    if word == "0" || word == "1" { "0 or --through 1" } else { "yes or --through no" }
+    match word {
+        "0" | "1" => "0 or --through 1",
+        "ja" | "j" | "nein" => "ja or --through nein",
+        "oui" | "non" => "oui or --through non",
+        _ => "yes or --through no",
+    }
 }
 
 #[cfg(test)]
@@ -191,6 +195,7 @@ mod tests {
             assert_eq!(of("Result", &[stop, pass], None), both, "{stop} {pass}");
         }
         assert_eq!(of("Perforated?", &["no", "Yes"], None), both);
+        assert_eq!(of("Durchschuss", &["nein", "Ja"], None), both);
         assert_eq!(of("Perforated? (y/n)", &["n", "y"], None), both);
         assert_eq!(of("Result", &["pass", "fail"], Some("Fail")), both);
         assert_eq!(of("Stopped", &["1", "0"], Some("0")), both);
