@@ -11,9 +11,10 @@ use toml::Spanned;
 use super::data::{DataSet, Loading};
 use super::data_sheet::{DataSheet, DataSheetFile};
 use super::equivalence::{Constant, Fibre};
-use super::fit::Problem;
+use super::fit::{Fit, Problem};
 use super::friction::{self, C, Friction, MU, Sliding};
 use super::parameter::{ALL, PARAMETERS, Parameter, Values};
+use super::profile;
 use super::reader::{Reader, plain_name};
 use super::sliding_data;
 use super::strength::file::SetFile;
@@ -37,6 +38,8 @@ pub(super) struct FitFile {
     pub title: Option<String>,
     pub units: Spanned<String>,
     #[serde(default)]
+    intervals: Intervals,
+    #[serde(default)]
     yarn: YarnFile,
     fibre: Option<Spanned<FibreFile>>,
     data_sheet: Option<Spanned<DataSheetFile>>,
@@ -49,8 +52,21 @@ pub(super) struct FitFile {
 impl FitFile {
     /// Whether anything in it is of the law's properties.
     pub fn has_properties(&self) -> bool {
-        self.yarn != YarnFile::default() || self.fibre.is_some() || self.data_sheet.is_some() || !self.data.is_empty()
+        self.intervals != Intervals::default()
+            || self.yarn != YarnFile::default()
+            || self.fibre.is_some()
+            || self.data_sheet.is_some()
+            || !self.data.is_empty()
     }
+}
+
+/// How the intervals of the law's properties are found.
+#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Eq)]
+#[serde(rename_all = "kebab-case")]
+pub enum Intervals {
+    #[default]
+    Profile,
+    Linearised,
 }
 
 /// The yarn: what the preset that comes out says of it, and the values that are known.
@@ -137,6 +153,7 @@ pub struct Job {
     pub fibre: Option<Fibre>,
     pub sheet: Option<DataSheet>,
     pub problem: Problem,
+    pub intervals: Intervals,
     /// Of the law with friction, from sections that slide.
     pub friction: Friction,
     pub sliding: Vec<Sliding>,
@@ -145,6 +162,18 @@ pub struct Job {
 }
 
 impl Job {
+    /// The parameters, with the intervals that the file asks for.
+    ///
+    /// # Errors
+    /// The data do not suffice, or the law has no answer to them.
+    pub fn fit(&self) -> Result<Fit, Error> {
+        let fit = self.problem.fit()?;
+        Ok(match self.intervals {
+            Intervals::Profile => profile::profiled(&self.problem, fit),
+            Intervals::Linearised => fit,
+        })
+    }
+
     /// Reads the file and its data.
     ///
     /// # Errors
@@ -232,7 +261,8 @@ impl Job {
         let data = file.data.iter().flat_map(|data| data.get_ref().files());
         let inputs = data.chain(file.yarn.preset.as_ref().map(|preset| preset.get_ref().as_str()));
         let inputs = inputs.map(|name| folder.join(name)).chain([path.to_path_buf()]).collect();
-        Ok(Job { title, units, preset, base, fibre, sheet, problem, friction, sliding, inputs })
+        let intervals = file.intervals;
+        Ok(Job { title, units, preset, base, fibre, sheet, problem, intervals, friction, sliding, inputs })
     }
 }
 

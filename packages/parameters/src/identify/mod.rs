@@ -17,6 +17,7 @@ pub mod parameter;
 pub mod path_file;
 pub mod path_response;
 pub mod plot;
+pub mod profile;
 pub mod quantities;
 pub mod ranges;
 pub mod reader;
