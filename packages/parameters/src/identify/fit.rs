@@ -383,7 +383,7 @@ fn reweighted(
 }
 
 /// How much of each prediction its own datum decides.
-fn leverages(solution: &Solution, weights: &[f64], parameters: &[Parameter]) -> Vec<f64> {
+pub(super) fn leverages(solution: &Solution, weights: &[f64], parameters: &[Parameter]) -> Vec<f64> {
     let free: Vec<Parameter> = parameters.iter().copied().filter(|p| !solution.bounded.contains(p)).collect();
     if free.is_empty() {
         return vec![0.0; weights.len()];

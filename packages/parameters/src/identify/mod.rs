@@ -10,6 +10,7 @@ pub mod file;
 pub mod fit;
 pub mod friction;
 pub mod friction_report;
+pub mod influence;
 pub mod least_squares;
 pub mod notes;
 pub mod output;

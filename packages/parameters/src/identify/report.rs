@@ -6,7 +6,7 @@ use super::fit::{Fit, Problem, SetFit};
 use super::parameter::{ALL, Parameter};
 use super::ranges::{self, PARTS};
 use super::uncertainty::{self, Estimate};
-use super::{friction_report, notes};
+use super::{friction_report, influence, notes};
 use toron::law::parameters::NUMBER;
 use toron_materials::units::unit;
 use toron_shared::console::{is_json, value_record};
@@ -40,7 +40,8 @@ pub fn report(job: &Job, fit: &Fit) -> String {
     }
     text += &friction_report::sets(job);
     text += &by_range(&job.problem, fit);
-    for note in notes::notes(&job.problem, fit) {
+    let influence = influence::notes(&job.problem, fit);
+    for note in job.said.iter().cloned().chain(influence).chain(notes::notes(&job.problem, fit)) {
         text += &line("note", &note);
     }
     text

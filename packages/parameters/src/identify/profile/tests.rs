@@ -85,11 +85,13 @@ fn intervals_hold_the_truth_of_compression_alone() {
 #[test]
 #[ignore = "takes some minutes"]
 fn intervals_hold_the_truth_of_compression_alone_of_300_seeds() {
-    for (k_td, expected) in [(0.0, [300, 285, 285]), (600.0, [299, 285, 285]), (1500.0, [295, 286, 287])] {
+    let found = [0.0, 600.0, 1500.0].map(|k_td| {
         let [profile, linear] = coverage(k_td, 300);
         println!("k_td = {k_td}: k_tc, p, k_td held in {profile:?} of 300, linearised in {linear:?}");
-        assert_eq!(profile, expected, "{k_td}");
-    }
+        profile
+    });
+    // 0.95 less one and a half standard errors.
+    assert!(found.as_flattened().iter().all(|&held| held >= 279), "{found:?}");
 }
 
 /// The interval of one stiffness alone, whose squares are a parabola, is the linearised one.
