@@ -364,3 +364,6 @@ fn property(source: &Source<'_>, law: LawName, name: &str, span: Range<usize>) -
         source.error(span, &format!("property \"{name}\"{hint}; allowed: {}", known.join(" ")))
     })
 }
+
+#[cfg(test)]
+mod tests;
