@@ -1,13 +1,13 @@
 //! Intervals by the profile of the squares: a value of a parameter is in its interval where the weighted squares, least
 //! over the parameters fitted with it, exceed their least value by no more than F(0.95; 1, ν).
 //!
-//! Where n of the others are on a bound there, the limit is (n + 1) F(0.95; n + 1, ν): squares that cannot fall beyond a
-//! bound rise faster than those that F(1, ν) is of. The least squares at each place are sought from several starts, and
-//! where they are low again farther out the interval goes on to there: it is rather too long than too short.
+//! Where n of the others are on a bound there, the limit is (n + 1) F(0.95; n + 1, ν): squares that cannot fall beyond
+//! a bound rise faster than those that F(1, ν) is of. The least squares at each place are sought from several starts,
+//! and where they are low again farther out the interval goes on to there: it is rather too long than too short.
 //!
-//! Unlike the intervals of [`uncertainty`](super::uncertainty) these are not linearised: one may be lopsided, and run to
-//! what the law allows. A parameter whose errors come from elsewhere too, from sets that were fitted before, from a zero
-//! or from a constant, keeps its linearised interval.
+//! Unlike the intervals of [`uncertainty`](super::uncertainty) these are not linearised: one may be lopsided, and run
+//! to what the law allows. A parameter whose errors come from elsewhere too, from sets that were fitted before, from a
+//! zero or from a constant, keeps its linearised interval.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
