@@ -26,8 +26,23 @@ pub struct DataTable {
     pub columns: Vec<Column>,
     /// The line of the header.
     pub header: usize,
+    /// The lines of tests that are left out, which [`DataTable::read_tests`] alone does.
+    pub excluded: Vec<Excluded>,
     others: Vec<Other>,
 }
+
+/// A line that is left out, and why.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Excluded {
+    pub line: usize,
+    pub reason: String,
+}
+
+/// The column that has a reason in the lines of tests that are left out, and what means none.
+const EXCLUDED: &str = "excluded";
+const KEPT: [&str; 6] = ["", "-", "0", "no", "n", "false"];
+/// What is no reason.
+const BARE: [&str; 5] = ["1", "x", "yes", "y", "true"];
 
 /// A column that is not of numbers with a unit, and why.
 #[derive(Clone, Debug)]
@@ -64,6 +79,39 @@ impl DataTable {
         DataTable::of(&Sheet::read(path)?)
     }
 
+    /// Reads a file of tests, but for the lines that have a reason in a column `excluded`.
+    ///
+    /// # Errors
+    /// An input error that names file, line and column, what is there and what is allowed.
+    pub fn read_tests(path: &Path) -> Result<DataTable, Error> {
+        DataTable::of_tests(Sheet::read(path)?)
+    }
+
+    fn of_tests(mut sheet: Sheet) -> Result<DataTable, Error> {
+        let is_column = |heading: &Heading| heading.name.eq_ignore_ascii_case(EXCLUDED);
+        let Some(place) = sheet.headings.iter().position(is_column) else { return DataTable::of(&sheet) };
+        let mut excluded = Vec::new();
+        for row in &sheet.rows {
+            let (reason, word) = (row.cells[place].clone(), row.cells[place].to_lowercase());
+            if BARE.contains(&word.as_str()) {
+                let message = format!("the cell is \"{reason}\"; allowed: the reason in words, or nothing");
+                return Err(sheet.error(row.line, place + 1, &message));
+            }
+            if !KEPT.contains(&word.as_str()) {
+                excluded.push(Excluded { line: row.line, reason });
+            }
+        }
+        sheet.rows.retain(|row| excluded.iter().all(|left_out| left_out.line != row.line));
+        if sheet.rows.is_empty() {
+            return Err(sheet.error(
+                sheet.header,
+                place + 1,
+                "every line is left out; allowed: one at least that is not",
+            ));
+        }
+        Ok(DataTable { excluded, ..DataTable::of(&sheet)? })
+    }
+
     /// The table that `text` describes; `name` stands for the file in messages.
     ///
     /// # Errors
@@ -77,8 +125,13 @@ impl DataTable {
     /// # Errors
     /// Two columns have one name, or no column is of numbers with a unit.
     fn of(sheet: &Sheet) -> Result<DataTable, Error> {
-        let mut table =
-            DataTable { name: sheet.name.clone(), columns: Vec::new(), header: sheet.header, others: Vec::new() };
+        let mut table = DataTable {
+            name: sheet.name.clone(),
+            columns: Vec::new(),
+            header: sheet.header,
+            excluded: Vec::new(),
+            others: Vec::new(),
+        };
         for (place, heading) in sheet.headings.iter().enumerate() {
             let is_same = |other: &Heading| other.name == heading.name && other.unit.is_some();
             if let Some(other) = sheet.headings[..place].iter().position(is_same).filter(|_| heading.unit.is_some()) {
@@ -105,14 +158,24 @@ impl DataTable {
 
     /// Whether a column has this name, which [`DataTable::column`] may refuse all the same.
     pub fn has(&self, name: &str) -> bool {
-        self.names().any(|(known, _)| known == name)
+        self.names().any(|(known, _)| known == self.own_name(name))
     }
 
-    /// The column of this name.
+    /// The name as the table has it: the same, or else the only one that differs by capital letters alone.
+    pub fn own_name<'a>(&'a self, name: &'a str) -> &'a str {
+        let mut alike = self.names().map(|(known, _)| known).filter(|known| known.eq_ignore_ascii_case(name));
+        match (self.names().any(|(known, _)| known == name), alike.next(), alike.next()) {
+            (false, Some(one), None) => one,
+            _ => name,
+        }
+    }
+
+    /// The column of this name, or of the only one that differs by capital letters alone.
     ///
     /// # Errors
     /// There is none, and the message names those that exist; or it is not of numbers with a unit.
     pub fn column(&self, name: &str) -> Result<&Column, Error> {
+        let name = self.own_name(name);
         if let Some(column) = self.columns.iter().find(|column| column.name == name) {
             return Ok(column);
         }
@@ -129,8 +192,39 @@ impl DataTable {
     /// # Errors
     /// There is no such column, or its unit is of another dimension.
     pub fn values(&self, name: &str, dimension: Dimension, system: &UnitSystem) -> Result<Vec<f64>, Error> {
+        self.converted(self.column(name)?, None, dimension, system)
+    }
+
+    /// As [`DataTable::values`], where kg, g and lb are taken for kgf, gf and lbf if nothing else gives the dimension;
+    /// what is to be said of that, if it is so.
+    ///
+    /// # Errors
+    /// There is no such column, or its unit is of another dimension.
+    pub fn forces(
+        &self,
+        name: &str,
+        dimension: Dimension,
+        system: &UnitSystem,
+    ) -> Result<(Vec<f64>, Option<String>), Error> {
         let column = self.column(name)?;
-        if !column.unit.measures(dimension) {
+        let force = if column.unit.measures(dimension) { None } else { column.unit.as_force() };
+        let force = force.filter(|force| force.measures(dimension));
+        let said = force
+            .as_ref()
+            .map(|force| format!("{} of the column {} is taken for {}", column.unit.text, column.name, force.text));
+        Ok((self.converted(column, force, dimension, system)?, said))
+    }
+
+    /// The values of a column, in this unit or its own.
+    fn converted(
+        &self,
+        column: &Column,
+        unit: Option<Unit>,
+        dimension: Dimension,
+        system: &UnitSystem,
+    ) -> Result<Vec<f64>, Error> {
+        let unit = unit.as_ref().unwrap_or(&column.unit);
+        if !unit.measures(dimension) {
             let own = units::unit(system, dimension);
             let wanted = match own.as_str() {
                 "-" => "- or %".to_string(),
@@ -141,7 +235,7 @@ impl DataTable {
             let message = format!("the unit is \"{}\"; allowed: {wanted}", column.unit.text);
             return Err(self.error(self.header, column.number, &message));
         }
-        Ok(column.values.iter().map(|cell| column.unit.convert(cell.value, system)).collect())
+        Ok(column.values.iter().map(|cell| unit.convert(cell.value, system)).collect())
     }
 
     /// An error at a place of the file: `file:line:column: column "force": message`.

@@ -16,8 +16,8 @@ pub struct Unit {
 }
 
 /// What may stand in the brackets of a header.
-pub const ALLOWED: &str = "-, % or ° for a number; else products and quotients of m, in, ft, fps, g, t (tonne), slug, slinch, s, N, \
-                           lbf, gf, Pa, bar, psi, psf, ksi, J, W, tex, den with prefixes n µ (u) m c d k M G T P where they are metric, in \
+pub const ALLOWED: &str = "-, % or ° for a number; else products and quotients of m, in, ft, fps, g, t (tonne), lb, slug, slinch, s, \
+                           N, lbf, gf, kgf, Pa, bar, psi, psf, ksi, J, W, tex, den with prefixes n µ (u) m c d k M G T P where they are metric, in \
                            capitals and small letters as here: N, kN, MPa, N/mm², mJ/mm^3, kg/(m s²), 1/s";
 
 /// Longer texts are no units; this also bounds how deep parentheses can be.
@@ -51,7 +51,7 @@ const POUND_FORCE: f64 = 44_482_216_152_605.0;
 const INCH: f64 = 254.0;
 const FOOT: f64 = 3048.0;
 
-const NAMED: [Named; 27] = [
+const NAMED: [Named; 30] = [
     plain("1", [0, 0, 0], 1.0, 0),
     plain("%", [0, 0, 0], 1.0, -2),
     plain("°", [0, 0, 0], std::f64::consts::PI / 180.0, 0),
@@ -67,6 +67,9 @@ const NAMED: [Named; 27] = [
     plain("t", [1, 0, 0], 1.0, 3),
     plain("tonne", [1, 0, 0], 1.0, 3),
     plain("gf", FORCE, 9.80665, -3),
+    plain("kgf", FORCE, 9.80665, 0),
+    plain("lb", [1, 0, 0], 45_359_237.0, -8),
+    plain("lbs", [1, 0, 0], 45_359_237.0, -8),
     // Grams in 1000 m and, of a denier, in 9000 m.
     metric("tex", [1, -1, 0], -6),
     plain("den", [1, -1, 0], 1.0 / 9.0, -6),
@@ -112,7 +115,8 @@ impl Unit {
         let mut unit = if text.is_empty() || text == "-" {
             number()
         } else {
-            let mut expression = Expression { rest: text };
+            let figures = with_figures(text);
+            let mut expression = Expression { rest: &figures };
             let unit = expression.product()?;
             match expression.rest.chars().next() {
                 None => unit,
@@ -126,6 +130,14 @@ impl Unit {
     /// Whether quantities of this dimension can have this unit. A stress and an energy by volume are not distinguished.
     pub fn measures(&self, dimension: Dimension) -> bool {
         [self.mass, self.length, self.time] == [dimension.mass, dimension.length, dimension.time]
+    }
+
+    /// What a kilogram, gram or pound in place of a force is taken for: kgf/mm2 of kg/mm2; none of another unit.
+    pub fn as_force(&self) -> Option<Unit> {
+        let (name, rest) =
+            ["kg", "g", "lbs", "lb"].into_iter().find_map(|name| Some((name, self.text.strip_prefix(name)?)))?;
+        let rest = Some(rest).filter(|rest| !rest.starts_with(char::is_alphabetic))?;
+        Unit::parse(&format!("{}f{rest}", name.trim_end_matches('s'))).ok()
     }
 
     /// Converts a value of this unit to a system's unit of the same dimension: bit for bit where the two are one unit,
@@ -154,6 +166,19 @@ impl Unit {
         }
         Ok(unit)
     }
+}
+
+/// With `in²` and `ft³` for `sq. in.` and `cu ft`.
+fn with_figures(text: &str) -> String {
+    let mut text = text.to_string();
+    for (word, power) in [("sq", '²'), ("cu", '³')] {
+        for (point, blank, end) in [(".", " ", "."), (".", "", "."), (".", " ", ""), ("", " ", "."), ("", " ", "")] {
+            for unit in ["in", "ft"] {
+                text = text.replace(&format!("{word}{point}{blank}{unit}{end}"), &format!("{unit}{power}"));
+            }
+        }
+    }
+    text
 }
 
 fn number() -> Unit {
@@ -340,6 +365,34 @@ mod tests {
                 assert!(unit.measures(dimension), "{text}");
                 assert!((unit.convert(1.0, &units) - 1.0).abs() < 1e-14, "{text} in {name}");
             }
+        }
+    }
+
+    #[test]
+    fn pounds_and_kilograms_are_masses_or_forces() {
+        let si = |text: &str, value: f64| {
+            let found = parse(text).convert(1.0, &UnitSystem::SI);
+            assert!((found / value - 1.0).abs() < 1e-14, "{text}: {found}");
+        };
+        for text in ["lb/cu. in.", "lb/cu.in.", "lb/cu in", "lb/in³", "lbs/in^3"] {
+            assert!(parse(text).measures(DENSITY), "{text}");
+            si(text, 0.45359237 / 0.0254_f64.powi(3));
+        }
+        si("lbf/sq. in.", 6894.757293168361);
+        si("kgf/mm²", 9.80665e6);
+        for (text, force, value) in [
+            ("kg/mm2", "kgf/mm2", 9.80665e6),
+            ("kg", "kgf", 9.80665),
+            ("g/den", "gf/den", 9.80665e-3 * 9e6),
+            ("lb", "lbf", 4.4482216152605),
+            ("lbs/sq. in.", "lbf/sq. in.", 6894.757293168361),
+        ] {
+            let found = parse(text).as_force().expect(text);
+            assert_eq!(found.text, force);
+            si(force, value);
+        }
+        for text in ["N", "m", "t/m²", "gf", "1/kg", "kgf"] {
+            assert_eq!(parse(text).as_force(), None, "{text}");
         }
     }
 

@@ -2,7 +2,7 @@ use proptest::prelude::*;
 
 use super::*;
 use crate::units::FORCE;
-use toron::law::parameters::NUMBER;
+use toron::law::parameters::{NUMBER, STRESS};
 
 #[track_caller]
 fn parse(text: &str) -> DataTable {
@@ -108,6 +108,49 @@ fn columns_of_words_are_left_alone() {
     assert!(refused.starts_with("data.csv:2:2: column \"b\": the cell is \"x\""), "{refused}");
 }
 
+/// Machines begin names with capital letters.
+#[test]
+fn names_are_found_by_other_capital_letters() {
+    let table = parse("Strain (%),FORCE (N),force (kN),Load (N),load (N)\n1,2,3,4,5\n");
+    assert_eq!(values(&table, "strain"), [1.0]);
+    assert_eq!(table.own_name("strain"), "Strain");
+    // The same name comes first, and of two that are alike none is meant.
+    assert_eq!((values(&table, "force"), values(&table, "Load")), (vec![3.0], vec![4.0]));
+    assert!(!table.has("LOAD") && table.column("LOAD").is_err() && table.has("strain"));
+}
+
+#[test]
+fn kilograms_and_pounds_are_taken_for_forces_where_one_is_wanted() {
+    let table = parse("stress (kg/mm2),mass (kg),force (lb),strain (-)\n2,3,4,0.1\n");
+    let units = UnitSystem::parse("mm-tonne-s").expect("a system");
+    let (stress, said) = table.forces("stress", STRESS, &units).expect("a stress");
+    assert!((stress[0] - 19.6133).abs() < 1e-12, "{stress:?}");
+    assert_eq!(said.as_deref(), Some("kg/mm2 of the column stress is taken for kgf/mm2"));
+    let (force, _) = table.forces("force", FORCE, &units).expect("a force");
+    assert!((force[0] - 4.0 * 4.4482216152605).abs() < 1e-12, "{force:?}");
+    let mass = Dimension { mass: 1, length: 0, time: 0, name: "mass" };
+    assert_eq!(table.forces("mass", mass, &units), Ok((vec![0.003], None)));
+    assert!(table.values("stress", STRESS, &units).is_err() && table.forces("strain", FORCE, &units).is_err());
+}
+
+#[test]
+fn tests_with_a_reason_are_left_out() {
+    let of = |text: &str| DataTable::of_tests(Sheet::parse("data.csv", text)?);
+    let table = of("force (N),Excluded\n1,\n,slipped\n3,no\nx,broke in the grip\n").expect("a table");
+    assert_eq!(values(&table, "force"), [1.0, 3.0]);
+    let reason = |line, reason: &str| Excluded { line, reason: reason.to_string() };
+    assert_eq!(table.excluded, [reason(3, "slipped"), reason(5, "broke in the grip")]);
+    for (text, message) in [
+        ("force (N),excluded\n1,yes\n", "data.csv:2:2: the cell is \"yes\"; allowed: the reason in words, or nothing"),
+        ("force (N),excluded\n1,slipped\n", "data.csv:1:2: every line is left out; allowed: one at least that is not"),
+    ] {
+        let error = of(text).expect_err(message).to_string();
+        assert_eq!(error.replace("column \"excluded\": ", ""), message);
+    }
+    // Who does not ask for tests has all lines.
+    assert_eq!(values(&parse("force (N),excluded\n1,slipped\n"), "force"), [1.0]);
+}
+
 /// Windows writes dashes and quotes where Latin-1 has nothing, and UTF-16 without its mark.
 #[test]
 fn texts_of_windows_are_read() {
@@ -138,7 +181,7 @@ fn values_are_converted() {
         "data.csv:2:1: column \"strain\": the unit is \"%\"; allowed: a unit of force, as N"
     );
     assert_eq!(error("force", NUMBER), "data.csv:2:2: column \"force\": the unit is \"kN\"; allowed: - or %");
-    assert_eq!(error("Force", FORCE), "data.csv:2: no column \"Force\"; there are: strain, force");
+    assert_eq!(error("Forces", FORCE), "data.csv:2: no column \"Forces\"; there are: strain, force");
 }
 
 #[test]

@@ -27,7 +27,7 @@ pub fn run(path: &Path, output: &Path, scene: Option<&Path>) -> Result<(), Error
     }
     let job = Job::read(path)?;
     let scene = scene.map(Scene::read).transpose()?;
-    let fit = job.problem.fit()?;
+    let fit = job.fit()?;
     let files = names(&job);
     require_new(&job.inputs, output, &files)?;
     let directory = lock(path, output, &files, scene.is_some())?.claim()?;

@@ -155,7 +155,12 @@ impl DataSet {
 
     /// The set of those points that are at most this far from rest.
     pub fn up_to(&self, distance: f64) -> DataSet {
-        let keep: Vec<usize> = (0..self.len()).filter(|&i| self.distance(i) <= distance).collect();
+        self.of(|i| self.distance(i) <= distance)
+    }
+
+    /// The set of those points that `keep` names.
+    pub fn of(&self, keep: impl Fn(usize) -> bool) -> DataSet {
+        let keep: Vec<usize> = (0..self.len()).filter(|&i| keep(i)).collect();
         let pick = |values: &[f64]| keep.iter().map(|&i| values[i]).collect();
         let axis = |axis: &Axis| Axis { values: pick(&axis.values), ..axis.clone() };
         DataSet {

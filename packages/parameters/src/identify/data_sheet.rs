@@ -1,5 +1,7 @@
 //! A manufacturer's data sheet in its own words: linear density, tenacity, modulus, filaments, each with its unit.
 
+use std::cell::RefCell;
+
 use serde::Deserialize;
 use toml::Spanned;
 
@@ -29,7 +31,12 @@ pub(super) struct Known {
 /// Polypropylene 900 kg/m³, steel 7900; polyamide 2 GPa, pitch carbon 900; wool 0.15 GPa, carbon 7.
 const DENSITIES: Known = Known { range: [800.0, 9000.0], text: "0.8 to 9 g/cm³, as fibres have" };
 pub(super) const MODULI: Known = Known { range: [5e8, 1e12], text: "0.5 to 1000 GPa, as fibres have" };
-const STRENGTHS: Known = Known { range: [5e7, 1.2e10], text: "0.05 to 12 GPa, as fibres have" };
+/// Of yarns, voids included.
+pub(super) const YARN_DENSITIES: Known =
+    Known { range: [200.0, 9000.0], text: "0.2 to 9 g/cm³, as yarns of fibres have" };
+/// Pitch carbon fails at 0.3 %, drawn fibres before they are twice as long.
+pub(super) const STRAINS: Known = Known { range: [1e-3, 1.0], text: "0.1 to 100 %, as fibres have" };
+pub(super) const STRENGTHS: Known = Known { range: [5e7, 1.2e10], text: "0.05 to 12 GPa, as fibres have" };
 /// Of one of several filaments: microfibres have 3 µm, coarse ones 50.
 const DIAMETERS: Known = Known { range: [1e-6, 1e-4], text: "filaments of 1 to 100 µm" };
 
@@ -71,35 +78,53 @@ pub(super) struct DataSheetFile {
 pub struct DataSheet {
     density: f64,
     modulus: Constant,
-    elongation: f64,
+    elongation: Constant,
     strength: Option<f64>,
     /// Of all filaments' sections together.
     solid: Option<f64>,
     filaments: Option<u32>,
     volume_fraction: Constant,
+    /// What its words were taken for.
+    pub said: Vec<String>,
 }
 
 impl DataSheet {
     pub(super) fn read(source: &Source, sheet: &Spanned<DataSheetFile>) -> Result<DataSheet, Error> {
         let file = sheet.get_ref();
-        let one = |key: &str, text: &Spanned<String>, dimension| Ok(quantity(source, key, text, &[dimension])?.0);
+        let said = RefCell::new(Vec::new());
+        let read = |key: &str, text: &Spanned<String>, dimensions: &[Dimension]| {
+            let found = quantity(source, key, text, dimensions)?;
+            said.borrow_mut().extend(found.said(key, text.get_ref()));
+            Ok::<Quantity, Error>(found)
+        };
+        let one = |key: &str, text: &Spanned<String>, dimension| Ok(read(key, text, &[dimension])?.value);
         let density = one("density", &file.density, DENSITY)?;
         let check = |known: &Known, key: &str, text: &Spanned<String>, value: f64| {
             known.check(source, &format!("{key} is \"{}\"", text.get_ref()), value, text.span())
         };
         check(&DENSITIES, "density", &file.density, density)?;
         let stress = |key: &str, text: &Spanned<String>| {
-            let (value, dimension) = quantity(source, key, text, &[STRESS, TENACITY])?;
-            Ok::<f64, Error>(if dimension == TENACITY { density * value } else { value })
+            let found = read(key, text, &[STRESS, TENACITY])?;
+            let factor = if found.dimension == TENACITY { density } else { 1.0 };
+            Ok::<Constant, Error>(Constant { value: factor * found.value, deviation: factor * found.deviation })
         };
-        let modulus = stress("modulus", &file.modulus)?;
-        check(&MODULI, "modulus", &file.modulus, modulus)?;
-        let strength = file.tenacity.as_ref().map(|text| stress("tenacity", text)).transpose()?;
+        let mut modulus = stress("modulus", &file.modulus)?;
+        check(&MODULI, "modulus", &file.modulus, modulus.value)?;
+        if let Some(text) = &file.modulus_deviation {
+            let deviation = stress("modulus_deviation", text)?;
+            if modulus.deviation > 0.0 || deviation.deviation > 0.0 {
+                let message = "modulus_deviation beside a range, or as one; allowed: a number and a unit, beside a number and a unit";
+                return Err(source.error(text.span(), message));
+            }
+            modulus.deviation = deviation.value;
+        }
+        let strength = file.tenacity.as_ref().map(|text| Ok(stress("tenacity", text)?.value)).transpose()?;
         if let Some((text, strength)) = file.tenacity.as_ref().zip(strength) {
             check(&STRENGTHS, "tenacity", text, strength)?;
         }
-        let elongation = one("elongation_at_break", &file.elongation_at_break, NUMBER)?;
-        if elongation > 1.0 {
+        let elongation = read("elongation_at_break", &file.elongation_at_break, &[NUMBER])?;
+        let elongation = Constant { value: elongation.value, deviation: elongation.deviation };
+        if elongation.value > 1.0 {
             let message =
                 format!("elongation_at_break is {}; allowed: at most \"100 %\"", file.elongation_at_break.get_ref());
             return Err(source.error(file.elongation_at_break.span(), &message));
@@ -127,8 +152,6 @@ impl DataSheet {
             return Err(source.error(span, &message));
         }
         let deviation = value(&file.volume_fraction_deviation).unwrap_or(0.0);
-        let modulus_deviation =
-            file.modulus_deviation.as_ref().map_or(Ok(0.0), |text| stress("modulus_deviation", text))?;
         if let Some(filaments) = file.filaments.as_ref().filter(|filaments| *filaments.get_ref() == 0) {
             return Err(source.error(filaments.span(), "filaments is 0; allowed: a whole number from 1"));
         }
@@ -146,12 +169,13 @@ impl DataSheet {
         }
         Ok(DataSheet {
             density,
-            modulus: Constant { value: modulus, deviation: modulus_deviation },
+            modulus,
             elongation,
             strength,
             solid,
             filaments: file.filaments.as_ref().map(|filaments| *filaments.get_ref()),
             volume_fraction: Constant { value: fraction, deviation },
+            said: said.into_inner(),
         })
     }
 
@@ -161,7 +185,7 @@ impl DataSheet {
         Fibre {
             modulus: Constant { value: stress(self.modulus.value), deviation: stress(self.modulus.deviation) },
             volume_fraction: self.volume_fraction,
-            strain_at_failure: Constant { value: self.elongation, deviation: 0.0 },
+            strain_at_failure: self.elongation,
         }
     }
 
@@ -193,35 +217,60 @@ impl DataSheet {
     /// Where strength, modulus and elongation at break are not those of one fibre.
     pub fn warning(&self) -> Option<String> {
         let strain = self.strength? / self.modulus.value;
-        (!LINEAR.contains(&(strain / self.elongation))).then(|| {
+        (!LINEAR.contains(&(strain / self.elongation.value))).then(|| {
             format!(
                 "tenacity over modulus is a strain of {:.2} %, elongation_at_break is {:.2} %: no fibre of these kinds bends so much; one \
                  of the three is most likely in another unit, or of another grade",
                 100.0 * strain,
-                100.0 * self.elongation
+                100.0 * self.elongation.value
             )
         })
     }
 }
 
-/// A positive number with a unit of one of these dimensions, in SI units.
-fn quantity(
-    source: &Source,
-    key: &str,
-    text: &Spanned<String>,
-    dimensions: &[Dimension],
-) -> Result<(f64, Dimension), Error> {
+/// A quantity of a sheet, in SI units.
+struct Quantity {
+    value: f64,
+    /// Of a range, as of numbers that are spread evenly over it.
+    deviation: f64,
+    dimension: Dimension,
+    /// The force that a mass was taken for.
+    force: Option<String>,
+}
+
+impl Quantity {
+    /// What the words were taken for, where that is not plain.
+    fn said(&self, key: &str, text: &str) -> Option<String> {
+        let percent = 100.0 * self.deviation / self.value;
+        let range = (self.deviation > 0.0)
+            .then(|| format!("the middle of the range, with a standard deviation of {percent:.2} % of it"));
+        let force = self.force.as_ref().map(|force| format!("its unit is taken for {force}"));
+        let said: Vec<String> = range.into_iter().chain(force).collect();
+        (!said.is_empty()).then(|| format!("{key} = \"{text}\": {}", said.join("; ")))
+    }
+}
+
+/// A positive number, or a range of them, with a unit of one of these dimensions.
+fn quantity(source: &Source, key: &str, text: &Spanned<String>, dimensions: &[Dimension]) -> Result<Quantity, Error> {
     let written = text.get_ref().trim();
-    let (number, name) = written.split_once(char::is_whitespace).unwrap_or((written, ""));
-    // The gram of g/den is a force.
+    let plain = || {
+        let (number, name) = written.split_once(char::is_whitespace).unwrap_or((written, ""));
+        let number = number.parse().ok().filter(|value: &f64| value.is_finite() && *value > 0.0);
+        (number.map(|value| [value; 2]), name)
+    };
+    let (ends, name) = range(written).map_or_else(plain, |(ends, name)| (Some(ends), name));
     let name = name.trim();
     let force = name.strip_prefix("g/").filter(|_| dimensions.contains(&TENACITY)).map(|rest| format!("gf/{rest}"));
     let unit = Unit::parse(force.as_deref().unwrap_or(name));
-    let value = number.parse().ok().filter(|value: &f64| value.is_finite() && *value > 0.0);
-    if let (Some(value), Ok(unit)) = (value, &unit)
-        && let Some(&dimension) = dimensions.iter().find(|&&dimension| unit.measures(dimension))
-    {
-        return Ok((unit.convert(value, &UnitSystem::SI), dimension));
+    let of = |unit: &Unit| dimensions.iter().copied().find(|&dimension| unit.measures(dimension));
+    if let (Some(ends), Ok(unit)) = (ends, &unit) {
+        let force = if of(unit).is_none() { unit.as_force() } else { None };
+        let taken = force.as_ref().unwrap_or(unit);
+        if let Some(dimension) = of(taken) {
+            let [low, high] = ends.map(|end| taken.convert(end, &UnitSystem::SI));
+            let (value, deviation) = (0.5 * (low + high), 0.5 * (high - low) / 3.0_f64.sqrt());
+            return Ok(Quantity { value, deviation, dimension, force: force.map(|force| force.text) });
+        }
     }
     let example = match dimensions[0] {
         DENSITY => "\"1.44 g/cm³\"",
@@ -231,8 +280,24 @@ fn quantity(
         _ => "\"2.4 %\"",
     };
     let why = unit.err().map_or(String::new(), |why| format!(" ({why}; known are {})", unit_expression::ALLOWED));
-    let message = format!("{key} is \"{written}\"; allowed: a number > 0, a blank and a unit, as {example}{why}");
+    let message = format!(
+        "{key} is \"{written}\"; allowed: a number > 0 or a range of two, a blank and a unit, as {example}{why}"
+    );
     Err(source.error(text.span(), &message))
+}
+
+/// `112–137 N/tex`: two numbers, the second one larger, and what follows.
+fn range(text: &str) -> Option<([f64; 2], &str)> {
+    let leading = |text: &'_ str| {
+        let end = text.find(|c: char| !(c.is_ascii_digit() || c == '.')).unwrap_or(text.len());
+        text[..end].parse().ok().filter(|value: &f64| value.is_finite() && *value > 0.0).map(|value| (value, end))
+    };
+    let (low, end) = leading(text)?;
+    let rest = text[end..].trim_start();
+    let rest = ["–", "—", "-", "…", "to "].into_iter().find_map(|sign| rest.strip_prefix(sign))?.trim_start();
+    let (high, end) = leading(rest)?;
+    let unit = &rest[end..];
+    (high > low && unit.starts_with(char::is_whitespace)).then_some(([low, high], unit))
 }
 
 #[cfg(test)]
@@ -269,10 +334,41 @@ mod tests {
         approx::assert_relative_eq!(other.volume_fraction.value, 0.9, max_relative = 1e-8);
     }
 
+    /// Sheets have ranges, and some write a kilogram for its weight.
+    #[test]
+    fn ranges_are_their_middle_and_a_deviation() {
+        for text in ["78–85 N/tex", "78-85 N/tex", "78 – 85 N/tex", "78 to 85 N/tex"] {
+            let sheet = read(&SHEET.replace("885 gf/denier", text)).expect("a sheet");
+            let [middle, deviation] = [81.5, 3.5 / 3.0_f64.sqrt()].map(|value| 1e6 * 1440.0 * value);
+            approx::assert_relative_eq!(sheet.modulus.value, middle, max_relative = 1e-12);
+            approx::assert_relative_eq!(sheet.modulus.deviation, deviation, max_relative = 1e-12);
+            let said =
+                format!("modulus = \"{text}\": the middle of the range, with a standard deviation of 2.48 % of it");
+            assert_eq!(sheet.said, [said]);
+        }
+        let sheet =
+            read(&SHEET.replace("2.4 %", "2.2–2.6 %").replace("885 gf/denier", "11400 kg/mm2")).expect("a sheet");
+        approx::assert_relative_eq!(sheet.elongation.value, 0.024, max_relative = 1e-12);
+        approx::assert_relative_eq!(sheet.elongation.deviation, 0.002 / 3.0_f64.sqrt(), max_relative = 1e-12);
+        approx::assert_relative_eq!(sheet.modulus.value, 11400.0 * 9.80665e6, max_relative = 1e-12);
+        assert_eq!(sheet.said[0], "modulus = \"11400 kg/mm2\": its unit is taken for kgf/mm2");
+        let sheet = read(&SHEET.replace("1.44 g/cm³", "0.052 lb/cu. in.")).expect("a sheet");
+        approx::assert_relative_eq!(sheet.density, 0.052 * 0.45359237 / 0.0254_f64.powi(3), max_relative = 1e-12);
+        let both = SHEET.replace("885 gf/denier\"", "78–85 N/tex\"\nmodulus_deviation = \"2 N/tex\"");
+        assert!(read(&both).expect_err("both").contains("6: modulus_deviation beside a range"), "{both}");
+    }
+
     #[test]
     fn what_is_wrong_on_a_sheet_is_named() {
         for (from, to, message) in [
-            ("23.6 g/den", "23.6 g/cm", "4: tenacity is \"23.6 g/cm\"; allowed: a number > 0, a blank and a unit"),
+            (
+                "23.6 g/den",
+                "23.6 g/cm",
+                "4: tenacity is \"23.6 g/cm\"; allowed: a number > 0 or a range of two, a blank and a unit",
+            ),
+            ("23.6 g/den", "23.6-20 g/den", "4: tenacity is \"23.6-20 g/den\"; allowed: a number > 0 or a range"),
+            ("885 gf/denier", "885-900gf/denier", "5: modulus is \"885-900gf/denier\"; allowed"),
+            ("885 gf/denier", "1,200 gf/denier", "5: modulus is \"1,200 gf/denier\"; allowed"),
             ("885 gf/denier", "885", "5: modulus is \"885\"; allowed"),
             ("885 gf/denier", "885 cN/dtx", "\"dtx\" is not known"),
             ("1140 den", "-1140 den", "1: linear_density is \"-1140 den\""),

@@ -1,6 +1,7 @@
 //! A fit from its TOML file: the yarn, what is known of its fibre, and the data sets. `docs/guides/identification.md`
 //! has the keys.
 
+use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -11,9 +12,10 @@ use toml::Spanned;
 use super::data::{DataSet, Loading};
 use super::data_sheet::{DataSheet, DataSheetFile};
 use super::equivalence::{Constant, Fibre};
-use super::fit::Problem;
+use super::fit::{Fit, Problem};
 use super::friction::{self, C, Friction, MU, Sliding};
 use super::parameter::{ALL, PARAMETERS, Parameter, Values};
+use super::profile;
 use super::reader::{Reader, plain_name};
 use super::sliding_data;
 use super::strength::file::SetFile;
@@ -37,6 +39,8 @@ pub(super) struct FitFile {
     pub title: Option<String>,
     pub units: Spanned<String>,
     #[serde(default)]
+    intervals: Intervals,
+    #[serde(default)]
     yarn: YarnFile,
     fibre: Option<Spanned<FibreFile>>,
     data_sheet: Option<Spanned<DataSheetFile>>,
@@ -49,8 +53,21 @@ pub(super) struct FitFile {
 impl FitFile {
     /// Whether anything in it is of the law's properties.
     pub fn has_properties(&self) -> bool {
-        self.yarn != YarnFile::default() || self.fibre.is_some() || self.data_sheet.is_some() || !self.data.is_empty()
+        self.intervals != Intervals::default()
+            || self.yarn != YarnFile::default()
+            || self.fibre.is_some()
+            || self.data_sheet.is_some()
+            || !self.data.is_empty()
     }
+}
+
+/// How the intervals of the law's properties are found.
+#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Eq)]
+#[serde(rename_all = "kebab-case")]
+pub enum Intervals {
+    #[default]
+    Profile,
+    Linearised,
 }
 
 /// The yarn: what the preset that comes out says of it, and the values that are known.
@@ -96,6 +113,8 @@ pub(super) struct DataFile {
     pub deviation: Option<Spanned<DeviationFile>>,
     pub weight: Option<Spanned<f64>>,
     pub fits: Option<Vec<Spanned<String>>>,
+    /// Why the whole set is left out.
+    excluded: Option<Spanned<String>>,
 }
 
 impl DataFile {
@@ -137,14 +156,29 @@ pub struct Job {
     pub fibre: Option<Fibre>,
     pub sheet: Option<DataSheet>,
     pub problem: Problem,
+    pub intervals: Intervals,
     /// Of the law with friction, from sections that slide.
     pub friction: Friction,
     pub sliding: Vec<Sliding>,
+    /// What there is to say of how the data were read, and what of them is left out.
+    pub said: Vec<String>,
     /// The files that were read, none of which is to be overwritten.
     pub inputs: Vec<PathBuf>,
 }
 
 impl Job {
+    /// The parameters, with the intervals that the file asks for.
+    ///
+    /// # Errors
+    /// The data do not suffice, or the law has no answer to them.
+    pub fn fit(&self) -> Result<Fit, Error> {
+        let fit = self.problem.fit()?;
+        Ok(match self.intervals {
+            Intervals::Profile => profile::profiled(&self.problem, fit),
+            Intervals::Linearised => fit,
+        })
+    }
+
     /// Reads the file and its data.
     ///
     /// # Errors
@@ -152,7 +186,8 @@ impl Job {
     pub fn read(path: &Path) -> Result<Job, Error> {
         let (name, text) = toml_file::read(path)?;
         let source = Source { name: &name, text: &text };
-        let file: FitFile = source.parse()?;
+        let mut file: FitFile = source.parse()?;
+        let left_out = left_out(&source, &mut file)?;
         let units = units::system(&source, &file.units)?;
         let folder = path.parent().unwrap_or(Path::new(""));
         if file.data.is_empty() && file.fibre.is_none() && file.data_sheet.is_none() {
@@ -191,7 +226,7 @@ impl Job {
         }
         let mut known = [None; PARAMETERS];
         known.copy_from_slice(&preset.values[..PARAMETERS]);
-        let reader = Reader { source: &source, units: &units, known: &known };
+        let reader = Reader { source: &source, units: &units, known: &known, said: RefCell::new(left_out) };
         let sliding = sliding_data::sets(&reader, &file.data)?;
         let untold = base.as_ref().and_then(|base| base.value(C, &units));
         let given = [MU, C].map(|index| preset.values.get(index).copied().flatten());
@@ -199,6 +234,8 @@ impl Job {
         let sections: Vec<&Spanned<DataFile>> =
             file.data.iter().filter(|data| !sliding_data::is_sliding(data.get_ref())).collect();
         let sets = reader.sets(&sections, fibre.is_some())?;
+        let mut said = reader.said.into_inner();
+        said.extend(sheet.iter().flat_map(|sheet| sheet.said.clone()));
         if let Some(set) = sliding.iter().find(|set| {
             let of_section = sets.iter().any(|other| other.name == set.name);
             of_section || sliding.iter().filter(|other| other.name == set.name).count() > 1
@@ -232,8 +269,24 @@ impl Job {
         let data = file.data.iter().flat_map(|data| data.get_ref().files());
         let inputs = data.chain(file.yarn.preset.as_ref().map(|preset| preset.get_ref().as_str()));
         let inputs = inputs.map(|name| folder.join(name)).chain([path.to_path_buf()]).collect();
-        Ok(Job { title, units, preset, base, fibre, sheet, problem, friction, sliding, inputs })
+        let intervals = file.intervals;
+        Ok(Job { title, units, preset, base, fibre, sheet, problem, intervals, friction, sliding, said, inputs })
     }
+}
+
+/// Takes the sets out of the file that it says are to be left out, and says so.
+fn left_out(source: &Source<'_>, file: &mut FitFile) -> Result<Vec<String>, Error> {
+    let mut said = Vec::new();
+    for data in &file.data {
+        let DataFile { excluded: Some(reason), name, file, .. } = data.get_ref() else { continue };
+        if reason.get_ref().trim().is_empty() {
+            return Err(source.error(reason.span(), "excluded is empty; allowed: the reason in words"));
+        }
+        let name = name.as_ref().unwrap_or(file).get_ref();
+        said.push(format!("data set {name} is left out: {}", reason.get_ref()));
+    }
+    file.data.retain(|data| data.get_ref().excluded.is_none());
+    Ok(said)
 }
 
 /// Where the search starts: what is known, the preset that the file names, the material of a path, else anything: the
@@ -311,3 +364,6 @@ fn property(source: &Source<'_>, law: LawName, name: &str, span: Range<usize>) -
         source.error(span, &format!("property \"{name}\"{hint}; allowed: {}", known.join(" ")))
     })
 }
+
+#[cfg(test)]
+mod tests;

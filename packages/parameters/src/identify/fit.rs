@@ -47,6 +47,8 @@ pub struct Fit {
     pub uncertainty: Uncertainty,
     /// Parameters that a set should tell but does not.
     pub untold: Vec<(String, Parameter)>,
+    /// So many further least squares the profile intervals took.
+    pub searches: usize,
 }
 
 impl Fit {
@@ -56,6 +58,11 @@ impl Fit {
         let is_told =
             problem.known[index].is_some() || self.groups.iter().any(|group| group.parameters.contains(&parameter));
         !is_told && problem.fallback[index].is_some()
+    }
+
+    /// Whether two parameters were fitted together.
+    pub fn together(&self, a: Parameter, b: Parameter) -> bool {
+        self.groups.iter().any(|group| group.parameters.contains(&a) && group.parameters.contains(&b))
     }
 }
 
@@ -261,6 +268,7 @@ impl<'a> State<'a> {
             groups: self.groups,
             uncertainty: self.uncertainty,
             untold: self.untold,
+            searches: 0,
         }
     }
 }
@@ -375,7 +383,7 @@ fn reweighted(
 }
 
 /// How much of each prediction its own datum decides.
-fn leverages(solution: &Solution, weights: &[f64], parameters: &[Parameter]) -> Vec<f64> {
+pub(super) fn leverages(solution: &Solution, weights: &[f64], parameters: &[Parameter]) -> Vec<f64> {
     let free: Vec<Parameter> = parameters.iter().copied().filter(|p| !solution.bounded.contains(p)).collect();
     if free.is_empty() {
         return vec![0.0; weights.len()];

@@ -1,10 +1,10 @@
 //! What a user has to know of a fit besides its numbers.
 
 use super::data::DataSet;
-use super::data_sheet::MODULI;
+use super::data_sheet::{Known, MODULI, STRAINS, YARN_DENSITIES};
 use super::fit::{Fit, Problem, SetFit};
 use super::parameter::{ALL, Parameter};
-use toron::law::parameters::STRESS;
+use toron::law::parameters::{DENSITY, STRESS};
 use toron_materials::material::fibre_wave::FibreWave;
 use toron_materials::material::laws::LawName;
 use toron_shared::numbers::number;
@@ -23,7 +23,7 @@ const EXACT: f64 = 1e-6;
 /// The sentences, the gravest first.
 pub fn notes(problem: &Problem, fit: &Fit) -> Vec<String> {
     let mut notes = Vec::new();
-    notes.extend(unit_warning(problem, fit));
+    notes.extend(beyond_fibres(problem, fit));
     for (set, parameter) in &fit.untold {
         notes.push(format!("data set {set} says nothing of {}: {} would", parameter.name(), parameter.told_by()));
     }
@@ -60,20 +60,47 @@ pub fn patterned(set: &DataSet, fitted: &SetFit) -> bool {
     seen && has_pattern(&order(&fitted.residuals, |i| set.distance(i)))
 }
 
-/// A wave along the fibre that no fibre has, or without a density a stiffness: something is in other units.
-fn unit_warning(problem: &Problem, fit: &Fit) -> Option<String> {
-    let k_el = fit.values[Parameter::KEl.index()]?;
-    if let Some(density) = problem.density {
-        return FibreWave::along(LawName::Hyperelastic, k_el, density, &problem.units)?.unit_warning(&problem.units);
+/// What no yarn has: a density, a stiffness or a strain at failure, or a wave along the fibre; something is in other
+/// units.
+fn beyond_fibres(problem: &Problem, fit: &Fit) -> Vec<String> {
+    let units = &problem.units;
+    let of = |parameter: Parameter| fit.values[parameter.index()].filter(|&value| value > 0.0);
+    let mut notes = Vec::new();
+    let mut beyond = |known: &Known, name: &str, value: f64, [scale, size]: [f64; 2], unit: &str, slip: &str| {
+        let [least, most] = known.range;
+        if !(least..=most).contains(&(value * scale)) {
+            let value = number(value * scale / size);
+            notes.push(format!("{name} is {value}{unit}; {}: {slip}", known.text));
+        }
+    };
+    let wrong = "a force, an area or a strain is most likely not in the unit that it is said to have";
+    let stress = [1.0 / units.from_si(1.0, STRESS), 1e9];
+    if let Some(k_el) = of(Parameter::KEl) {
+        beyond(&MODULI, "k_el", k_el, stress, " GPa", wrong);
     }
-    let ([least, most], giga) = (MODULI.range, k_el / problem.units.from_si(1e9, STRESS));
-    (!(least..=most).contains(&(1e9 * giga))).then(|| {
-        format!(
-            "k_el is {} GPa; {}: a force, an area or a strain is most likely not in the unit that it is said to have",
-            number(giga),
-            MODULI.text
-        )
-    })
+    // Nothing is stiffer than a fibre along itself; how soft a section may be nobody knows.
+    let most = Known { range: [0.0, MODULI.range[1]], text: "at most 1000 GPa, as fibres have" };
+    for parameter in [Parameter::KTd, Parameter::KLd] {
+        if let Some(value) = of(parameter) {
+            beyond(&most, parameter.name(), value, stress, " GPa", wrong);
+        }
+    }
+    if let Some(strain) = of(Parameter::EpsLim) {
+        let wrong = "a strain is most likely not in the unit that it is said to have";
+        beyond(&STRAINS, "eps_lim", strain, [1.0, 0.01], " %", wrong);
+    }
+    if let Some(density) = problem.density {
+        let scale = [1.0 / units.from_si(1.0, DENSITY), 1000.0];
+        let wrong = format!("it is most likely not in the units of the file, {}", units.names().join("-"));
+        beyond(&YARN_DENSITIES, "density", density, scale, " g/cm³", &wrong);
+    }
+    if notes.is_empty()
+        && let (Some(k_el), Some(density)) = (of(Parameter::KEl), problem.density)
+    {
+        let wave = FibreWave::along(LawName::Hyperelastic, k_el, density, units);
+        notes.extend(wave.and_then(|wave| wave.unit_warning(units)));
+    }
+    notes
 }
 
 /// Which parameters nothing tells, and what would.

@@ -70,7 +70,7 @@ fn origin(job: &Job, name: &str) -> String {
 /// The file cannot be written.
 pub fn write_parameters(file: &Path, job: &Job, fit: &Fit) -> Result<(), Error> {
     let names: Vec<&str> = fit.estimates.iter().map(|estimate| estimate.parameter.name()).collect();
-    let head = ["parameter", "value", "unit", "standard_error", "low_95", "high_95"].map(String::from);
+    let head = ["parameter", "value", "unit", "standard_error", "low_95", "high_95", "interval"].map(String::from);
     let mut lines: Vec<Vec<String>> =
         vec![head.into_iter().chain(names.iter().map(|name| format!("correlation_{name}"))).collect()];
     for (row, estimate) in fit.estimates.iter().enumerate() {
@@ -79,6 +79,7 @@ pub fn write_parameters(file: &Path, job: &Job, fit: &Fit) -> Result<(), Error> 
         let mut line =
             vec![property.name.to_string(), estimate.value.to_string(), unit(&job.units, property.dimension)];
         line.extend(numbers);
+        line.push(if estimate.profile.is_some() { "profile" } else { "linearised" }.to_string());
         line.extend(fit.correlations.row(row).iter().map(|value| format!("{value:.6}")));
         lines.push(line);
     }
@@ -86,6 +87,7 @@ pub fn write_parameters(file: &Path, job: &Job, fit: &Fit) -> Result<(), Error> 
         let (Some(told), property) = (told, &FRICTIONAL[index]) else { continue };
         let mut line = vec![property.name.to_string(), told.value.to_string(), unit(&job.units, property.dimension)];
         line.extend([told.error, told.low, told.high].map(|value| value.to_string()));
+        line.push("scatter".to_string());
         // They are of other data than the parameters before.
         line.extend(names.iter().map(|_| "0".to_string()));
         lines.push(line);

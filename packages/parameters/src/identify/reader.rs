@@ -1,6 +1,7 @@
 //! Data sets from their files: columns with units, the range that is fitted, and what is wrong with the data, by file,
 //! line and column.
 
+use std::cell::RefCell;
 use std::ops::RangeInclusive;
 
 use nalgebra::Matrix3;
@@ -32,6 +33,8 @@ pub struct Reader<'a> {
     pub source: &'a Source<'a>,
     pub units: &'a UnitSystem,
     pub known: &'a [Option<f64>; PARAMETERS],
+    /// What there is to say of how the data were read.
+    pub said: RefCell<Vec<String>>,
 }
 
 /// A column in use: its name in the file, its values in the units of the fit.
@@ -72,7 +75,7 @@ impl Reader<'_> {
 
     fn set(&self, number: usize, file: &Spanned<DataFile>) -> Result<DataSet, Error> {
         let (span, file) = (file.span(), file.get_ref());
-        let table = DataTable::read(&self.source.file("file", &file.file)?)?;
+        let table = self.table(file)?;
         let name = file.name.as_ref().map_or_else(|| format!("data-{number}"), |name| name.get_ref().clone());
         if !plain_name(&name) {
             let message =
@@ -309,6 +312,23 @@ impl Reader<'_> {
         file.columns.iter().any(|(key, _)| key.get_ref() == quantity) || table.has(quantity)
     }
 
+    /// The data of a set, but for the lines that are left out.
+    pub(super) fn table(&self, file: &DataFile) -> Result<DataTable, Error> {
+        let table = DataTable::read_tests(&self.source.file("file", &file.file)?)?;
+        for left_out in &table.excluded {
+            self.say(&table, Some(format!("line {} is left out: {}", left_out.line, left_out.reason)));
+        }
+        Ok(table)
+    }
+
+    fn say(&self, table: &DataTable, said: Option<String>) {
+        let said = said.map(|said| format!("{}: {said}", table.name));
+        let mut all = self.said.borrow_mut();
+        if let Some(said) = said.filter(|said| !all.contains(said)) {
+            all.push(said);
+        }
+    }
+
     /// The column that holds a quantity: the one that `columns` names, or the one of the same name.
     pub(super) fn column(
         &self,
@@ -319,8 +339,9 @@ impl Reader<'_> {
     ) -> Result<Values, Error> {
         let mapped = file.columns.iter().find(|(key, _)| key.get_ref() == quantity);
         let column = mapped.map_or(quantity, |(_, name)| name.get_ref().as_str());
-        let values = table.values(column, dimension, self.units)?;
-        Ok(Values { column: column.to_string(), values })
+        let (values, said) = table.forces(column, dimension, self.units)?;
+        self.say(table, said);
+        Ok(Values { column: table.own_name(column).to_string(), values })
     }
 
     /// The column of the abscissa, from where the specimen is at rest.
@@ -395,7 +416,8 @@ impl Reader<'_> {
                 Err(self.source.error(deviation.span(), &message))
             }
             DeviationFile::Column(name) => {
-                let values = table.values(name, dimension, self.units)?;
+                let (values, said) = table.forces(name, dimension, self.units)?;
+                self.say(table, said);
                 let bad = rows.iter().find(|&&row| values[row] <= 0.0);
                 match bad {
                     Some(&row) => Err(wrong(table, name, row, "a number > 0: a standard deviation")),
@@ -550,8 +572,7 @@ pub(super) fn wrong(table: &DataTable, column: &str, row: usize, allowed: &str) 
 
 /// Line, column and text of a value.
 fn cell(table: &DataTable, column: &str, row: usize) -> (usize, usize, String) {
-    let found = table.columns.iter().find(|known| known.name == column);
-    found.map_or((0, 0, String::new()), |column| {
+    table.column(column).map_or((0, 0, String::new()), |column| {
         let cell = column.values[row];
         let unit = if column.unit.text == "-" { String::new() } else { format!(" {}", column.unit.text) };
         (cell.line, cell.column, format!("{}{unit}", cell.value))

@@ -6,7 +6,7 @@ use super::fit::{Fit, Problem, SetFit};
 use super::parameter::{ALL, Parameter};
 use super::ranges::{self, PARTS};
 use super::uncertainty::{self, Estimate};
-use super::{friction_report, notes};
+use super::{friction_report, influence, notes};
 use toron::law::parameters::NUMBER;
 use toron_materials::units::unit;
 use toron_shared::console::{is_json, value_record};
@@ -25,6 +25,7 @@ pub fn report(job: &Job, fit: &Fit) -> String {
         let of_law = ALL.iter().map(|&parameter| line(parameter.name(), &value(job, fit, parameter)));
         of_law.chain([friction_report::lines(job)]).collect()
     });
+    text += &how_sure(fit);
     if let Some(sheet) = &job.sheet {
         text += &line("data sheet", &sheet.summary(&job.units));
         text += &sheet.warning().map_or(String::new(), |warning| line("warning", &warning));
@@ -39,7 +40,8 @@ pub fn report(job: &Job, fit: &Fit) -> String {
     }
     text += &friction_report::sets(job);
     text += &by_range(&job.problem, fit);
-    for note in notes::notes(&job.problem, fit) {
+    let influence = influence::notes(&job.problem, fit);
+    for note in job.said.iter().cloned().chain(influence).chain(notes::notes(&job.problem, fit)) {
         text += &line("note", &note);
     }
     text
@@ -108,10 +110,28 @@ pub fn base_name(job: &Job) -> &str {
 
 /// The interval in words.
 pub fn interval(estimate: &Estimate) -> String {
-    if estimate.high >= estimate.parameter.property().maximum {
-        return format!("95 %: {} and more, without limit", digits(estimate.low));
+    let property = estimate.parameter.property();
+    let least = if property.minimum_excluded { "just above " } else { "" };
+    let low = match estimate.low <= estimate.parameter.least() {
+        true => format!("{least}{}, the least that the law takes,", digits(property.minimum)),
+        false => digits(estimate.low),
+    };
+    match (estimate.high >= property.maximum, property.dimension == NUMBER && property.maximum < 1e3) {
+        (true, true) => format!("95 %: {low} to {}, the most that the law takes", digits(property.maximum)),
+        (true, false) => format!("95 %: {low} and more, without limit"),
+        (false, _) => format!("95 %: {low} to {}", digits(estimate.high)),
     }
-    format!("95 %: {} to {}", digits(estimate.low), digits(estimate.high))
+}
+
+/// Which intervals are linearised where others are profiles.
+fn how_sure(fit: &Fit) -> String {
+    let searches = fit.searches;
+    if searches == 0 {
+        return String::new();
+    }
+    let names: Vec<&str> = fit.linearised().into_iter().map(Parameter::name).collect();
+    let others = if names.is_empty() { String::new() } else { format!("; linearised of {}", names.join(", ")) };
+    line("intervals", &format!("by profiles of the squares, of {searches} searches{others}"))
 }
 
 /// The sets that tell a parameter, or the fibre.

@@ -85,7 +85,7 @@ fn sets(job: &Job, fit: &Fit) -> Vec<Set> {
         if estimate.bounded || estimate.high >= parameter.property().maximum {
             continue;
         }
-        for end in [estimate.low, estimate.high] {
+        for (place, end) in [estimate.low, estimate.high].into_iter().enumerate() {
             let mut values = own;
             values[parameter.index()] = Some(end);
             let name = format!("{} {}", parameter.name(), digits(end));
@@ -95,7 +95,10 @@ fn sets(job: &Job, fit: &Fit) -> Vec<Set> {
             }
             let mut names = Vec::new();
             for other in &along {
-                let value = follow(fit, estimate, end, other);
+                let value = match estimate.profile.filter(|_| fit.together(parameter, other.parameter)) {
+                    Some(ends) => other.parameter.clamped(ends[place][other.parameter.index()]),
+                    None => follow(fit, estimate, end, other),
+                };
                 values[other.parameter.index()] = Some(value);
                 names.push(format!("{} {}", other.parameter.name(), digits(value)));
             }

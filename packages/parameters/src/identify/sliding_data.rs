@@ -8,7 +8,6 @@ use super::friction::Sliding;
 use super::reader::{Reader, plain_name, wrong};
 use super::sliding::{Line, blocks, first_beyond};
 use toron::law::parameters::{NUMBER, STRESS};
-use toron_materials::data_table::DataTable;
 use toron_shared::error::Error;
 
 /// The last part of I_td's rise that counts where no range is given, and the parts of that whose scatter says how sure
@@ -44,7 +43,7 @@ fn set(reader: &Reader, number: usize, spanned: &Spanned<DataFile>) -> Result<Sl
         return Err(error("allowed: a name of letters, digits and - _ ."));
     }
     refuse_others(file).map_err(|message| error(&message))?;
-    let table = DataTable::read(&reader.source.file("file", &file.file)?)?;
+    let table = reader.table(file)?;
     reader.require_known_columns(file, if is_free { &PLATES } else { &BIAXIAL })?;
     let pressure = reader.column(file, &table, "p_t", STRESS)?;
     let i_td = reader.column(file, &table, "I_td", NUMBER)?.values;

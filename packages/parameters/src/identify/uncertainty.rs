@@ -27,6 +27,8 @@ pub struct Estimate {
     pub fitted: bool,
     /// At the least value that the law allows.
     pub bounded: bool,
+    /// Of a [profile](super::profile) interval all parameters at its two ends; none where it is linearised.
+    pub profile: Option<[Values; 2]>,
 }
 
 /// A source of errors: a data set, a constant that was given with its deviation, or the zero that a data set counts
@@ -170,7 +172,16 @@ impl Uncertainty {
                 let on_bound = bounded.contains(&parameter);
                 let [low, high] = self.interval(parameter, value, error);
                 let fitted = fitted.contains(&parameter);
-                estimates.push(Estimate { parameter, value, error, low, high, fitted, bounded: on_bound });
+                estimates.push(Estimate {
+                    parameter,
+                    value,
+                    error,
+                    low,
+                    high,
+                    fitted,
+                    bounded: on_bound,
+                    profile: None,
+                });
             }
         }
         let correlation = |i: usize, j: usize| {

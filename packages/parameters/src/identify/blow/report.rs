@@ -21,7 +21,7 @@ use toron_shared::text_table::write_csv;
 const WAVES: f64 = 0.5;
 
 fn interval([low, high]: [f64; 2]) -> String {
-    format!("95 %: {} to {}", digits(low), digits(high))
+    format!("95 % (linearised): {} to {}", digits(low), digits(high))
 }
 
 /// Properties with their intervals, how the scene follows each column, and what it has cost.

@@ -1,5 +1,6 @@
 //! The strengths of a file and where they come from. `docs/guides/identification.md` has the keys.
 
+use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
@@ -10,7 +11,7 @@ use crate::identify::file::FitFile;
 use crate::identify::reader::plain_name;
 use toron::host::units::UnitSystem;
 use toron::law::parameters::{Dimension, NUMBER, STRESS};
-use toron_materials::data_table::{Cell, DataTable};
+use toron_materials::data_table::{Cell, DataTable, Excluded};
 use toron_materials::units::{self, LENGTH};
 use toron_shared::checked::{Positive, value};
 use toron_shared::error::Error;
@@ -56,12 +57,16 @@ pub struct Set {
     /// Of the strengths: a stress, or a strain.
     pub dimension: Dimension,
     pub found: Found,
+    /// What there is to say of how the file was read, and what of it is left out.
+    pub said: Vec<String>,
 }
 
 #[derive(Debug)]
 pub enum Found {
     Tests {
         tests: Vec<Test>,
+        /// Of each test in the file.
+        lines: Vec<usize>,
         fit: Fit,
     },
     Scales {
@@ -109,6 +114,7 @@ struct Columns<'a> {
     table: DataTable,
     file: &'a SetFile,
     units: &'a UnitSystem,
+    said: RefCell<Vec<String>>,
 }
 
 impl Columns<'_> {
@@ -131,7 +137,8 @@ impl Columns<'_> {
     }
 
     fn positive(&self, quantity: &str, dimension: Dimension) -> Result<Vec<f64>, Error> {
-        let values = self.table.values(self.name(quantity), dimension, self.units)?;
+        let (values, said) = self.table.forces(self.name(quantity), dimension, self.units)?;
+        self.said.borrow_mut().extend(said);
         match values.iter().zip(self.cells(quantity)?).find(|(value, _)| **value <= 0.0) {
             None => Ok(values),
             Some((_, cell)) => Err(self.error(cell, &format!("the value is {}; allowed: a number > 0", cell.value))),
@@ -151,7 +158,7 @@ impl Columns<'_> {
     /// One would be.
     fn check_names(&self) -> Result<(), Error> {
         let missing = || QUANTITIES.into_iter().filter(|quantity| !self.has(quantity));
-        let is_read = |name: &str| QUANTITIES.iter().any(|quantity| self.name(quantity) == name);
+        let is_read = |name: &str| QUANTITIES.iter().any(|quantity| self.table.own_name(self.name(quantity)) == name);
         for (name, number) in self.table.names().filter(|(name, _)| !is_read(name)) {
             if let Some(meant) = nearest(&name.to_lowercase(), missing()) {
                 let message = format!(
@@ -190,7 +197,10 @@ fn strengths(source: &Source<'_>, number: usize, table: &Spanned<SetFile>, units
         let message = format!("columns has {}; allowed: {}", key.get_ref(), QUANTITIES.join(", "));
         return Err(source.error(key.span(), &message));
     }
-    let columns = Columns { table: DataTable::read(&source.file("file", &file.file)?)?, file, units };
+    let table_of_tests = DataTable::read_tests(&source.file("file", &file.file)?)?;
+    let left_out = |left_out: &Excluded| format!("line {} is left out: {}", left_out.line, left_out.reason);
+    let said = RefCell::new(table_of_tests.excluded.iter().map(left_out).collect());
+    let columns = Columns { table: table_of_tests, file, units, said };
     columns.check_names()?;
     let (length, reference) = (value(&file.length), value(&file.reference_length));
     if let (Some(given), true) = (&file.length, columns.has(LENGTHS)) {
@@ -227,9 +237,10 @@ fn strengths(source: &Source<'_>, number: usize, table: &Spanned<SetFile>, units
         let tests = values.iter().zip(&lengths).zip(columns.broken(values.len())?);
         let tests: Vec<Test> = tests.map(|((&strength, &length), broken)| Test { strength, length, broken }).collect();
         let fit = fit::fit(&tests, reference).map_err(refused)?;
-        Found::Tests { tests, fit }
+        let lines = columns.cells(STRENGTH)?.iter().map(|cell| cell.line).collect();
+        Found::Tests { tests, lines, fit }
     };
-    Ok(Set { name: name.clone(), dimension, found })
+    Ok(Set { name: name.clone(), dimension, found, said: columns.said.into_inner() })
 }
 
 impl Set {
@@ -272,7 +283,7 @@ mod tests {
     #[test]
     fn strengths_are_read_with_their_lengths_and_units() {
         let job = read("", TESTS).expect("a fit");
-        let Found::Tests { tests, fit } = &job.sets[0].found else { panic!("{job:?}") };
+        let Found::Tests { tests, fit, .. } = &job.sets[0].found else { panic!("{job:?}") };
         assert_eq!(tests[2], Test { strength: 1900.0, length: 50.0, broken: false });
         assert_eq!((tests.len(), fit.reference_length), (6, 50.0));
         let said = report::report(&job);
@@ -295,6 +306,27 @@ mod tests {
         assert!(said.contains("MPa at 100 mm"), "{said}");
     }
 
+    /// A yarn of another kind is named, and left out with a reason alone.
+    #[test]
+    fn a_test_that_decides_is_named() {
+        let strengths = [1902.0, 1925.0, 1946.0, 1942.0, 1924.0, 1529.0, 2171.0, 1770.0, 1690.0, 1849.0, 20.0];
+        let file = |reason: &str| {
+            let rows = strengths.map(|strength| format!("{strength},{}\n", if strength == 20.0 { reason } else { "" }));
+            format!("Strength (MPa),excluded\n{}", rows.concat())
+        };
+        let said = |reason: &str| {
+            let job = read("length = 50.0\n", &file(reason)).expect("a fit");
+            let text = report::report(&job) + &report::table(&job, &job.sets[0]);
+            text.split_whitespace().collect::<Vec<_>>().join(" ")
+        };
+        let text = said("");
+        assert!(text.contains("m is decided by one test, 20 MPa of line 12: without it m is 12.653 (95 %: 7.436 to 19.008), and 2.3277 with it"), "{text}");
+        assert!(text.contains("line 12 has 20 MPa; 0.05 to 12 GPa, as fibres have"), "{text}");
+        let text = said("cut by the clamp");
+        assert!(!text.contains("decided") && !text.contains("as fibres have"), "{text}");
+        assert_eq!(text.matches("line 12 is left out: cut by the clamp").count(), 2, "{text}");
+    }
+
     #[test]
     fn bad_strengths_are_named() {
         let of = |from: &str, to: &str| read("", &TESTS.replace(from, to));
@@ -309,12 +341,12 @@ mod tests {
             ("(GPa)", "(mm)", "the unit is \"mm\"; allowed: a unit of stress, as MPa"),
             (
                 "censored (-)",
-                "Censored (-)",
-                "data.csv:1:3: column \"Censored\": it is not read, did you mean censored? allowed: the name censored, columns = \
-                 { censored = \"Censored\" }",
+                "Censord (-)",
+                "data.csv:1:3: column \"Censord\": it is not read, did you mean censored? allowed: the name censored, columns = \
+                 { censored = \"Censord\" }",
             ),
             ("censored (-)", "censord (-)", "column \"censord\": it is not read, did you mean censored?"),
-            ("length (mm)", "Length (mm)", "column \"Length\": it is not read, did you mean length?"),
+            ("length (mm)", "Lenght (mm)", "column \"Lenght\": it is not read, did you mean length?"),
             ("strength (GPa)", "load (GPa)", "one column of the two: strength of each test, or scale at each length"),
             ("length (mm)", "place (mm)", "has no length; allowed: length, or a column of it"),
         ] {

@@ -1,13 +1,17 @@
 //! What a fit of strengths says on the terminal, and its files.
 
 use super::file::{Found, Set, StrengthJob};
+use crate::identify::data_sheet::{STRAINS, STRENGTHS};
 use crate::identify::report::{digits, line};
+use rayon::prelude::*;
 use toron::host::units::UnitSystem;
 use toron::law::parameters::NUMBER;
 use toron_materials::units::{LENGTH, unit};
-use toron_strikes::strength::fit::{Estimate, Fit, Test, probability_of_one_law};
+use toron_strikes::strength::fit::{self, Estimate, Fit, Test, probability_of_one_law};
 use toron_strikes::strength::scales::{ScaleFit, contradiction};
 
+/// So many lines of strengths that no fibre has are named one by one.
+const MOST_NAMED: usize = 3;
 /// A law that tests contradict by chance in fewer cases is in doubt.
 const DOUBT: f64 = 0.05;
 
@@ -27,7 +31,62 @@ fn of_set(set: &Set, units: &UnitSystem) -> String {
     text += &line("m", &interval(&modulus, ""));
     let place = format!(" at {} {length}", digits(reference));
     text += &line("scale", &interval(&scale, &(strength_unit(set, units) + &place)));
-    text + &notes(set, &length).iter().map(|note| line("note", note)).collect::<String>()
+    let notes = [set.said.clone(), beyond_fibres(set, units), notes(set, units)].concat();
+    text + &notes.iter().map(|note| line("note", note)).collect::<String>()
+}
+
+/// Strengths that no fibre has.
+fn beyond_fibres(set: &Set, units: &UnitSystem) -> Vec<String> {
+    let (known, scale, unit) = match set.dimension == NUMBER {
+        true => (STRAINS, 1.0, String::new()),
+        false => (STRENGTHS, 1.0 / units.from_si(1.0, set.dimension), strength_unit(set, units)),
+    };
+    let is_beyond = |value: f64| !(known.range[0]..=known.range[1]).contains(&(value * scale));
+    let slip = "it is most likely in another unit than it is said to be, or none of the yarn";
+    let of_test = |(test, line): (&Test, &usize)| {
+        // A yarn that has slipped at once is only known to be stronger.
+        let wrong = test.broken && is_beyond(test.strength);
+        wrong.then(|| format!("line {line} has {}{unit}; {}: {slip}", digits(test.strength), known.text))
+    };
+    match &set.found {
+        Found::Tests { tests, lines, .. } => {
+            let all: Vec<String> = tests.iter().zip(lines).filter_map(of_test).collect();
+            let more = all.len().saturating_sub(MOST_NAMED);
+            let more = (more > 0).then(|| format!("{more} further lines have such strengths"));
+            all.into_iter().take(MOST_NAMED).chain(more).collect()
+        }
+        Found::Scales { fit, .. } if is_beyond(fit.scale.value) => {
+            vec![format!("the scale is {}{unit}; {}: {slip}", digits(fit.scale.value), known.text)]
+        }
+        Found::Scales { .. } => Vec::new(),
+    }
+}
+
+/// The test without which the others' interval does not hold what all have together, nor that of all what the others
+/// have.
+fn decisive(tests: &[Test], lines: &[usize], fit: &Fit, unit: &str) -> Option<String> {
+    let without = |place: usize| {
+        let rest: Vec<Test> = [&tests[..place], &tests[place + 1..]].concat();
+        let rest = fit::fit(&rest, fit.reference_length).ok()?;
+        let of = |name: &'static str, with: Estimate, rest: Estimate| {
+            let holds = |of: &Estimate, value: f64| of.low <= value && value <= of.high;
+            let is_out = !holds(&rest, with.value) && !holds(&with, rest.value);
+            is_out.then(|| (name, with, rest, (with.value / rest.value).ln().abs()))
+        };
+        let m = of("m", fit.modulus, rest.modulus);
+        m.or_else(|| of("scale", fit.scale, rest.scale)).map(|found| (place, found))
+    };
+    let all = (0..tests.len()).into_par_iter().filter_map(without).collect::<Vec<_>>();
+    let (place, (name, with, rest, _)) = all.into_iter().max_by(|a, b| a.1.3.total_cmp(&b.1.3))?;
+    Some(format!(
+        "{name} is decided by one test, {}{unit} of line {}: without it {name} is {} (95 %: {}), and {} with it. Nothing is left \
+         out by itself; a reason in a column excluded does that",
+        digits(tests[place].strength),
+        lines[place],
+        digits(rest.value),
+        ends(&rest),
+        digits(with.value)
+    ))
 }
 
 /// How many tests there were.
@@ -59,10 +118,13 @@ fn ends(Estimate { low, high, .. }: &Estimate) -> String {
     }
 }
 
-fn notes(set: &Set, length: &str) -> Vec<String> {
+fn notes(set: &Set, units: &UnitSystem) -> Vec<String> {
     match &set.found {
-        Found::Tests { tests, fit } => of_tests(tests, fit),
-        Found::Scales { fit, longer, moduli, .. } => of_scales(fit, longer.as_ref(), moduli, length),
+        Found::Tests { tests, lines, fit } => {
+            let decisive = decisive(tests, lines, fit, &strength_unit(set, units));
+            decisive.into_iter().chain(of_tests(tests, fit)).collect()
+        }
+        Found::Scales { fit, longer, moduli, .. } => of_scales(fit, longer.as_ref(), moduli, &unit(units, LENGTH)),
     }
 }
 
@@ -117,8 +179,9 @@ pub fn table(job: &StrengthJob, set: &Set) -> String {
     } else {
         ("stress", unit(&job.units, set.dimension) + ", ", "; with the hyperelastic law beside elastic-modulus")
     };
+    let said: String = set.said.iter().map(|said| format!("# {}\n", said.replace('\n', " "))).collect();
     format!(
-        "# {}: {}, in {}.\n[scene.strength]\n# cell, the correlation length, is not told by these strengths.\n\
+        "# {}: {}, in {}.\n{said}[scene.strength]\n# cell, the correlation length, is not told by these strengths.\n\
          reference-length = {reference:?} # {length}\nweibull-modulus = {:?} # 95 %: {}\n{key} = {:?} # {strength}95 %: {}{beside}\n",
         job.title,
         set.name,
@@ -150,4 +213,28 @@ pub fn lines(job: &StrengthJob) -> Vec<Vec<(&'static str, String)>> {
         )
     };
     job.sets.iter().flat_map(of_set).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use toron_strikes::strength::weibull::Weibull;
+
+    /// Of tests of one yarn one is hardly ever named.
+    #[test]
+    fn scatter_decides_nothing() {
+        let law = Weibull { modulus: 10.0, scale: 2000.0, reference_length: 50.0 };
+        for (count, most) in [(5, 20), (10, 8), (20, 1)] {
+            let named = |seed| {
+                let mut random = fastrand::Rng::with_seed(seed);
+                let mut test = || Test { strength: law.quantile(50.0, 1.0 - random.f64()), length: 50.0, broken: true };
+                let tests: Vec<Test> = (0..count).map(|_| test()).collect();
+                let fit = fit::fit(&tests, 50.0).expect("a fit");
+                decisive(&tests, &vec![1; count], &fit, "").is_some()
+            };
+            let named = (0..200).filter(|&seed| named(seed)).count();
+            println!("{named} of 200 with {count} tests");
+            assert!(named <= most, "{named} of 200 with {count} tests");
+        }
+    }
 }
