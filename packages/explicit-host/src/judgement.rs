@@ -1,5 +1,5 @@
-//! What a run is judged by, in both scenes: what is wrong with it, and what to change. `docs/guides/fabric.md` has the
-//! thresholds.
+//! What a run is judged by, in both scenes: what is wrong with it, and what to change.
+//! `docs/reference/fabric-files.md` has the thresholds.
 
 use toron::host::units::UnitSystem;
 use toron_materials::material::fibre_wave::FibreWave;

@@ -82,11 +82,11 @@ fn a_blow_writes_all_files() {
         assert!(!exists(&format!("{case}-panel-3.png")));
     }
 
-    let known = code_words("guides/fabric.md");
+    let known = code_words("reference/fabric-files.md");
     for table in [&summary, &read("yarns.csv")] {
         for title in table.lines().next().expect("a heading").split(',') {
             let column = title.split(" (").next().unwrap_or_default();
-            assert!(known.contains(column), "docs/guides/fabric.md does not know {column}");
+            assert!(known.contains(column), "docs/reference/fabric-files.md does not know {column}");
         }
     }
 

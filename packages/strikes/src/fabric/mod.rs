@@ -1,5 +1,5 @@
 //! `toron fabric`: a woven panel struck by a sphere (thesis, chapter 5), on the explicit solver in
-//! [`explicit`](toron_explicit_host). `docs/guides/fabric.md` has the keys of a scene.
+//! [`explicit`](toron_explicit_host). `docs/reference/fabric-files.md` has the keys of a scene.
 
 pub mod command;
 pub mod fate;

@@ -1,4 +1,4 @@
-//! A scene from its TOML file. The format is described in `docs/guides/fabric.md`.
+//! A scene from its TOML file. The format is described in `docs/reference/fabric-files.md`.
 
 use std::f64::consts::PI;
 use std::path::Path;

@@ -1,4 +1,4 @@
-//! The strength of a scene's yarns from its table. `docs/guides/fabric.md` has the keys.
+//! The strength of a scene's yarns from its table. `docs/reference/fabric-files.md` has the keys.
 
 use std::ops::Range;
 

@@ -1,5 +1,5 @@
 //! `toron weave`: woven panels meshed with hexahedra, for the explicit host and for decks of solvers.
-//! `docs/guides/fabric.md` has the keys of a scene.
+//! `docs/reference/fabric-files.md` has the keys of a scene.
 //!
 //! It is geometry alone: nodes, elements, fibre directions, faces that can touch, and sets of nodes. Warp yarns run
 //! along x, weft yarns along y, z goes through the thickness.

@@ -1,4 +1,4 @@
-//! A weave and its panel from a TOML file. `docs/guides/fabric.md` has the keys.
+//! A weave and its panel from a TOML file. `docs/reference/fabric-files.md` has the keys.
 
 use std::ops::Range;
 use std::path::Path;

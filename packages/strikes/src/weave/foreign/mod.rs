@@ -1,5 +1,5 @@
-//! Meshes of panels that others have made: read, turned as the model has them, and checked. `docs/guides/fabric.md` has
-//! the formats.
+//! Meshes of panels that others have made: read, turned as the model has them, and checked.
+//! `docs/reference/fabric-files.md` has the formats.
 
 pub mod abaqus;
 pub mod bins;
