@@ -1512,7 +1512,8 @@ int32_t toron_frictional_prepare_f32(struct toron_frictional_f32 *law,
  state have 15 values. The step goes from the slip of the old state to the deformation gradient.
 
  Returns 0, a −1xx or −2xx code (nothing is written), or a −3xx code (stress, modes and tangent are 0, the wave speed
- is that of a yarn at rest, the state is unchanged but for `alive`, which is 1 - failed).
+ is that of a yarn at rest, the state is unchanged but for `alive`, which is 1 - failed, and for numbers that are not
+ finite, which become 0: after −304 a slip that was NaN is forgotten).
  */
 int32_t toron_frictional_point_f64(const struct toron_frictional_f64 *law,
                                    const struct toron_point_f64 *point,

@@ -119,7 +119,7 @@ pub(crate) struct Friction<R> {
     /// µ, and c, a Kirchhoff stress.
     mu: R,
     cohesion: R,
-    /// 2/k_td; 0 if k_td is 0, where nothing slides.
+    /// 2/k_td; 0 if k_td is 0, where nothing slides, or too small for its reciprocal.
     per_stiffness: R,
 }
 

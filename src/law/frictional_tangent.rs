@@ -33,7 +33,7 @@ impl<R: Real> Deformed<'_, R> {
         moduli
     }
 
-    /// dP/dF as [`nominal_tangent`](Self::nominal_tangent), of a section that may slide.
+    /// dP/dF of a section that may slide, entry (row, column) at 9 row + column: it is not symmetric.
     #[inline(always)]
     pub fn sliding_nominal_tangent(self, slid: &Slid<'_, R>, n: &FibreFrame<R>) -> [R; 81] {
         let (k, alone) = (self.k.without_shear(), ShearAlone::new(self));
@@ -52,7 +52,7 @@ impl<R: Real> Deformed<'_, R> {
         let (d, p) = (by_columns(&inverse, &d), by_columns(&inverse, &p));
         for (row, &x) in d.iter().enumerate() {
             for (column, &y) in p.iter().enumerate() {
-                tangent[row + 9 * column] = (factor * x).mul_add(y, tangent[row + 9 * column]);
+                tangent[9 * row + column] = (factor * x).mul_add(y, tangent[9 * row + column]);
             }
         }
         tangent

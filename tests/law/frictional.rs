@@ -113,7 +113,7 @@ fn one(law: &Frictional<f64>, f: &Matrix3<f64>, state: &mut State<f64>) -> [f64;
     answer[0].stress
 }
 
-/// A tangent of one point, without a new state.
+/// A tangent of one point, whose new state is dropped.
 fn tangent(law: &Frictional<f64>, f: &Matrix3<f64>, state: &State<f64>, measure: Measure) -> Vec<f64> {
     let answer = step(law, Level::best(), &[*f], &mut [*state], Some(measure));
     assert_eq!(answer[0].status, status::OK);
@@ -363,7 +363,7 @@ fn tangents_are_derivatives_sliding_or_not() {
             let stress = one(&law, f, &mut new);
             (first_piola_kirchhoff(&stress, f), new[SLIP..SLIP + 2] != state[SLIP..SLIP + 2])
         };
-        let nominal = SMatrix::<f64, 9, 9>::from_column_slice(&tangent(&law, &f, &state, Measure::Nominal));
+        let nominal = SMatrix::<f64, 9, 9>::from_row_slice(&tangent(&law, &f, &state, Measure::Nominal));
         let mut numeric = SMatrix::<f64, 9, 9>::zeros();
         let here = stress(&f).1;
         let mut kink = false;
@@ -443,7 +443,7 @@ fn no_wave_is_faster_than_the_bound() {
             let mut modulus = 0.0;
             for (row, column) in (0..9).flat_map(|row| (0..9).map(move |column| (row, column))) {
                 modulus +=
-                    answer.tangent[row + 9 * column] * u[row % 3] * big[row / 3] * u[column % 3] * big[column / 3];
+                    answer.tangent[9 * row + column] * u[row % 3] * big[row / 3] * u[column % 3] * big[column / 3];
             }
             let bound = answer.wave_speed.powi(2);
             assert!(modulus <= bound * (1.0 + 1e-12), "seed {seed}: {modulus:e} {bound:e}");
@@ -655,6 +655,21 @@ fn an_old_state_without_meaning_is_reported_and_kept_finite() {
                 assert!(states[2].iter().all(|x| x.is_finite()), "{:?}", states[2]);
                 assert_eq!(answers[1].status, status::OK);
             }
+        }
+        // Without a new state the old one is read all the same.
+        for row in [FRICTIONAL_LOST, I_TE, SLIP, SLIP + 1] {
+            let (f, mut old, mut stress, mut code) = (path(3, 0.3), [0.0; FRICTIONAL_STATE], [0.0; 6], 0);
+            old[row] = f64::NAN;
+            let points = Points {
+                f_new: components(f.as_slice().as_ptr(), 1),
+                state_old: Frictional::<f64>::parts(old.as_ptr(), 1),
+                stress: components_mut(stress.as_mut_ptr(), 1),
+                status: &mut code,
+                level: Some(level),
+                ..Points::without_arrays(1, 1)
+            };
+            // SAFETY: each array has the values of one point.
+            assert_eq!(unsafe { law.step(&points) }.expect("the arguments are right"), status::STATE_NOT_FINITE);
         }
         // A slip too large for its section.
         let mut states = [[0.0; FRICTIONAL_STATE]; 5];

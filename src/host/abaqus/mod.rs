@@ -8,7 +8,7 @@
 //! | arrays | one point | (nblock, components), component-major |
 //! | precision | double | that of the job |
 //! | energy | SSE = W/J per current volume; SPD what is lost | enerInternNew = W/ρ0 per mass; enerInelasNew what is lost |
-//! | failure | stress 0, STATEV "alive" 0 | state variable "alive" 0: `*DEPVAR, DELETE=11`, for the linear law `DELETE=10` |
+//! | failure | stress 0, STATEV "alive" 0 | state variable "alive" 0: `*DEPVAR, DELETE=11`, of the linear law 10, of that with friction 15 |
 //! | F inverted or not finite | state kept, PNEWDT ≤ ¼ | point failed and deleted |
 //! | tangent | DDSDDE(ntens, ntens): the Jaumann rate of τ, over J | none |
 //!

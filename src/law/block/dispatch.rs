@@ -200,7 +200,7 @@ unsafe fn run_any<T: Registers, I: Instructions>(law: &Hyperelastic<T>, block: &
 /// # Safety
 /// As for [`Precision::dispatch_frictional`].
 unsafe fn dispatch_frictional<T: Precision>(level: Level, law: &Frictional<T>, block: &Points<T>) -> i32 {
-    // SAFETY: as for `dispatch`.
+    // SAFETY: as for `dispatch`; `One` has one lane, and gets one point.
     unsafe {
         match level {
             #[cfg(target_arch = "x86_64")]

@@ -383,6 +383,12 @@ pub(super) unsafe fn status_code<T: Scalar, R: Lanes<T>, const WANT: u8>(
             finite = finite & unsafe { (R::load(entry) * zero).le(zero) };
         }
     }
+    if WANT & FRICTION != 0 {
+        // Read although no new state may be wanted.
+        // SAFETY: an old state has the lanes from i on.
+        let Slip { d: [d1, d2], i_te, lost } = unsafe { remembered::<T, R>(block, i) };
+        finite = finite & (((d1 + d2) + (i_te + lost)) * zero).le(zero);
+    }
     // SAFETY: F has the lanes from i on, and so has a limit.
     let (limit, gradient) = unsafe { (limit::<T, R, WANT>(block, i), gradient(block, i)) };
     let code = law.status_code(&gradient, d, usable, limit.map(Failure::is_limit), outcome.latch);

@@ -30,7 +30,7 @@ const LINEAR_ELSE: usize = 9 + 3 + 9;
 /// # Safety
 /// The numbers of `Else` are at least as many as [`Needs`] says beside what points of every law have.
 pub(crate) unsafe trait Kernels<T: Precision>: Law<T> {
-    /// Whether they read the old state from the arrays of the new one.
+    /// Whether they want the old state in the arrays of the new one, or a copy of it there.
     const IN_PLACE: bool;
     /// An array of the numbers of a point that not every law has, besides state and modes: F at the start, directions,
     /// axes.

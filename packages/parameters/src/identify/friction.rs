@@ -117,6 +117,7 @@ pub fn fit(sets: &[Sliding], given: [Option<f64>; 2], untold: f64) -> Result<Fri
     }
     if found[0].value < 0.0 {
         let c = line(&points, [0.0, start[1]], [false, sought[1]])[1];
+        let c = Told { value: c.value.max(0.0), high: c.high.max(0.0), ..c };
         found = [Told { value: 0.0, low: 0.0, high: unbounded[0].high.max(0.0), ..unbounded[0] }, c];
     }
     if found[0].value >= FRICTIONAL[MU].maximum {
