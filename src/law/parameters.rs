@@ -245,7 +245,7 @@ pub static PRESETS: [Preset; 3] = [
         properties: &FRICTIONAL,
         values: &[82.341e9, 1.055e9, 2.2, 0.64974e9, 0.0, 0.0458, 1.8, 0.0, 1.0, 0.0, 0.0, 0.15, 0.0],
         density: 1351.4,
-        source: "Kevlar KM2 600 denier: del Sorbo 2019, Tab. 4.3, 4.5 (multiaxial failure); friction: sections of smooth fibres",
+        source: "Kevlar KM2 600 denier: del Sorbo 2019, Tab. 4.3, 4.5 (multiaxial failure); friction: fibre models",
     },
 ];
 
