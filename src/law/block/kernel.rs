@@ -24,13 +24,11 @@ use crate::law::status;
 /// that both compute and store the same.
 ///
 /// # Safety
-/// The block is valid, see [`Points`], with at least COUNT points next to each other, its old state in the arrays of
-/// the new one, or copied there; `WANT`
-/// requests nothing that the block has no array for; the processor has the lanes' instructions; of lanes that are
-/// [`ALONE`](Lanes::ALONE) there is one point. The other functions of
-/// this file are called for such a block, and for the lanes from a point i on with i + COUNT ≤ n, as [`place`] gives
-/// them: the components of every array that is not null, and of every one that WANT requests, have COUNT values from i
-/// on.
+/// The block is valid, see [`Points`], with at least COUNT points next to each other, one alone for lanes that are
+/// [`ALONE`](Lanes::ALONE); its old state is in the arrays of the new one, or copied there; `WANT` requests nothing
+/// that the block has no array for; the processor has the lanes' instructions. The other functions of this file are
+/// called for such a block, and for the lanes from a point i on with i + COUNT ≤ n, as [`place`] gives them: the
+/// components of every array that is not null, and of every one that WANT requests, have COUNT values from i on.
 #[inline(always)]
 pub(super) unsafe fn sweep<T: Scalar, R: Lanes<T>, const WANT: u8>(
     law: &Hyperelastic<T>,

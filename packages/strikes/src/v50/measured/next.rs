@@ -58,8 +58,23 @@ pub struct NextShots {
 pub fn run(table: &Path, arguments: &NextShots, choice: &Choice, percentiles: &[f64]) -> Result<(), Error> {
     let asked = arguments.checked(percentiles)?;
     let planned = Planned::of(&read(table)?, choice, arguments.asked.as_deref())?;
+    of_the_range(&planned, asked.range)?;
     print(&said(&planned, &asked));
     Ok(())
+}
+
+/// Every design begins within its range, so that a range without any shot is that of other shots, or in another unit.
+fn of_the_range(planned: &Planned, [low, high]: [f64; 2]) -> Result<(), Error> {
+    let speeds = || planned.fired.iter().map(|shot| shot.fate.speed);
+    if planned.fired.is_empty() || speeds().any(|speed| (low..=high).contains(&speed)) {
+        return Ok(());
+    }
+    let [slowest, fastest] = [speeds().fold(f64::INFINITY, f64::min), speeds().fold(0.0, f64::max)];
+    let (name, unit) = (&planned.name, &planned.unit.text);
+    Err(Error::Input(format!(
+        "--range is {low} {high}, and the shots of {name} are from {slowest} to {fastest} {unit}; allowed: a range in {unit} \
+         with one of them at least"
+    )))
 }
 
 /// What a user asks for, checked.

@@ -17,6 +17,7 @@ fn answer(text: &str, words: &str) -> Result<String, String> {
     let sheet = Sheet::parse_like("shots.csv", text, "").map_err(|error| error.to_string())?;
     let choice = measured.choice().map_err(|error| error.to_string())?;
     let planned = Planned::of(&sheet, &choice, next.asked.as_deref()).map_err(|error| error.to_string())?;
+    of_the_range(&planned, asked.range).map_err(|error| error.to_string())?;
     Ok(said(&planned, &asked).split_whitespace().collect::<Vec<_>>().join(" "))
 }
 
@@ -113,8 +114,8 @@ fn degenerate_tables_have_an_answer() {
         "10,stop\n10,stop\n10,pass\n10,pass\n",
         "12,pass\n10,pass\n14,stop\n16,stop\n",
         "10,pass\n14,stop\n10,pass\n14,stop\n10,pass\n14,stop\n10,pass\n14,stop\n",
-        "0.01,through\n0.01,through\n0.01,through\n",
-        "1e6,stop\n1e6,stop\n",
+        "11,through\n0.01,through\n0.01,through\n0.01,through\n",
+        "11,stop\n1e6,stop\n1e6,stop\n",
     ] {
         for design in ["langlie", "up-and-down", "d-optimal", "3pod"] {
             for size in ["1", "3"] {
@@ -164,4 +165,19 @@ fn wrong_options_are_refused() {
     }
     let message = answer("speed (m/s),outcome\n", &format!("{POD} --asked v")).expect_err("no column");
     assert_eq!(message, "shots.csv:1: --asked: no column \"v\"; there are: speed (m/s), outcome");
+}
+
+/// A range in another unit, or of other shots, would be passed over once there is an estimate.
+#[test]
+fn a_range_without_a_shot_is_refused() {
+    let shots = "v (m/s),outcome\n610,stop\n625,pass\n640,stop\n650,pass\n";
+    let words = |range: &str| format!("--next 1 --design d-optimal --range {range} --guess 10");
+    let message = answer(shots, &words("100 400")).expect_err("a range of other shots");
+    let wanted = "--range is 100 400, and the shots of shots.csv are from 610 to 650 m/s; allowed: a range in m/s with one of them at least";
+    assert_eq!(message, wanted);
+    assert!(answer(shots, &words("650 750")).is_ok());
+    for lines in ["0.01,through\n0.01,through\n0.01,through\n", "1e6,stop\n1e6,stop\n"] {
+        let message = answer(&format!("speed (m/s),outcome\n{lines}"), POD).expect_err("speeds far off");
+        assert!(message.starts_with("--range is 0.5 22.5, and the shots of shots.csv are from"), "{message}");
+    }
 }
