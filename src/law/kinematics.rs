@@ -32,7 +32,7 @@
 use super::axes::{Axes, FibreFrame, Image};
 use super::number::elementary::{Asinh, Logarithm};
 use super::number::real::{Real, Single};
-use super::number::vector::{along, cross, dot, scale, select};
+use super::number::vector::{along, along_both, cross, dot, scale, select};
 
 /// F is near the reference if every entry of its diagonal is above this by more than the sum of the squares of the
 /// others. F − 1 is exact from ½ on. With d the least entry of the diagonal, |F v| > (d − √(d − 0.6)) |v| ≥ 0.35 |v|:
@@ -223,8 +223,9 @@ impl<R: Real> Section<R> {
         let chi = R::select(v.near_one, d.chi, zero);
         let kept = R::select(v.near_one, R::splat(1.0), zero);
         let [[v11, v12], [v21, v22]] = v.times;
-        let rest_1 = along(along(scale(kept, delta_2), v11, a), v21, b);
-        let rest_2 = along(along(scale(kept, delta_3), v22, b), v12, a);
+        // After a far slip the two terms cancel.
+        let rest_1 = along_both(scale(kept, delta_2), (v11, a), (v21, b));
+        let rest_2 = along_both(scale(kept, delta_3), (v22, b), (v12, a));
         let w1 = Image { whole: n.shifted(rest_1, chi, 1), rest: rest_1 };
         let w2 = Image { whole: n.shifted(rest_2, chi, 2), rest: rest_2 };
         let Products { x22, x23, x23_square, sum, delta, .. } = Products::new(&w1, &w2, chi, n);

@@ -30,6 +30,15 @@ pub fn along<R: Real>(a: [R; 3], s: R, b: [R; 3]) -> [R; 3] {
     [s.mul_add(b[0], a[0]), s.mul_add(b[1], a[1]), s.mul_add(b[2], a[2])]
 }
 
+/// `a + s b + t c`, as if `a + s b` had not been rounded: for sums that cancel.
+#[inline(always)]
+pub fn along_both<R: Real>(a: [R; 3], (s, b): (R, [R; 3]), (t, c): (R, [R; 3])) -> [R; 3] {
+    let first = along(a, s, b);
+    let rounding = along([a[0] - first[0], a[1] - first[1], a[2] - first[2]], s, b);
+    let both = along(first, t, c);
+    [both[0] + rounding[0], both[1] + rounding[1], both[2] + rounding[2]]
+}
+
 /// `s a`.
 #[inline(always)]
 pub fn scale<R: Real>(s: R, a: [R; 3]) -> [R; 3] {
