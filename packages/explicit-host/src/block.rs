@@ -386,8 +386,11 @@ impl<T: Number> ElementBlock<T> {
             let active = scratch.measures.active(&self.history.intact, first);
             let speed = Lanes::at(&scratch.wave_speed, first);
             let (f, stress) = (&scratch.deformation_gradient, &scratch.stress);
-            let [along, across] = match bounds_at(&medium.bounds, f, stress, &section, self.shapes.stride, first) {
-                None => [speed * speed, speed * speed],
+            let isotropic = speed * speed;
+            let own_modulus = isotropic * Lanes::constant(medium.density);
+            let stride = self.shapes.stride;
+            let [along, across] = match bounds_at(&medium.bounds, own_modulus, f, stress, &section, stride, first) {
+                None => [isotropic, isotropic],
                 Some([along, across]) => [(along + across) * per_density, across * per_density],
             };
             let measures = &scratch.measures;

@@ -110,6 +110,15 @@ impl<T: Number> Lanes<T> {
         self
     }
 
+    /// The smaller ones; the others' where one is NaN.
+    #[inline(always)]
+    pub fn min(mut self, other: Self) -> Self {
+        for l in 0..LANES {
+            self.0[l] = if self.0[l] < other.0[l] { self.0[l] } else { other.0[l] };
+        }
+        self
+    }
+
     #[inline(always)]
     pub fn sqrt(mut self) -> Self {
         for l in 0..LANES {

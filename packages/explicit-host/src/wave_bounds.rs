@@ -24,10 +24,14 @@ pub fn wave_bounds(material: &Material) -> WaveBounds {
     }
 }
 
-/// A and B of elements from `first` on; `None` where there is one bound.
+/// A and B of elements from `first` on; `None` where there is one bound. `own` is the law's own bound of ρ0 c².
+///
+/// Bounds by friction's limit hold for whatever distortion the limit allows: with a large cohesion they are far above
+/// the law's own, of the distortion that is there, which holds for every direction.
 #[inline(always)]
 pub fn bounds_at<T: Number>(
     bounds: &WaveBounds,
+    own: Lanes<T>,
     f: &[T],
     stress: &[T],
     section: &Section<T>,
@@ -39,13 +43,17 @@ pub fn bounds_at<T: Number>(
     }
     let [f0, f1, f2, f3, f4, f5, f6, f7, f8] = load(f, stride, first);
     let [c22, c33, _] = load(section.metric, stride, first);
-    bounds.at(&Deformed {
+    let [along, across] = bounds.at(&Deformed {
         columns: [[f0, f1, f2], [f3, f4, f5], [f6, f7, f8]],
         stress: load(stress, stride, first),
         volume_ratio: Lanes::at(section.volume_ratio, first),
         stretch_square: Lanes::at(section.stretch_square, first),
         section: [c22, c33],
-    })
+    })?;
+    match bounds {
+        WaveBounds::Hyperelastic { friction: Some(_), .. } => Some([along.only_where(own - across), across.min(own)]),
+        _ => Some([along, across]),
+    }
 }
 
 impl<T: Number> Arithmetic for Lanes<T> {
@@ -68,21 +76,22 @@ mod tests {
     use super::*;
     use crate::element::{Measures, Shapes};
     use toron::law::parameters;
-    use toron::{Criterion, Rotation};
+    use toron::{Criterion, Request, Rotation};
     use toron_materials::material::model::Origin;
 
     fn material(preset: &str, k_ld: f64) -> Material {
-        turning(preset, k_ld, Rotation::Fibre)
+        turning(preset, &[("k_ld", k_ld)], Rotation::Fibre)
     }
 
-    fn turning(preset: &str, k_ld: f64, rotation: Rotation) -> Material {
+    fn turning(preset: &str, own: &[(&str, f64)], rotation: Rotation) -> Material {
         let preset = parameters::preset(preset).expect("it exists");
         let mut values = preset.values.to_vec();
+        assert!(own.iter().all(|(name, _)| preset.table().iter().any(|property| property.name == *name)), "{own:?}");
         for (value, property) in values.iter_mut().zip(preset.table()) {
-            match property.name {
-                "k_ld" => *value = k_ld,
-                "eps_lim" | "sigma_lim" | "alpha" | "beta" => *value = 0.0,
-                _ => {}
+            match own.iter().find(|(name, _)| *name == property.name) {
+                Some((_, own)) => *value = *own,
+                None if ["eps_lim", "sigma_lim", "alpha", "beta"].contains(&property.name) => *value = 0.0,
+                None => {}
             }
         }
         let law = Law::new(preset.into(), &values, rotation, Criterion::LargestPrincipal).expect("valid");
@@ -96,8 +105,8 @@ mod tests {
         }
     }
 
-    /// A and B at a deformation gradient with this stress.
-    fn bounds(material: &Material, f: &Matrix3<f64>, stress: &[f64; 6]) -> [f64; 2] {
+    /// A and B at a deformation gradient with this stress and this bound of the law's own.
+    fn bounds(material: &Material, own: f64, f: &Matrix3<f64>, stress: &[f64; 6]) -> [f64; 2] {
         let nodes: Vec<[f64; 3]> = (0..8).map(|i| [i & 1, i >> 1 & 1, i >> 2].map(f64::from)).collect();
         let shapes = Shapes::<f64>::new(&[std::array::from_fn(|i| i as u32)], &[], &nodes, 0.0);
         let mut measures = Measures::new(shapes.stride);
@@ -106,7 +115,7 @@ mod tests {
         shapes.measure(&f, &mut measures);
         let Measures { volume_ratio, stretch_square, metric, .. } = &measures;
         let section = Section { volume_ratio, stretch_square, metric };
-        bounds_at(&wave_bounds(material), &f, &stress, &section, shapes.stride, 0)
+        bounds_at(&wave_bounds(material), Lanes::splat(own), &f, &stress, &section, shapes.stride, 0)
             .expect("by direction")
             .map(|lanes| lanes.0[0])
     }
@@ -124,7 +133,12 @@ mod tests {
             let stretch = (1.0 + number(0.06)) / f.column(0).norm();
             f.column_mut(0).scale_mut(stretch);
             let Ok((stress, tangent)) = material.tangent(&f, 0.0, &material.at_rest()) else { continue };
-            let [along, across] = bounds(material, &f, &stress);
+            let request = Request { wave_modulus: true, ..Request::default() };
+            let Ok(answer) = material.evaluate(&f, 0.0, &material.at_rest(), request) else { continue };
+            let [along, across] = bounds(material, answer.wave_modulus, &f, &stress);
+            if let WaveBounds::Hyperelastic { friction: Some(_), .. } = wave_bounds(material) {
+                assert!(across <= answer.wave_modulus, "{across:e} {:e}", answer.wave_modulus);
+            }
             let m = f.column(0).normalize();
             for general in [true, false] {
                 let h = if general {
@@ -162,9 +176,22 @@ mod tests {
     }
 
     #[test]
+    fn a_cohesion_without_end_does_not_raise_the_bounds() {
+        let sticky = |c| turning("kevlar-km2-600-frictional", &[("k_ld", 0.0), ("cohesion", c)], Rotation::Fibre);
+        let f = Matrix3::from_diagonal(&[1.01, 0.9, 1.0].into());
+        let across = [1e12, 1e15].map(|c| {
+            let material = sticky(c);
+            assert!(check(&material, 0.3) > 0.5);
+            let answer = material.evaluate(&f, 0.0, &material.at_rest(), Request::ALL).expect("valid");
+            bounds(&material, answer.wave_modulus, &f, &answer.cauchy)
+        });
+        assert_eq!(across[0], across[1]);
+    }
+
+    #[test]
     fn no_wave_of_the_linear_elastic_law_is_faster() {
         for spread in [0.02, 0.2] {
-            assert!(check(&material("kevlar-km2-600-linear", 0.0), spread) > 0.5);
+            assert!(check(&turning("kevlar-km2-600-linear", &[], Rotation::Fibre), spread) > 0.5);
         }
     }
 
@@ -172,8 +199,8 @@ mod tests {
     fn axes_that_leave_the_fibre_have_one_bound() {
         let preset = "kevlar-km2-600-linear";
         for rotation in [Rotation::Polar, Rotation::Spin] {
-            assert_eq!(wave_bounds(&turning(preset, 0.0, rotation)), WaveBounds::Isotropic);
+            assert_eq!(wave_bounds(&turning(preset, &[], rotation)), WaveBounds::Isotropic);
         }
-        assert_ne!(wave_bounds(&turning(preset, 0.0, Rotation::Fibre)), WaveBounds::Isotropic);
+        assert_ne!(wave_bounds(&turning(preset, &[], Rotation::Fibre)), WaveBounds::Isotropic);
     }
 }
