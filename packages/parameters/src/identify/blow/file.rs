@@ -82,6 +82,8 @@ pub struct Fitted {
     pub property: &'static Property,
     /// The scene's, from which the search starts.
     pub start: f64,
+    /// What counts as a change of one that starts at 0.
+    pub size: f64,
 }
 
 /// A column of the history that the scene is to follow.
@@ -249,10 +251,41 @@ fn fits(source: &Source<'_>, blow: &BlowTable, case: &Case) -> Result<Vec<Fitted
             let message = format!("fits \"{}\"{hint}; allowed: {}, each once", name.get_ref(), names.join(", "));
             return Err(source.error(name.span(), &message));
         };
-        fits.push(Fitted { index, property: &table[index], start: values[index] });
+        fits.push(Fitted { index, property: &table[index], start: values[index], size: size(table, &values, index) });
     }
     if fits.is_empty() {
         return Err(source.error(blow.fits.span(), "fits is empty; allowed: properties of the scene's law"));
     }
     Ok(fits)
+}
+
+/// A tenth of a property's range where that is known, and else a hundredth of the law's least other property of its
+/// dimension: what makes a difference, in any units.
+fn size(table: &[Property], values: &[f64], index: usize) -> f64 {
+    let Property { minimum, maximum, dimension, .. } = table[index];
+    if maximum <= 1.0 {
+        return 0.1 * (maximum - minimum);
+    }
+    let alike = table.iter().zip(values).filter(|(property, value)| property.dimension == dimension && **value > 0.0);
+    let least = alike.map(|(_, value)| *value).fold(f64::INFINITY, f64::min);
+    if least.is_finite() { 0.01 * least } else { 1.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use toron::law::parameters::FRICTIONAL;
+
+    #[test]
+    fn what_starts_at_0_has_a_size_in_any_units() {
+        let place = |name: &str| FRICTIONAL.iter().position(|property| property.name == name).expect("it exists");
+        for pascal in [1.0, 1e-6] {
+            let mut values = [0.0; FRICTIONAL.len()];
+            for (name, value) in [("k_el", 82e9), ("k_tc", 1e9), ("k_td", 650e6)] {
+                values[place(name)] = value * pascal;
+            }
+            assert_eq!(size(&FRICTIONAL, &values, place("cohesion")), 6.5e6 * pascal);
+            assert_eq!(size(&FRICTIONAL, &values, place("mu")), 0.1 * FRICTIONAL[place("mu")].maximum);
+        }
+    }
 }

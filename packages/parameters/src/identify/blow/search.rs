@@ -72,10 +72,7 @@ pub fn minimise(runs: &Runs) -> Result<Solution, Error> {
 impl Fitted {
     /// The start, off a bound and off 0, where a property would have no scale.
     fn inside(&self) -> f64 {
-        let (low, high) = (self.property.minimum, self.property.maximum);
-        let size = if high <= 1.0 { 0.1 * (high - low) } else { 1.0 };
-        let value = if self.start == 0.0 { size } else { self.start };
-        self.clamped(value)
+        self.clamped(if self.start == 0.0 { self.size } else { self.start })
     }
 
     /// Within the property's bounds; a hundredth of the scene's value above one that is excluded.
