@@ -280,6 +280,20 @@ fn guesses_are_called_so_wherever_the_yarn_goes() {
     }
 }
 
+/// So are those of the friction between fibres.
+#[test]
+fn a_friction_that_no_test_tells_is_a_guess() {
+    let folder = folder("guessed-friction");
+    write(&folder, "pull.csv", "strain (%),stress (MPa)\n0.5,404\n1,811\n1.5,1205\n2,1599\n2.5,1990\n3,2363\n");
+    write(&folder, "fit.toml", &TENSION.replace("kevlar-km2-600", "kevlar-km2-600-frictional"));
+    let output = toron(&folder, &["fit", "fit.toml", "-o", "."]);
+    let notes = text(&output.stdout).split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(notes.contains("the data say nothing of mu, cohesion: these are guesses, the base preset's"), "{notes}");
+    let card = text(&toron(&folder, &["deck", "--host", "abaqus", "--preset", "mine.toml"]).stdout);
+    let card = card.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(card.contains("mu, cohesion, density (of kevlar-km2-600-frictional)"), "{card}");
+}
+
 /// A guess of a guess is one of where it began; a guess of what the file does not give is none.
 #[test]
 fn guesses_are_handed_on() {

@@ -80,6 +80,14 @@ pub fn sets(job: &Job) -> String {
     text
 }
 
+/// Which of µ and c neither data nor the file tell, where the base preset does: guesses.
+pub fn guessed(job: &Job) -> Vec<&'static str> {
+    let of_base = |index: usize| job.base.as_ref().is_some_and(|base| base.value(index, &job.units).is_some());
+    let is_given = |index: usize| job.preset.values.get(index).copied().flatten().is_some();
+    let guessed = told(job).into_iter().filter(|&(index, told)| told.is_none() && !is_given(index) && of_base(index));
+    guessed.map(|(index, _)| FRICTIONAL[index].name).collect()
+}
+
 fn said(job: &Job, index: usize, told: &Told) -> String {
     let unit = if index == C { format!(" {}", unit(&job.units, STRESS)) } else { String::new() };
     let names = if index == MU { names(job, false) } else { names(job, true) };

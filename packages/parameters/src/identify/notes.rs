@@ -103,16 +103,20 @@ fn beyond_fibres(problem: &Problem, fit: &Fit) -> Vec<String> {
     notes
 }
 
+/// What the base preset has told in the data's place, if it has.
+pub fn guesses(names: &[&str]) -> Option<String> {
+    let names = names.join(", ");
+    (!names.is_empty()).then(|| format!("the data say nothing of {names}: these are guesses, the base preset's"))
+}
+
 /// Which parameters nothing tells, and what would.
 fn open_parameters(problem: &Problem, fit: &Fit) -> Vec<String> {
-    let names = |parameters: &[Parameter]| parameters.iter().map(|p| p.name()).collect::<Vec<_>>().join(", ");
+    let list = |parameters: &[Parameter]| parameters.iter().map(|p| p.name()).collect::<Vec<_>>();
+    let names = |parameters: &[Parameter]| list(parameters).join(", ");
     let (filled, others): (Vec<Parameter>, Vec<Parameter>) = ALL.into_iter().partition(|&p| fit.is_of_base(problem, p));
     let is_open = |p: &Parameter| fit.values[p.index()].is_none() && p.property().default.is_none();
     let missing: Vec<Parameter> = others.into_iter().filter(is_open).collect();
-    let mut notes = Vec::new();
-    if !filled.is_empty() {
-        notes.push(format!("the data say nothing of {}: these are guesses, the base preset's", names(&filled)));
-    }
+    let mut notes: Vec<String> = guesses(&list(&filled)).into_iter().collect();
     if !missing.is_empty() {
         let alike = missing.chunk_by(|a, b| a.told_by() == b.told_by());
         let would: Vec<String> = alike.map(|alike| format!("{} by {}", names(alike), alike[0].told_by())).collect();

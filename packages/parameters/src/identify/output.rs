@@ -22,6 +22,9 @@ pub fn preset(job: &Job, fit: &Fit) -> String {
     for parameter in ALL.into_iter().filter(|&parameter| fit.is_of_base(&job.problem, parameter)) {
         preset.guesses.insert(parameter.name(), &origin(job, parameter.name()));
     }
+    for name in friction_report::guessed(job) {
+        preset.guesses.insert(name, &origin(job, name));
+    }
     for (index, property) in job.preset.law.table().iter().enumerate() {
         let of_base = job.base.as_ref().and_then(|base| base.value(index, &job.units));
         if preset.values[index].is_some() {

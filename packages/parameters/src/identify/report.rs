@@ -41,7 +41,8 @@ pub fn report(job: &Job, fit: &Fit) -> String {
     text += &friction_report::sets(job);
     text += &by_range(&job.problem, fit);
     let influence = influence::notes(&job.problem, fit);
-    for note in job.said.iter().cloned().chain(influence).chain(notes::notes(&job.problem, fit)) {
+    let guessed = notes::guesses(&friction_report::guessed(job));
+    for note in job.said.iter().cloned().chain(influence).chain(notes::notes(&job.problem, fit)).chain(guessed) {
         text += &line("note", &note);
     }
     text
