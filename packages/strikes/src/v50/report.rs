@@ -19,7 +19,7 @@ use toron_shared::text_table::{Column, files, folded, grouped, or_dash, table, w
 
 /// A range whose end is further than this part of it from all shots has not been looked at there.
 const NEAR_END: f64 = 0.1;
-/// Where more of the experiments than this have no curve, it is said.
+/// Where more of the experiments than this have no curve, or are separated, it is said.
 const OFTEN: f64 = 0.05;
 /// The names of the speeds, in their order.
 const SPEEDS: [&str; 3] = ["V5", "V50", "V95"];
@@ -244,28 +244,54 @@ pub fn write_figures(file: &Path, scene: &Scene, series: &Series) -> Result<(), 
 /// A line of a table of simulated experiments: design, curve, and what came of them.
 pub type Simulated = (String, String, Coverage);
 
-/// The table of simulated experiments.
+/// The table of simulated experiments, and of the separated ones among them where these are many.
 pub fn simulated(lines: &[Simulated]) -> String {
-    let column = |above: &str, below: &str, entry: &dyn Fn(&Simulated) -> String| Column {
-        heading: [above.to_string(), below.to_string()],
-        entries: lines.iter().map(entry).collect(),
-    };
-    let share = |share: f64| format!("{share:.3}");
-    let mut columns =
-        vec![column("design", "", &|(design, ..)| design.clone()), column("curve", "", &|(_, curve, _)| curve.clone())];
-    for (place, of) in SPEEDS.into_iter().enumerate() {
-        columns.push(column(&format!("{of} in"), "interval", &|(.., found)| or_dash(found.speeds[place], share)));
-    }
+    let all: Vec<&Simulated> = lines.iter().collect();
+    let mut columns = shares_of_speeds(&all, |found| found.speeds);
+    let column = |above: &str, below: &str, entry: &dyn Fn(&Coverage) -> String| column_of(&all, above, below, entry);
     columns.extend([
-        column(UNBOUNDED, "V50", &|(.., found)| share(found.unbounded)),
-        column("separated", "share", &|(.., found)| share(found.separated)),
-        column("level", "share", &|(.., found)| share(found.level)),
-        column("one fate", "share", &|(.., found)| share(found.one_fate)),
-        column("V50 off", "σ", &|(.., found)| or_dash(found.bias, |bias| format!("{bias:+.3}"))),
-        column("scatter", "σ", &|(.., found)| or_dash(found.error, share)),
-        column("width", "σ", &|(.., found)| or_dash(found.width, |width| format!("{width:.2}"))),
+        column(UNBOUNDED, "V50", &|found| three_digits(found.unbounded)),
+        column("separated", "share", &|found| three_digits(found.separated)),
+        column("level", "share", &|found| three_digits(found.level)),
+        column("one fate", "share", &|found| three_digits(found.one_fate)),
+        column("V50 off", "σ", &|found| or_dash(found.bias, |bias| format!("{bias:+.3}"))),
+        column("scatter", "σ", &|found| or_dash(found.error, three_digits)),
+        column("width", "σ", &|found| or_dash(found.width, |width| format!("{width:.2}"))),
     ]);
-    table(columns, WIDTH) + &of_one_fate(lines)
+    let mut text = table(columns, WIDTH);
+    let separated: Vec<&Simulated> = lines.iter().filter(|(.., found)| found.separated > OFTEN).collect();
+    if !separated.is_empty() {
+        let shares = table(shares_of_speeds(&separated, |found| found.speeds_where_separated), WIDTH);
+        text +=
+            &format!("\nOf the experiments that are separated (without a zone of mixed results) alone:\n\n{shares}");
+    }
+    text + &of_one_fate(lines)
+}
+
+/// Designs, curves, and how often the intervals of the speeds hold.
+fn shares_of_speeds(lines: &[&Simulated], speeds: impl Fn(&Coverage) -> [Option<f64>; 3]) -> Vec<Column> {
+    let name = |heading: &str, entry: &dyn Fn(&Simulated) -> String| Column {
+        heading: [heading.to_string(), String::new()],
+        entries: lines.iter().map(|line| entry(line)).collect(),
+    };
+    let mut columns =
+        vec![name("design", &|(design, ..)| design.clone()), name("curve", &|(_, curve, _)| curve.clone())];
+    for (place, of) in SPEEDS.into_iter().enumerate() {
+        let entry = |found: &Coverage| or_dash(speeds(found)[place], three_digits);
+        columns.push(column_of(lines, &format!("{of} in"), "interval", &entry));
+    }
+    columns
+}
+
+fn column_of(lines: &[&Simulated], above: &str, below: &str, entry: &dyn Fn(&Coverage) -> String) -> Column {
+    Column {
+        heading: [above.to_string(), below.to_string()],
+        entries: lines.iter().map(|(.., found)| entry(found)).collect(),
+    }
+}
+
+fn three_digits(share: f64) -> String {
+    format!("{share:.3}")
 }
 
 /// Where the shots of many experiments have one fate.

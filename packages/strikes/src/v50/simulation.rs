@@ -50,6 +50,8 @@ pub struct Coverage {
     /// How often V50's interval has no end on one side.
     pub unbounded: f64,
     pub separated: f64,
+    /// As `speeds`, of the separated experiments alone.
+    pub speeds_where_separated: [Option<f64>; 3],
     /// How often no curve rises, and how often all shots had the same fate.
     pub level: f64,
     pub one_fate: f64,
@@ -84,10 +86,12 @@ impl Experiment {
         let share = |count: usize, of: usize| count as f64 / of.max(1) as f64;
         let found: Vec<&Curve> = curves.iter().flatten().collect();
         let among_all = |is: fn(&Curve) -> bool| share(found.iter().filter(|curve| is(curve)).count(), curves.len());
-        let holds = |which: usize| {
+        let separated: Vec<&Curve> =
+            found.iter().filter(|curve| matches!(curve.mix, Mix::Separated(_))).copied().collect();
+        let holds = |of: &[&Curve], which: usize| {
             let speed = truth.speed(CHANCES[which]);
-            let held = found.iter().filter(|curve| curve.speeds[which].interval.contains(speed)).count();
-            (!found.is_empty()).then(|| share(held, found.len()))
+            let held = of.iter().filter(|curve| curve.speeds[which].interval.contains(speed)).count();
+            (!of.is_empty()).then(|| share(held, of.len()))
         };
         let errors: Vec<f64> =
             found.iter().filter_map(|curve| curve.v50().value).map(|v50| (v50 - truth.v50) / truth.deviation).collect();
@@ -101,9 +105,10 @@ impl Experiment {
         let mut widths: Vec<f64> = found.iter().map(width).collect();
         widths.sort_by(f64::total_cmp);
         Coverage {
-            speeds: [0, 1, 2].map(holds),
+            speeds: [0, 1, 2].map(|which| holds(&found, which)),
             unbounded: among_all(|curve| !curve.v50().interval.is_bounded()),
-            separated: among_all(|curve| matches!(curve.mix, Mix::Separated(_))),
+            separated: share(separated.len(), curves.len()),
+            speeds_where_separated: [0, 1, 2].map(|which| holds(&separated, which)),
             level: among_all(|curve| curve.mix == Mix::Level),
             one_fate: share(curves.len() - found.len(), curves.len()),
             bias: (!errors.is_empty()).then_some(mean),
@@ -178,6 +183,11 @@ mod tests {
         assert!(few.separated > 0.2 && few.width > many.width, "{few:?}");
         let firth = experiment(Design::Langlie, 8).coverage(&truth, true, 200, 7);
         assert_eq!((firth.separated, firth.one_fate), (few.separated, few.one_fate));
+        // A steep curve is between the shots: what they do not refuse holds its V5, and the penalty says that it is flat.
+        let steep = Truth { link: Link::Logit, v50: 103.0, deviation: 1.0 };
+        let [plain, penalised] = [false, true]
+            .map(|firth| experiment(Design::Even, 20).coverage(&steep, firth, 200, 7).speeds_where_separated);
+        assert!(plain[0] > Some(0.95) && penalised[0] < Some(0.9), "{plain:?} {penalised:?}");
         // None of the separated ones lacks a value.
         assert!(firth.error.is_some_and(f64::is_finite) && firth.level <= few.level + 0.05, "{firth:?}");
     }
