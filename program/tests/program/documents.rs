@@ -520,10 +520,10 @@ fn the_guides_have_the_keys_that_the_program_reads() {
     const FABRIC: &str = "reference/fabric-files.md";
     let rows: [(&str, &str, &[&str]); 8] = [
         ("run", "guides/load-paths.md", &["", "[material]", "[[point]]", "[[step]]", "[plot]"]),
-        ("fit", "guides/identification.md", &["", "[yarn]", "[fibre]", "[[data]]", "[[strength]]"]),
+        ("fit", "reference/fit-files.md", &["", "[yarn]", "[fibre]", "[[data]]", "[[strength]]"]),
         ("cell", "guides/cell.md", &["", "[fibre]", "[cell]", "[cell.box]", "[loads]", "[yarn]"]),
         ("impact", "guides/impact.md", &["", "[scene]", "[[case]]"]),
-        ("v50", "guides/v50.md", &["[shots]"]),
+        ("v50", "reference/v50-files.md", &["[shots]"]),
         ("fibres", "guides/fibres.md", &["", "[scene]", "[scene.fibre]", "[[case]]"]),
         ("weave", FABRIC, &["", "[weave]", "[weave.warp]", "[weave.weft]", "[weave.panel]", "[mesh]"]),
         ("fabric", FABRIC, &["", "[scene]", "[[case]]", "[scene.strength]", "[scene.strength.warp]"]),

@@ -1,4 +1,4 @@
-//! A fit from its TOML file: the yarn, what is known of its fibre, and the data sets. `docs/guides/identification.md`
+//! A fit from its TOML file: the yarn, what is known of its fibre, and the data sets. `docs/reference/fit-files.md`
 //! has the keys.
 
 use std::cell::RefCell;

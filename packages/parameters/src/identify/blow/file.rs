@@ -1,4 +1,4 @@
-//! The file of a fit from a blow: a scene, a history, and what is to be found. `docs/guides/identification.md` has the
+//! The file of a fit from a blow: a scene, a history, and what is to be found. `docs/reference/fit-files.md` has the
 //! keys.
 
 use std::collections::BTreeMap;

@@ -1,4 +1,4 @@
-//! The strengths of a file and where they come from. `docs/guides/identification.md` has the keys.
+//! The strengths of a file and where they come from. `docs/reference/fit-files.md` has the keys.
 
 use std::cell::RefCell;
 use std::collections::BTreeMap;
