@@ -1,7 +1,7 @@
 //! Bounds of wave speeds by direction: the fast wave runs along the fibre, where elements are long.
 //!
 //! ρ0 c² ≤ A (m·n)² + B for every wave of direction n, with the fibre's direction m. By modes, as the law's own bound
-//! is derived (`docs/reference/theory.md`): the elongation is k_el (m·n)² at most, and the others, with the section's
+//! is derived (`docs/design/law.md`): the elongation is k_el (m·n)² at most, and the others, with the section's
 //! area ratio J_t and its distortion a = 2 I_td,
 //!
 //! - compaction: W″/4 + |W′|. |W′| is the sum of the Kirchhoff stresses across, and W″ = (p − 1) |W′|/|I_tc| is no more

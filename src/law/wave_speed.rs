@@ -2,7 +2,7 @@
 //!
 //! For a direction n and a polarisation u the acoustic tensor times the reference density is
 //! u·ρ0 Q(n)u = c:(n⊗u)(n⊗u) + n·τn, with c the Truesdell modulus and τ the Kirchhoff stress. With y = (e·n)(e·u), mode
-//! by mode (derivation in `docs/reference/theory.md`):
+//! by mode (derivation in `docs/design/law.md`):
 //!
 //! - elongation:       ≤ k_el ⟨I_el⟩ + k_el (1 − 2 I_el) y², only in tension;
 //! - compaction:       ≤ (W″/4 + |W′|)(1 − y²);
