@@ -11,5 +11,5 @@ cp -r "$root/include" "$root/Cargo.toml" "$root"/LICENSE-* "$3/source"
 [ ! -f "$root/THIRD-PARTY.md" ] || cp "$root/THIRD-PARTY.md" "$3/source"
 rm -f "$3/source/python/src/toron/libtoron.so" "$3/source/python/src/toron/_interface.py"
 TORON_LIBRARY="$2" "$1" -m pip wheel -q --no-deps --no-build-isolation -w "$3/wheel" "$3/source/python" >&2
-"$1" -m pip install -q --no-deps --no-index --target "$3/site" "$3/wheel"/toron-*.whl >&2
-echo "$3"/wheel/toron-*.whl
+"$1" -m pip install -q --no-deps --no-index --target "$3/site" "$3/wheel"/toron_yarn-*.whl >&2
+echo "$3"/wheel/toron_yarn-*.whl
