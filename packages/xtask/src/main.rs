@@ -1,5 +1,8 @@
 //! `cargo xtask update KIND`: writes committed files anew that are made from the sources, and measured ones. The tests
 //! that hold them against what is made today write them where the variable TORON_UPDATE names their kind.
+//! `cargo xtask site`: the documents as a site.
+
+mod site;
 
 use std::path::Path;
 use std::process::{Command, ExitCode};
@@ -51,6 +54,15 @@ const KINDS: [(&str, &str, &[Tests]); 8] = [
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
+    if words[..] == ["site"] {
+        return match site::make() {
+            Ok(()) => ExitCode::SUCCESS,
+            Err(message) => {
+                eprintln!("{message}");
+                ExitCode::FAILURE
+            }
+        };
+    }
     let tests = match words[..] {
         ["update", kind] => KINDS.iter().find(|(name, ..)| *name == kind).map(|(_, _, tests)| (kind, tests)),
         _ => None,
@@ -58,6 +70,7 @@ fn main() -> ExitCode {
     let Some((kind, tests)) = tests else {
         eprintln!("cargo xtask update KIND writes anew:");
         KINDS.iter().for_each(|(name, files, _)| eprintln!("  {name:<10} {files}"));
+        eprintln!("cargo xtask site makes target/site of docs/, and follows its links");
         return ExitCode::from(2);
     };
     let written = tests.iter().all(|tests| update(kind, *tests));
