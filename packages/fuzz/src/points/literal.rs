@@ -120,7 +120,8 @@ impl Point {
             f_old: if case.law.is_linear() { matrix::<T>(&point.f_old) } else { M::identity() },
             properties: case.properties.iter().map(|&x| number(x)).collect(),
             fibre: unit(vector(fibre(case, i))),
-            second_axis: (second != [0.0; 3]).then(|| unit(vector(second))),
+            // In the precision of the case, where it may have become 0.
+            second_axis: Some(vector(second)).filter(|n| *n != V::zeros()).map(unit),
             state: old.iter().map(|&x| exact(x)).collect(),
         }
     }
