@@ -2,11 +2,14 @@
 //!
 //! - [`points`]: hostile calls of the numerical entries. The answers are held against what the header promises, against
 //!   the other entries, and one point in a thousand against the formulas in 320 binary digits.
+//! - [`readers`]: files of the repository, changed at random, for every reader of the programs: an answer or a message
+//!   that names the file, no panic, in bounded time and memory.
 //!
 //! A run is told by its seed and repeats itself. A case that fails is made small and printed as a line, which
 //! `TORON_FUZZ_CASE` replays, and belongs into `corpus/` after the mend: every test run replays what is there.
 
 pub mod points;
+pub mod readers;
 
 /// A whole number from the environment, or this default.
 ///
