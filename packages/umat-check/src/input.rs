@@ -85,8 +85,8 @@ pub struct Input {
 
 /// Longest CMNAME.
 const LONGEST_NAME: usize = 80;
-/// The largest count of STATEV's entries that is allowed.
-const MOST_STATES: usize = 100_000;
+/// The largest count of STATEV's entries, and of a card's constants, that is allowed.
+pub(crate) const MOST_STATES: usize = 100_000;
 
 /// Reads the file, if there is one: the one named, or the one beside the law.
 ///
