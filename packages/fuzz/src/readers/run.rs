@@ -88,7 +88,11 @@ pub fn run(seed: u64, count: u64) -> Result<Totals, String> {
         let [original, other] = [file, other].map(|file| fs::read(file).expect("a file of the repository"));
         let changed = copies.join(file.strip_prefix(ROOT).expect("a file of the repository"));
         fs::write(&changed, mutated(rng, &original, &other)).expect("a changed file");
+        let start = Instant::now();
         let read = one(target, &changed, &mut totals);
+        if start.elapsed() > TIME / 10 {
+            println!("file {k} took {:?}, of {}: {}", start.elapsed(), target.name, changed.display());
+        }
         if read.is_err() {
             let kept = copies.join(format!("found-{seed}-{k}")).with_extension(changed.extension().unwrap_or_default());
             fs::copy(&changed, &kept).expect("a copy");
