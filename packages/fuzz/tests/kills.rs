@@ -1,5 +1,5 @@
-//! The commands that have `--restart`, killed at random times: the results of the run that goes on are those of one that
-//! nothing has disturbed, to the bit. `.ci/long kills` builds the program and runs this.
+//! The commands that have `--restart`, killed at random times: the results of the run that goes on are those of one
+//! that nothing has disturbed, to the bit. `.ci/long kills` builds the program and runs this.
 
 use std::collections::BTreeMap;
 use std::fs;

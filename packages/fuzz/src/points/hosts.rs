@@ -1,5 +1,5 @@
-//! The entries of hosts: a UMAT and MGIS for one point, a VUMAT for a block. Their results come back in the order of the
-//! law.
+//! The entries of hosts: a UMAT and MGIS for one point, a VUMAT for a block. Their results come back in the order of
+//! the law.
 
 use std::ptr::{null, null_mut};
 
