@@ -12,7 +12,7 @@ use serde_json::Value;
 type Arrows = (&'static str, &'static [&'static str], &'static [&'static str]);
 
 /// From the ground up.
-const ARROWS: [Arrows; 26] = [
+const ARROWS: [Arrows; 27] = [
     ("toron", &[], &["reinforced-solid", "toron-test-support"]),
     ("toron-test-support", &["toron"], &[]),
     ("toron-shared", &[], &[]),
@@ -56,6 +56,20 @@ const ARROWS: [Arrows; 26] = [
             "umat-check",
         ],
         &["toron-build-number", "toron-explicit-host", "toron-pictures", "toron-test-support"],
+    ),
+    (
+        "toron-fuzz",
+        &[
+            "toron",
+            "toron-c-functions",
+            "toron-materials",
+            "toron-parameters",
+            "toron-shared",
+            "toron-strikes",
+            "toron-test-support",
+            "umat-check",
+        ],
+        &[],
     ),
     ("toron-benches", &[], &["toron", "toron-materials", "toron-pictures", "toron-test-support"]),
     ("xtask", &[], &[]),

@@ -4,6 +4,7 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
+use super::input::MOST_STATES;
 use super::material::{MOST_FIELDS, Material, Plane};
 use toron_shared::error::Error;
 use toron_shared::keyword_file::abaqus::{self, Keyword, fields, label};
@@ -69,6 +70,17 @@ struct Deck {
     fields: Vec<(usize, f64)>,
     /// Whether a step has NLGEOM; none where there is no step.
     nonlinear: Option<bool>,
+}
+
+/// A number of state variables or constants, for which there is memory.
+///
+/// # Errors
+/// It is none, or too large.
+fn count(line: &Line<'_>, what: &str, field: &str) -> Result<usize, Error> {
+    match line.number(what, field)? {
+        count if count <= MOST_STATES => Ok(count),
+        count => Err(line.error(&format!("{what} is {count}; allowed: 0 to {MOST_STATES}"))),
+    }
 }
 
 impl abaqus::Reader for Deck {
@@ -153,9 +165,8 @@ impl abaqus::Reader for Deck {
                 self.with_material(|material| material.properties.extend(values));
             }
             Data::States => {
-                let count = fields(line.text).next().unwrap_or_default();
-                let count: usize = line.number("*DEPVAR", count)?;
-                self.with_material(|material| material.states = count);
+                let states = count(line, "*DEPVAR", fields(line.text).next().unwrap_or_default())?;
+                self.with_material(|material| material.states = states);
                 // Further lines describe the variables.
                 self.data = Some(Data::None);
             }
@@ -195,7 +206,7 @@ impl Deck {
         }
         // Abaqus takes CONST too.
         let constants: usize = match keyword.value("CONSTANTS").or(keyword.value("CONST")) {
-            Some(value) => keyword.line.number("CONSTANTS", value)?,
+            Some(value) => count(&keyword.line, "CONSTANTS", value)?,
             None => return Err(keyword.line.error("*USER MATERIAL without CONSTANTS; allowed: CONSTANTS=NUMBER")),
         };
         let unsymmetric = keyword.value("UNSYMM").is_some();
@@ -411,6 +422,17 @@ mod tests {
     }
 
     /// Some public inputs have FILE=.
+    #[test]
+    fn counts_are_bounded() {
+        for (text, message) in [
+            ("*Material, name=A\n*Depvar\n100001,\n", "deck.inp:3: *DEPVAR is 100001; allowed: 0 to 100000"),
+            ("*User Material, constants=999999999999\n", "deck.inp:1: CONSTANTS is 999999999999; allowed: 0 to 100000"),
+        ] {
+            let error = abaqus::read("deck.inp", text, &mut Deck::default()).expect_err(text);
+            assert_eq!(error.to_string(), message);
+        }
+    }
+
     #[test]
     fn an_include_is_named_by_input() {
         let error = abaqus::read("deck.inp", "*Include, file=sec.inp\n", &mut Deck::default()).expect_err("refused");

@@ -85,8 +85,8 @@ pub struct Input {
 
 /// Longest CMNAME.
 const LONGEST_NAME: usize = 80;
-/// The largest count of STATEV's entries that is allowed.
-const MOST_STATES: usize = 100_000;
+/// The largest count of STATEV's entries, and of a card's constants, that is allowed.
+pub(crate) const MOST_STATES: usize = 100_000;
 
 /// Reads the file, if there is one: the one named, or the one beside the law.
 ///
@@ -157,7 +157,7 @@ fn material(source: &Source, file: &File, own: &Own, overrides: &Overrides) -> R
         }
         (None, None) => 6,
     };
-    let separation = separation(file, components, overrides)?;
+    let separation = separation(source, file, components, overrides)?;
     let name = match (&overrides.name, own.name.as_ref().or(file.name.as_ref())) {
         (Some(name), _) => allowed_name(name).map_err(Error::Input)?,
         (None, Some(name)) => allowed_name(name.get_ref()).map_err(|message| source.error(name.span(), &message))?,
@@ -166,9 +166,9 @@ fn material(source: &Source, file: &File, own: &Own, overrides: &Overrides) -> R
     let initial = initial_state(source, file, own, overrides)?;
     let properties =
         overrides.properties.clone().or(own.properties.clone()).or(file.properties.clone()).unwrap_or_default();
-    let key = if overrides.properties.is_some() { "--props" } else { "properties" };
+    let key = if overrides.properties.is_some() { "--props" } else { &format!("{}: properties", source.name) };
     all_finite(key, &properties)?;
-    all_finite("initial", &initial)?;
+    all_finite(&format!("{}: initial", source.name), &initial)?;
     let stretch = match &file.stretch {
         _ if separation.is_some() => [(-LARGEST_SEPARATION).exp(), LARGEST_SEPARATION.exp()],
         None => [0.9, 1.1],
@@ -214,14 +214,15 @@ fn material(source: &Source, file: &File, own: &Own, overrides: &Overrides) -> R
 }
 
 /// The largest separation of a cohesive element.
-fn separation(file: &File, components: usize, overrides: &Overrides) -> Result<Option<f64>, Error> {
+fn separation(source: &Source, file: &File, components: usize, overrides: &Overrides) -> Result<Option<f64>, Error> {
     let separation = overrides.separation.or(value(&file.separation));
+    let key = if overrides.separation.is_some() { "separation" } else { &format!("{}: separation", source.name) };
     match separation {
         Some(largest) if !(largest > 0.0 && largest.is_finite()) => {
-            Err(Error::Input(format!("separation is {largest}; allowed: a finite number > 0")))
+            Err(Error::Input(format!("{key} is {largest}; allowed: a finite number > 0")))
         }
         Some(largest) if components > 3 && overrides.deck.is_none() => Err(Error::Input(format!(
-            "separation is {largest}, and ntens {components}; allowed with ntens 3 (COH3D), 2 (COH2D, COHAX) and 1"
+            "{key} is {largest}, and ntens {components}; allowed with ntens 3 (COH3D), 2 (COH2D, COHAX) and 1"
         ))),
         given => Ok(given),
     }
@@ -233,7 +234,8 @@ fn initial_state(source: &Source, file: &File, own: &Own, overrides: &Overrides)
     let mut initial = given.map_or(Vec::new(), |initial| initial.get_ref().clone());
     let states = overrides.states.or(own.statev).or(file.statev).unwrap_or(initial.len());
     if states > MOST_STATES {
-        return Err(Error::Input(format!("statev is {states}; allowed: 0 to {MOST_STATES}")));
+        let key = if overrides.states.is_some() { "statev" } else { &format!("{}: statev", source.name) };
+        return Err(Error::Input(format!("{key} is {states}; allowed: 0 to {MOST_STATES}")));
     }
     if let Some(given) = given
         && states < initial.len()
@@ -380,7 +382,10 @@ mod tests {
             ("fibres = [[0.0, 0.0, 0.0]]", "law.toml:1: a fibre is no direction"),
             ("statev = 1\ninitial = [1.0, 2.0]", "law.toml:2: initial has 2 numbers"),
             ("[allow]\ntangents = 1.0", "law.toml:2: allow has tangents; allowed: build, deck, memory, rest"),
-            ("properties = [1.0, nan]", "properties: number 2 is NaN; allowed: finite numbers"),
+            ("properties = [1.0, nan]", "law.toml: properties: number 2 is NaN; allowed: finite numbers"),
+            ("initial = [inf]", "law.toml: initial: number 1 is inf; allowed: finite numbers"),
+            ("statev = 100001", "law.toml: statev is 100001; allowed: 0 to 100000"),
+            ("separation = 0.1", "law.toml: separation is 0.1, and ntens 6; allowed with ntens 3"),
             ("deletion = 1", "law.toml:1: deletion is 1; allowed: a state variable, 1 to 0"),
             ("defgrad = \"R\"", "law.toml:1: defgrad is \"R\"; allowed: \"RU\", \"U\""),
             ("[[expect]]\nstrain = [0.1]\nstress = [1.0]", "law.toml:2: strain is no path; allowed: 6 numbers"),

@@ -1,0 +1,20 @@
+//! Hostile calls of the numerical entries.
+
+mod arrays;
+mod case;
+mod checks;
+mod compare;
+mod difference;
+mod entries;
+mod faults;
+mod functions;
+mod hosts;
+mod laws;
+mod line;
+mod literal;
+mod random;
+mod run;
+
+pub use case::{Case, Law};
+pub use faults::{FAULTS, Fault};
+pub use run::{Found, Totals, replay, run, smallest};

@@ -1,0 +1,328 @@
+//! Cases one after the other: each through its entries, the one that fails made small.
+
+use std::cell::RefCell;
+use std::panic::{self, AssertUnwindSafe};
+use std::sync::Once;
+
+use fastrand::Rng;
+
+use super::case::{Case, Form, Host, Input, Law, Old, with};
+use super::checks::{self, Checked, holds};
+use super::compare::{Of, close, same};
+use super::entries::{Entry, Outcome, call};
+use super::faults::Fault;
+use super::functions::Functions;
+use super::{difference, literal};
+
+/// What a run has done.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Totals {
+    pub cases: u64,
+    pub calls: u64,
+    /// Points that calls were asked to evaluate.
+    pub points: u64,
+    /// Points of which a call said that it cannot evaluate them.
+    pub refused: u64,
+    /// Points held against the formulas in high precision, and the worst error in units of the rounding.
+    pub literal: u64,
+    pub worst: [f64; 2],
+    /// Tangents held against differences of the stress.
+    pub differences: u64,
+}
+
+/// A case that fails.
+#[derive(Debug)]
+pub struct Found {
+    pub case: Case,
+    pub why: String,
+}
+
+thread_local! {
+    /// The case that is called, for the message of a panic: one in a C function ends the process.
+    static CURRENT: RefCell<Option<Case>> = const { RefCell::new(None) };
+}
+
+fn tell_case_of_panics() {
+    static ONCE: Once = Once::new();
+    ONCE.call_once(|| {
+        let usual = panic::take_hook();
+        panic::set_hook(Box::new(move |panic| {
+            usual(panic);
+            CURRENT.with_borrow(|case| {
+                if let Some(case) = case {
+                    eprintln!("the case: {case}");
+                }
+            });
+        }));
+    });
+}
+
+/// Runs cases from this seed on until their calls have been asked for so many points, or one fails.
+pub fn run(seed: u64, points: u64, fault: Option<Fault>) -> (Totals, Option<Found>) {
+    tell_case_of_panics();
+    let mut totals = Totals::default();
+    let mut seeds = Rng::with_seed(seed);
+    while totals.points < points {
+        let case = Case::random(seeds.u64(..));
+        totals.cases += 1;
+        if let Err(why) = checked(&case, fault, &mut totals) {
+            return (totals, Some(Found { case, why }));
+        }
+    }
+    (totals, None)
+}
+
+/// Checks a case.
+///
+/// # Errors
+/// What does not hold.
+pub fn replay(case: &Case, fault: Option<Fault>) -> Checked {
+    tell_case_of_panics();
+    checked(case, fault, &mut Totals::default())
+}
+
+fn checked(case: &Case, fault: Option<Fault>, totals: &mut Totals) -> Checked {
+    CURRENT.set(Some(case.clone()));
+    let checked = panic::catch_unwind(AssertUnwindSafe(|| {
+        if case.single {
+            through_entries::<f32>(case, fault, totals)
+        } else {
+            through_entries::<f64>(case, fault, totals)
+        }
+    }));
+    CURRENT.set(None);
+    checked.unwrap_or_else(|_| Err("a panic".into()))
+}
+
+/// Calls an entry, counts, and checks the outcome by itself.
+fn one<T: Functions>(
+    entry: Entry,
+    case: &Case,
+    fault: Option<Fault>,
+    totals: &mut Totals,
+    codes: Option<&[Option<i32>]>,
+) -> Result<Outcome<T>, String> {
+    let outcome = call::<T>(entry, case, fault);
+    let n = case.points.len();
+    totals.calls += 1;
+    totals.points += n as u64;
+    let own: Vec<_> = (0..n).map(|i| outcome.status(case, i)).collect();
+    totals.refused += own.iter().filter(|code| matches!(code, Some(-310..=-301))).count() as u64;
+    checks::outcome(case, &outcome, codes.unwrap_or(&own))?;
+    Ok(outcome)
+}
+
+fn through_entries<T: Functions>(case: &Case, fault: Option<Fault>, totals: &mut Totals) -> Checked {
+    let reference = one::<T>(Entry::Block, case, fault, totals, None)?;
+    let other = one::<T>(Entry::BlockWithProperties, case, fault, totals, None)?;
+    holds(reference.code == other.code, || format!("codes {} and {} of blocks", reference.code, other.code))?;
+    let is_refused = reference.code <= -100 && reference.code > -300;
+    let n = case.points.len();
+    if !is_refused {
+        for i in 0..n {
+            same(case, of(&reference, i), of(&other, i))?;
+        }
+        other_level(case, fault, totals, &reference)?;
+    }
+    let rng = &mut Rng::with_seed(case.seed ^ 0x5eed);
+    for _ in 0..n.min(2) {
+        let i = rng.usize(..n);
+        let alone = case.of_point(i);
+        for entry in [Entry::BlockOfOne, Entry::Point, Entry::PointWithProperties] {
+            let outcome = one::<T>(entry, &alone, fault, totals, None)?;
+            if is_refused {
+                holds((-300..=-100).contains(&outcome.code), || {
+                    format!("{entry:?} returned {}, not a refusal", outcome.code)
+                })?;
+            } else if has_same_request(case, entry) {
+                let exact = has_same_bits(case, entry);
+                let (a, b) = (of(&reference, i), of(&outcome, 0));
+                if exact { same(case, a, b) } else { close(case, a, b) }?;
+            }
+        }
+        if !is_refused {
+            let seed = rng.u64(..);
+            totals.literal += u64::from(literal::check::<T>(case, i, &reference, seed, &mut totals.worst)?);
+            totals.differences += u64::from(difference::check::<T>(&alone, fault, seed)?);
+        }
+        if matches!(case.host, Host::Umat | Host::Mgis) {
+            let outcome = one::<T>(Entry::Host, &alone, fault, totals, None)?;
+            through_host(case, &reference, i, &outcome, 0)?;
+        }
+    }
+    if case.host == Host::Vumat {
+        let codes: Vec<_> = (0..n).map(|i| reference.status(case, i)).collect();
+        let codes = if is_refused { None } else { Some(&codes[..]) };
+        let outcome = one::<T>(Entry::Host, case, fault, totals, codes)?;
+        for i in 0..n {
+            through_host(case, &reference, i, &outcome, i)?;
+        }
+    }
+    Ok(())
+}
+
+fn of<T>(outcome: &Outcome<T>, point: usize) -> Of<'_, T> {
+    Of { outcome, point }
+}
+
+/// AVX2 and AVX-512 give the same bits.
+fn other_level<T: Functions>(
+    case: &Case,
+    fault: Option<Fault>,
+    totals: &mut Totals,
+    reference: &Outcome<T>,
+) -> Checked {
+    if case.level < 2 {
+        return Ok(());
+    }
+    let case = Case { level: 5 - case.level, ..case.clone() };
+    let other = one::<T>(Entry::BlockWithProperties, &case, fault, totals, None)?;
+    (0..case.points.len()).try_for_each(|i| same(&case, of(reference, i), of(&other, i)))
+}
+
+/// Whether the entry for one point is asked for the same as the block: a point has a state in whole or not at all, and
+/// what is not asked for is not looked at.
+fn has_same_request(case: &Case, entry: Entry) -> bool {
+    !entry.is_point() || case.asks_state() || (case.old != Old::InPlace && !case.asks(with::STATE))
+}
+
+/// Whether an entry promises the bits of the block.
+fn has_same_bits(case: &Case, entry: Entry) -> bool {
+    match (entry, case.law) {
+        (Entry::PointWithProperties, Law::Hyperelastic) => false,
+        (Entry::Point, Law::Hyperelastic) => !case.asks(with::TANGENT),
+        _ => true,
+    }
+}
+
+/// A host's answer against that of the block.
+fn through_host<T: Functions>(
+    case: &Case,
+    reference: &Outcome<T>,
+    i: usize,
+    outcome: &Outcome<T>,
+    j: usize,
+) -> Checked {
+    const POINT: std::ops::RangeInclusive<i32> = -310..=-301;
+    let code =
+        if reference.code < -300 || reference.code == 0 { reference.status(case, i) } else { Some(reference.code) };
+    let Some(code) = code else { return Ok(()) };
+    let refused = match case.host {
+        Host::Vumat => reference.code != 0 && !POINT.contains(&reference.code),
+        _ => outcome.code != 0,
+    };
+    if refused || code != 0 {
+        let expected = match case.host {
+            // Which of several wrong arguments is named is a host's choice.
+            _ if (-300..=-100).contains(&code) => (-300..=-100).contains(&outcome.code) || outcome.code == -1,
+            Host::Vumat => true, // checked by the codes of all points
+            // A limit that is none is an argument of a UMAT, looked at before F; an energy per volume may overflow.
+            Host::Umat if outcome.code == toron::status::BAD_ARGUMENT => is_no_limit(case.points[i].limit),
+            Host::Umat => outcome.code == code || outcome.code == toron::status::OVERFLOW,
+            _ => outcome.code == -1 && (!POINT.contains(&code) || outcome.beside[1] <= 0.25),
+        };
+        return holds(expected, || format!("host returned {}, the block {code}, {:?}", outcome.code, outcome.beside));
+    }
+    let (a, b) = (of(reference, i), of(outcome, j));
+    let exact = case.host != Host::Mgis && (case.law != Law::Hyperelastic || case.host == Host::Vumat);
+    if exact { same(case, a, b) } else { close(case, a, b) }
+}
+
+fn is_no_limit(limit: f64) -> bool {
+    !(limit >= 0.0 && limit.is_finite())
+}
+
+/// The smallest case, as far as it is found, that still fails.
+pub fn smallest(found: Found, fault: Option<Fault>) -> Found {
+    /// Then it is small enough.
+    const MOST_PASSES: usize = 4;
+    let mut found = found;
+    for _ in 0..MOST_PASSES {
+        let (mut place, before) = (0, found.case.to_string());
+        let mut cases = smaller(&found.case);
+        while let Some(case) = cases.get(place) {
+            match replay(case, fault) {
+                Err(why) => {
+                    found = Found { case: case.clone(), why };
+                    cases = smaller(&found.case);
+                }
+                Ok(()) => place += 1,
+            }
+        }
+        if found.case.to_string() == before {
+            break;
+        }
+    }
+    found
+}
+
+/// Cases that are smaller: fewer points, plainer arrays, fewer requests, simpler numbers.
+fn smaller(case: &Case) -> Vec<Case> {
+    let mut cases = Vec::new();
+    let n = case.points.len();
+    for (from, to) in [(0, n / 2), (n / 2, n)].into_iter().chain((0..n).map(|i| (i, i + 1))) {
+        if from < to && to - from < n {
+            let mut points = case.points.clone();
+            points.drain(from..to);
+            cases.push(Case { points, ..case.clone() });
+        }
+    }
+    let before = case.to_string();
+    let mut add = |change: &dyn Fn(&mut Case)| {
+        let mut changed = case.clone();
+        change(&mut changed);
+        if changed.host == Host::Vumat {
+            changed.points.iter_mut().for_each(Input::make_symmetric);
+        }
+        // As text: NaN is not equal to itself.
+        if changed.to_string() != before {
+            cases.push(changed);
+        }
+    };
+    add(&|case| case.placings = Default::default());
+    add(&|case| case.gap = 0);
+    for group in 0..case.placings.len() {
+        add(&|case| case.placings[group] = Default::default());
+        add(&|case| case.placings[group].form = Form::Plain);
+    }
+    if case.host == Host::None {
+        add(&|case| case.level = 0);
+        for bit in 0..12 {
+            add(&|case| case.with &= !(1 << bit));
+        }
+    }
+    add(&|case| case.rotation = 0);
+    for (place, &value) in case.properties.iter().enumerate() {
+        for simple in simpler(value) {
+            add(&|case| case.properties[place] = simple);
+        }
+    }
+    for point in 0..n {
+        let count = numbers(&mut case.points[point].clone()).count();
+        for place in 0..count {
+            let value = *numbers(&mut case.points[point].clone()).nth(place).expect("a number");
+            for simple in simpler(value) {
+                add(&|case| {
+                    if let Some(number) = numbers(&mut case.points[point]).nth(place) {
+                        *number = simple;
+                    }
+                });
+            }
+        }
+    }
+    cases
+}
+
+fn numbers(point: &mut Input) -> impl Iterator<Item = &mut f64> {
+    let Input { f, f_old, fibre, second_axis, limit, axes, state } = point;
+    f.iter_mut().chain(f_old).chain(fibre).chain(second_axis).chain(std::iter::once(limit)).chain(axes).chain(state)
+}
+
+/// Simpler numbers in place of one, in a direction that ends.
+fn simpler(value: f64) -> Vec<f64> {
+    let weight = |x: f64| format!("{x:?}").len();
+    let rounded = |digits: f64| (value * digits).round() / digits;
+    let mut simple = vec![0.0, 1.0, rounded(1.0), rounded(100.0)];
+    simple.retain(|&x| weight(x) < weight(value) || (x == 0.0 && value == 1.0));
+    simple
+}

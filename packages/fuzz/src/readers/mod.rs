@@ -1,0 +1,8 @@
+//! Files of the repository, changed at random, for every reader of the programs.
+
+mod mutate;
+mod run;
+mod targets;
+
+pub use run::{Totals, one, run};
+pub use targets::{TARGETS, Target, files};

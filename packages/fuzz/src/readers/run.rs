@@ -1,0 +1,154 @@
+//! Changed files, each for its reader, in bounded time and memory.
+
+use std::fs;
+use std::panic::{self, AssertUnwindSafe};
+use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
+use std::thread;
+use std::time::Duration;
+
+use fastrand::Rng;
+use toron_shared::error::Error;
+use toron_shared::processor_time::thread_time;
+use toron_test_support::library::{ROOT, folder};
+
+use super::mutate::mutated;
+use super::targets::{TARGETS, Target, files};
+
+/// The most that a reader may take for a changed file: processor time, whatever else runs, and bytes.
+const TIME: Duration = Duration::from_secs(10);
+const MEMORY: u64 = 1 << 30;
+/// After so long nothing is waited for.
+const HANGS: Duration = Duration::from_secs(300);
+
+/// What a run has done.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Totals {
+    pub files: u64,
+    pub refused: u64,
+    /// The longest time, and the most memory of one file.
+    pub longest: Duration,
+    pub most: u64,
+}
+
+/// What is said of a file while it is read, for the one that is never read to its end.
+static CURRENT: Mutex<String> = Mutex::new(String::new());
+
+/// Ends the process where no file is finished in time: a thread that does not come back cannot be ended alone.
+fn watch() -> Sender<()> {
+    let (alive, heard) = channel();
+    thread::spawn(move || {
+        loop {
+            match heard.recv_timeout(HANGS) {
+                Ok(()) => (),
+                Err(RecvTimeoutError::Disconnected) => return,
+                Err(RecvTimeoutError::Timeout) => {
+                    let current = CURRENT.lock().map(|text| text.clone()).unwrap_or_default();
+                    eprintln!("not read in {HANGS:?}: {current}");
+                    std::process::abort();
+                }
+            }
+        }
+    });
+    alive
+}
+
+/// Copies the folders that readers look into, so that a changed file has its neighbours.
+fn copies() -> PathBuf {
+    let copies = folder("fuzzed-files");
+    for place in ["examples", "ffi-tests/check", "program/assets", "packages/fuzz/corpus/files"] {
+        copy(&Path::new(ROOT).join(place), &copies.join(place));
+    }
+    copies
+}
+
+fn copy(from: &Path, to: &Path) {
+    fs::create_dir_all(to).expect("a folder");
+    for entry in fs::read_dir(from).expect("a folder of the repository").flatten() {
+        let (path, target) = (entry.path(), to.join(entry.file_name()));
+        if path.is_dir() && !path.ends_with("target") {
+            copy(&path, &target);
+        } else if path.is_file() {
+            fs::copy(&path, &target).expect("a copy");
+        }
+    }
+}
+
+/// Reads so many changed files from this seed on.
+///
+/// # Errors
+/// What a reader did wrong; the changed file is kept, and named.
+pub fn run(seed: u64, count: u64) -> Result<Totals, String> {
+    let (copies, alive) = (copies(), watch());
+    let all: Vec<Vec<PathBuf>> = TARGETS.iter().map(files).collect();
+    let (mut totals, mut seeds) = (Totals::default(), Rng::with_seed(seed));
+    for k in 0..count {
+        let rng = &mut Rng::with_seed(seeds.u64(..));
+        let (target, files) = (&TARGETS[k as usize % TARGETS.len()], &all[k as usize % TARGETS.len()]);
+        assert!(!files.is_empty(), "{}: no files", target.name);
+        let [file, other] = [0; 2].map(|_| &files[rng.usize(..files.len())]);
+        let [original, other] = [file, other].map(|file| fs::read(file).expect("a file of the repository"));
+        let changed = copies.join(file.strip_prefix(ROOT).expect("a file of the repository"));
+        fs::write(&changed, mutated(rng, &original, &other)).expect("a changed file");
+        let start = thread_time();
+        let read = one(target, &changed, &mut totals);
+        let time = thread_time().saturating_sub(start);
+        if time > TIME / 5 {
+            println!("file {k} took {time:?}, of {}: {}", target.name, changed.display());
+        }
+        if read.is_err() {
+            let kept = copies.join(format!("found-{seed}-{k}")).with_extension(changed.extension().unwrap_or_default());
+            fs::copy(&changed, &kept).expect("a copy");
+            return read
+                .map(|()| totals)
+                .map_err(|why| format!("{why}\nof {}, kept as {}", target.name, kept.display()));
+        }
+        fs::write(&changed, original).expect("the file as it was");
+        alive.send(()).expect("the watch listens");
+    }
+    Ok(totals)
+}
+
+/// Reads a file.
+///
+/// # Errors
+/// A panic, too much time or memory, or a refusal that does not name the file.
+pub fn one(target: &Target, file: &Path, totals: &mut Totals) -> Result<(), String> {
+    if let Ok(mut current) = CURRENT.lock() {
+        *current = format!("{} of {}", file.display(), target.name);
+    }
+    let start = thread_time();
+    let mut read = Ok(Ok(()));
+    let used = allocation_counter::measure(|| {
+        read = panic::catch_unwind(AssertUnwindSafe(|| (target.read)(file)));
+    });
+    let time = thread_time().saturating_sub(start);
+    totals.files += 1;
+    (totals.longest, totals.most) = (totals.longest.max(time), totals.most.max(used.bytes_max));
+    if time > TIME {
+        return Err(format!("took {time:?}"));
+    }
+    if used.bytes_max > MEMORY {
+        return Err(format!("took {} bytes", used.bytes_max));
+    }
+    match read {
+        Err(_) => Err("a panic".into()),
+        Ok(Ok(())) => Ok(()),
+        Ok(Err(error)) => {
+            totals.refused += 1;
+            names(&error, file)
+        }
+    }
+}
+
+/// A refusal names the file, or another one that it refers to, and says what is wrong with it.
+fn names(error: &Error, file: &Path) -> Result<(), String> {
+    let message = error.to_string();
+    let own = file.file_name().unwrap_or_default().to_string_lossy();
+    let beside = file.parent().unwrap_or(file).to_string_lossy();
+    match message.find(&*own).or(message.find(&*beside)) {
+        Some(at) if message.len() > at + own.len() + 4 => Ok(()),
+        _ => Err(format!("a refusal that does not name the file: {message}")),
+    }
+}

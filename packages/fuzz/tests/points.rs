@@ -1,0 +1,30 @@
+//! The fuzzer of the numerical entries.
+
+use toron_fuzz::points::{Case, replay, run, smallest};
+use toron_fuzz::{seed, setting};
+
+/// What was once found, and the case of `TORON_FUZZ_CASE`.
+#[test]
+fn corpus() {
+    let own = std::env::var("TORON_FUZZ_CASE").unwrap_or_default();
+    for line in include_str!("../corpus/points.txt").lines().chain([own.as_str()]) {
+        if line.trim().is_empty() || line.starts_with('#') {
+            continue;
+        }
+        let case = Case::of_line(line).expect("a case");
+        assert_eq!(Case::of_line(&case.to_string()).expect("a case").to_string(), case.to_string());
+        replay(&case, None).unwrap_or_else(|why| panic!("{why}\n{case}"));
+    }
+}
+
+#[test]
+fn points() {
+    let (seed, count) = (seed(), setting("TORON_FUZZ_POINTS", 1_000_000));
+    let (totals, found) = run(seed, count, None);
+    println!("seed {seed}: {totals:?}");
+    if let Some(found) = found {
+        println!("{}", found.why);
+        let found = smallest(found, None);
+        panic!("{}\nseed {seed}; replay with TORON_FUZZ_CASE='{}'", found.why, found.case);
+    }
+}
