@@ -8,7 +8,7 @@ use std::ptr::{null, null_mut};
 use nalgebra::Matrix3;
 use toron::host::abaqus::{self, ExplicitLaw, StandardLaw, Vumat};
 use toron::host::calculix::{Behaviour, CalculixLaw};
-use toron::host::openradioss::{Group, MyReal, evaluate, listing, read};
+use toron::host::openradioss::{Group, MyReal, evaluate_material, listing, read};
 use toron::law::block::Circumstances;
 use toron::law::interface::Law;
 use toron::law::status;
@@ -331,7 +331,7 @@ fn group(number: i32, values: &[f64], limits: Option<[f64; 3]>) -> (Result<(), i
             volume: null(),
         };
         // SAFETY: the arrays have the sizes that the structure tells.
-        if let Err(error) = unsafe { evaluate(laws, &group) } {
+        if let Err(error) = unsafe { evaluate_material(laws, &group) } {
             return (Err(error.code()), uvar, off.to_vec());
         }
     }

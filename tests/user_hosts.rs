@@ -12,7 +12,7 @@ use toron::host::abaqus::{self, ExplicitLaw, StandardLaw, Vumat};
 use toron::host::calculix::{Behaviour, CalculixLaw};
 use toron::host::listed::{self, ListedPoints, Named, PreparedOf};
 use toron::host::lsdyna::{self, UmatVector, UserRoutines, UtanVector};
-use toron::host::openradioss::{Group, Laws, Material, evaluate, read};
+use toron::host::openradioss::{Group, Laws, Material, evaluate_material, read};
 use toron::law::block::Circumstances;
 use toron::law::interface::{Law, Points};
 use toron::law::status;
@@ -574,7 +574,7 @@ fn openradioss<M: Tried>() {
             volume: null(),
         };
         // SAFETY: the arrays have the sizes that the structure tells.
-        unsafe { evaluate(&M::LAWS, &group) }.expect("a group that is right");
+        unsafe { evaluate_material(&M::LAWS, &group) }.expect("a group that is right");
         for element in [0, N - 1] {
             let of = |array: &[f64]| -> Vec<f64> { array.iter().skip(element).step_by(N).copied().collect() };
             let variables = of(&uvar);

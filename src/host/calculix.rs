@@ -34,7 +34,8 @@ use crate::law::hyperelastic::Hyperelastic;
 use crate::law::interface::{Law, Points};
 use crate::law::linear_elastic::LinearElastic;
 use crate::law::number::level::Level;
-use crate::law::point::{Call, Own, Point, Sink, evaluate_call};
+use crate::law::point::{Call, Sink, evaluate_call};
+use crate::law::response::Point;
 use crate::law::response::{Request, nan_unless_finite};
 use crate::law::state::HYPERELASTIC_STATE;
 use crate::law::status;
@@ -43,9 +44,9 @@ use crate::law::tangent::Measure;
 use nalgebra::{Matrix3, Vector3};
 
 use super::ByStep;
+use super::card_variables::{CardNumbers, CardVariables, properties_of};
 use super::entry_points::{properties, start_at_rest};
 use super::environment::in_default_environment;
-use super::limit_variable;
 
 /// The value that pnewdt is lowered to if a point cannot be evaluated. CalculiX passes −1 for no limit.
 const CUTBACK: f64 = 0.25;
@@ -174,7 +175,7 @@ impl Arguments<'_> {
     /// The errors of a deck that the arguments show.
     fn properties<L: Law<f64>>(&self) -> Result<&[f64], Error> {
         let law = &L::DESCRIPTION;
-        let count = limit_variable::properties_of::<f64, L>(self.count());
+        let count = properties_of::<f64, L>(self.count());
         // SAFETY: as many constants as kode says: see `Behaviour`.
         let properties = unsafe { properties(self.constants, count, law.properties) }?;
         let state = law.history();
@@ -202,16 +203,16 @@ impl Arguments<'_> {
         usize::try_from(-100 - i64::from(self.kode)).unwrap_or(0)
     }
 
-    /// The point's own failure limit, or 0.
+    /// What the point has of its own.
     ///
     /// # Errors
     /// The card names no variable that may hold it, or it means nothing.
-    fn limit<L: Law<f64>>(&self) -> Result<f64, Error> {
+    fn own<L: Law<f64>>(&self) -> Result<CardNumbers<f64>, Error> {
         let (kept, variables) = (L::DESCRIPTION.history(), usize::try_from(self.state_count).unwrap_or(0));
         // SAFETY: as many constants as kode says, and as many variables: see `Behaviour`.
         unsafe {
-            let place = limit_variable::place::<f64, L>(self.constants, self.count(), kept, variables)?;
-            limit_variable::check(limit_variable::at(self.old_state, place), self.old_state.add(L::DESCRIPTION.failed))
+            CardVariables::from_card::<f64, L>(self.constants, self.count(), kept, variables)?
+                .numbers::<f64, L>(self.old_state)
         }
     }
 
@@ -245,11 +246,11 @@ impl Arguments<'_> {
             (Some((axes, place)), &[.., m_1, m_2, m_3]) => Some(turned([m_1, m_2, m_3], axes, place)),
             _ => None,
         };
-        let limit = self.limit::<Hyperelastic>()?;
+        let numbers = self.own::<Hyperelastic>()?;
         let mut answer = Answer::new([0.0; HYPERELASTIC_STATE]);
         let request = Request { stress: false, wave_modulus: false, ..Request::ALL };
         let tangent = SixBySix(request, Measure::Material);
-        let own = Own { limit: Some(&limit), ..Own::along(fibre) };
+        let own = numbers.own(fibre);
         // SAFETY: `properties` has refused a state_count below the law's number of variables, and there are as many.
         let state = unsafe { &*self.old_state.cast::<[Cell<f64>; HYPERELASTIC_STATE]>() };
         evaluate_call(Call { source: properties, f: self.f, own, state, tangent, sink: &mut answer }, Level::Avx512)?;
@@ -274,20 +275,19 @@ impl Arguments<'_> {
                 start_at_rest(components_mut(f_old.as_mut_ptr(), 1), 1);
             }
         }
-        let limit = self.limit::<L>()?;
+        let own = self.own::<L>()?;
         let mut answer = Answer::new(old);
         let (mut cauchy, mut entries) = ([0.0; 6], [[0.0; 6]; 6]);
         let point = Points {
             f_old: components(f_old.as_ptr(), 1),
             f_new: components(f_new.as_ptr(), 1),
-            limit: limit_variable::of::<_, L>(&limit),
             circumstances: self.circumstances,
             state_old: L::parts(old.as_ref().as_ptr(), 1),
             state_new: L::parts_mut(answer.state.as_mut().as_mut_ptr(), 1),
             stress: components_mut(cauchy.as_mut_ptr(), 1),
             tangent: entries.as_mut_ptr().cast(),
             measure: Measure::Material,
-            ..Points::without_arrays(1, 1)
+            ..own.point::<L>()
         };
         // SAFETY: the arrays have the sizes of one point, and outputs overlap nothing.
         answer.status = unsafe { law.step(&point) }?;

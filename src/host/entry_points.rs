@@ -69,10 +69,10 @@ fn oblique(index: usize, name: &'static str, value: [f64; 3]) -> Error {
 pub(super) fn check_plane<T: Precision, L: Law<T>>(law: &L, properties: &[T]) -> Result<(), Error> {
     let Description { directions, .. } = L::DESCRIPTION;
     // An axis that is made orthogonal to the fibre may be oblique only because of the second direction.
-    let axes_are_oblique = L::HAS_AXES && law.axes().into_iter().any(out_of_plane);
+    let axes_are_oblique = L::HAS.axes && law.axes().into_iter().any(out_of_plane);
     for (i, direction) in directions.iter().enumerate() {
         let vector = direction.of(properties);
-        let is_oblique = if L::HAS_AXES && i > 0 { axes_are_oblique } else { out_of_plane(vector) };
+        let is_oblique = if L::HAS.axes && i > 0 { axes_are_oblique } else { out_of_plane(vector) };
         if is_oblique {
             return Err(oblique(direction.first, direction.name, vector).for_caller_of::<T>());
         }

@@ -2,9 +2,8 @@
 
 use core::mem::MaybeUninit;
 
-use super::blocks::Block;
 use super::entry_points::of_points;
-use super::points::Point;
+use super::point_and_block::{Block, Point};
 use super::structures::read;
 use crate::law::block::{Points, Precision, at_fault, evaluate_one};
 use crate::law::error::Error;

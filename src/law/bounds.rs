@@ -18,9 +18,26 @@ pub(crate) const fn limits<const N: usize>(table: &[Property; N]) -> [[f64; N]; 
     limits
 }
 
+/// The values as an array, checked as by [`check`]; `limits` are those of the table.
+///
+/// # Errors
+/// As for [`check`].
+#[inline(always)]
+pub(crate) fn checked<'a, T: Real + Into<f64>, const N: usize>(
+    table: &'static [Property; N],
+    limits: &[[f64; N]; 2],
+    values: &'a [T],
+) -> Result<&'a [T; N], Error> {
+    let Ok(values) = <&[T; N]>::try_from(values) else { return Err(wrong_number(values.len() as i64, table)) };
+    if !within(limits, values) {
+        check(table, values)?;
+    }
+    Ok(values)
+}
+
 /// Whether all values are within their limits, as [`check`] finds, but without a branch for each value.
 #[inline(always)]
-pub(crate) fn within<T: Real + Into<f64>, const N: usize>([least, greatest]: &[[f64; N]; 2], values: &[T; N]) -> bool {
+fn within<T: Real + Into<f64>, const N: usize>([least, greatest]: &[[f64; N]; 2], values: &[T; N]) -> bool {
     // Two loops of one comparison each, which the compiler vectorises.
     let (mut enough, mut too_much) = (true, false);
     let mut k = 0;

@@ -48,7 +48,7 @@ pub(crate) struct Stress<const STATE: bool>;
 
 impl<const STATE: bool> Stress<STATE> {
     pub const REQUEST: Request =
-        Request { stress: true, energies: STATE, invariants: STATE, failure: STATE, modes: false, wave_modulus: false };
+        Request { stress: true, energies: STATE, invariants: STATE, failure: STATE, ..Request::NOTHING };
 }
 
 /// What requests no tangent.

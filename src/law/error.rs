@@ -123,122 +123,82 @@ impl Error {
 
     /// Passes the message to `sink`, piece by piece. `core::fmt` is not used, since its code can panic.
     pub fn describe(&self, sink: &mut dyn FnMut(&str)) {
+        let number = |index: usize| Integer(index as i64);
+        let allowed = Text("; allowed: ");
+        let mut say = |pieces: &[Piece]| pieces.iter().for_each(|piece| piece.describe(sink));
         match *self {
             Error::Count { what, found, wanted, .. } => {
-                sink(what);
-                sink(": ");
-                describe_integer(found, sink);
-                sink(" given, ");
-                describe_integer(wanted, sink);
-                sink(" needed");
+                say(&[Text(what), Text(": "), Integer(found), Text(" given, "), Integer(wanted), Text(" needed")]);
             }
             Error::Property { index, property, value, .. } => {
-                sink("property ");
-                describe_integer(index as i64 + 1, sink);
-                sink(" (");
-                sink(property.name);
-                sink(", ");
-                sink(property.meaning);
-                sink(") is ");
-                value.describe(sink);
-                sink("; allowed: ");
-                sink(property.allowed);
+                say(&[Text("property "), number(index + 1), Text(" ("), Text(property.name), Text(", ")]);
+                say(&[Text(property.meaning), Text(") is "), Number(value), allowed, Text(property.allowed)]);
             }
-            Error::Direction { index, name, value, wanted, .. } => {
-                sink("properties ");
-                describe_integer(index as i64 + 1, sink);
-                sink(" to ");
-                describe_integer(index as i64 + 3, sink);
-                sink(" (");
-                sink(name);
-                sink(") are ");
-                value[0].describe(sink);
-                sink(", ");
-                value[1].describe(sink);
-                sink(", ");
-                value[2].describe(sink);
-                sink("; allowed: ");
-                sink(wanted);
+            Error::Direction { index, name, value: [x, y, z], wanted, .. } => {
+                say(&[Text("properties "), number(index + 1), Text(" to "), number(index + 3), Text(" ("), Text(name)]);
+                say(&[Text(") are "), Number(x), Text(", "), Number(y), Text(", "), Number(z), allowed, Text(wanted)]);
             }
             Error::Argument { name, value, wanted } => {
-                sink("argument ");
-                sink(name);
-                sink(" is ");
-                value.describe(sink);
-                sink("; allowed: ");
-                sink(wanted);
+                say(&[Text("argument "), Text(name), Text(" is "), Number(value), allowed, Text(wanted)]);
             }
             Error::Choice { name, value, wanted } => {
-                sink("argument ");
-                sink(name);
-                sink(" is ");
-                describe_integer(value, sink);
-                sink("; allowed: ");
-                sink(wanted);
+                say(&[Text("argument "), Text(name), Text(" is "), Integer(value), allowed, Text(wanted)]);
             }
             Error::Range { name, value, least, greatest, .. } => {
-                sink("argument ");
-                sink(name);
-                sink(" is ");
-                describe_integer(value, sink);
-                sink("; allowed: ");
-                describe_integer(least, sink);
+                say(&[Text("argument "), Text(name), Text(" is "), Integer(value), allowed, Integer(least)]);
                 if greatest == i64::MAX {
-                    sink(" or more");
+                    say(&[Text(" or more")]);
                 } else if greatest > least {
-                    sink(" to ");
-                    describe_integer(greatest, sink);
+                    say(&[Text(" to "), Integer(greatest)]);
                 }
             }
-            Error::Null { name } => {
-                sink("argument ");
-                sink(name);
-                sink(" is null");
-            }
-            Error::NotPrepared { by } => {
-                sink("the law has not been prepared by ");
-                sink(by);
-            }
+            Error::Null { name } => say(&[Text("argument "), Text(name), Text(" is null")]),
+            Error::NotPrepared { by } => say(&[Text("the law has not been prepared by "), Text(by)]),
             Error::Size { structure, size, known } => {
-                sink("the size of ");
-                sink(structure);
-                sink(" is given as ");
-                describe_integer(i64::try_from(size).unwrap_or(i64::MAX), sink);
-                sink("; it is ");
-                describe_integer(known as i64, sink);
-                sink(" in this version of the library");
+                let size = Integer(i64::try_from(size).unwrap_or(i64::MAX));
+                say(&[Text("the size of "), Text(structure), Text(" is given as "), size, Text("; it is ")]);
+                say(&[number(known), Text(" in this version of the library")]);
             }
             Error::Point { code, index } => {
-                describe_point(index, sink);
-                Error::Plain(code).describe(sink);
+                say(&[Text("point "), number(index), Text(", counted from 0: "), Code(code)]);
             }
             Error::PointOfLaw { index, text, .. } => {
-                describe_point(index, sink);
-                sink(text);
+                say(&[Text("point "), number(index), Text(", counted from 0: "), Text(text)]);
             }
             Error::Element { code, number } => {
-                sink("element ");
-                describe_integer(number, sink);
-                sink(": ");
-                Error::Plain(code).describe(sink);
+                say(&[Text("element "), Integer(number), Text(": "), Code(code)]);
             }
-            Error::Setting { text, .. } => sink(text),
+            Error::Setting { text, .. } => say(&[Text(text)]),
             Error::ElementSetting { number, text, .. } => {
-                sink("element ");
-                describe_integer(number, sink);
-                sink(": ");
-                sink(text);
+                say(&[Text("element "), Integer(number), Text(": "), Text(text)]);
             }
             Error::UnknownField { structure, offset, known } => {
-                sink("byte ");
-                describe_integer(offset as i64, sink);
-                sink(" of ");
-                sink(structure);
-                sink(" is not 0; this version of the library knows ");
-                describe_integer(known as i64, sink);
-                sink(" bytes of it");
+                say(&[Text("byte "), number(offset), Text(" of "), Text(structure)]);
+                say(&[Text(" is not 0; this version of the library knows "), number(known), Text(" bytes of it")]);
             }
-            Error::Plain(code) => match meaning(code) {
+            Error::Plain(code) => say(&[Code(code)]),
+        }
+    }
+}
+
+/// A piece of a message.
+#[derive(Clone, Copy)]
+enum Piece {
+    Text(&'static str),
+    Integer(i64),
+    Number(Value),
+    /// What a status code means.
+    Code(i32),
+}
+use Piece::{Code, Integer, Number, Text};
+
+impl Piece {
+    fn describe(self, sink: &mut dyn FnMut(&str)) {
+        match self {
+            Text(text) => sink(text),
+            Integer(value) => describe_integer(value, sink),
+            Number(value) => value.describe(sink),
+            Code(code) => match meaning(code) {
                 Some(text) => sink(text),
                 None => {
                     sink("no such status code: ");
@@ -247,12 +207,6 @@ impl Error {
             },
         }
     }
-}
-
-fn describe_point(index: usize, sink: &mut dyn FnMut(&str)) {
-    sink("point ");
-    describe_integer(index as i64, sink);
-    sink(", counted from 0: ");
 }
 
 /// Passes the digits to `sink` one by one. The crate `itoa` is not used: its bounds checks would leave a panic in the

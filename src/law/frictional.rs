@@ -29,8 +29,8 @@
 //! Left out: dilatancy (so that µ is what the fibres lose, not q/p_t at the peak), friction of fibres along each other,
 //! and the rate.
 
-use super::block::{PARTS, Points, Precision, evaluate};
-use super::bounds::{check, limits, within};
+use super::block::{Has, PARTS, Points, Precision, evaluate_points};
+use super::bounds::{checked, limits};
 use super::description::{self, Description};
 use super::error::Error;
 use super::hyperelastic::{Hyperelastic, Kirchhoff};
@@ -38,10 +38,9 @@ use super::interface::Law;
 use super::kinematics::{Section, Strain, Unimodular};
 use super::number::elementary::sinh_and_exp_of_minus;
 use super::number::real::Real;
-use super::parameters::{self, FRICTIONAL_PROPERTIES, HYPERELASTIC_PROPERTIES};
+use super::parameters::{self, HYPERELASTIC_PROPERTIES};
 use super::resistance::{Resistance, ShearLimit};
 use super::state::{FRICTIONAL_PARTS, FRICTIONAL_STATE};
-use super::status;
 
 /// The law, prepared from its thirteen properties: the hyperelastic law, and the friction. Points are evaluated by
 /// [`Law::step`]; their state is the fifteen variables of [`state::FRICTIONAL`](super::state::FRICTIONAL), all 0 at the
@@ -58,14 +57,8 @@ impl<T: Precision> Frictional<T> {
     /// # Errors
     /// The first property that is wrong, with its value and what is allowed.
     pub fn new(properties: &[T]) -> Result<Self, Error> {
-        const LIMITS: [[f64; FRICTIONAL_PROPERTIES]; 2] = limits(&parameters::FRICTIONAL);
-        let Ok(properties) = <&[T; FRICTIONAL_PROPERTIES]>::try_from(properties) else {
-            check(&parameters::FRICTIONAL, properties)?;
-            return Err(Error::Plain(status::PROPERTY_COUNT)); // not reached: `check` has returned the error
-        };
-        if !within(&LIMITS, properties) {
-            check(&parameters::FRICTIONAL, properties)?;
-        }
+        let table = &parameters::FRICTIONAL;
+        let properties = checked(table, const { &limits(&parameters::FRICTIONAL) }, properties)?;
         let &[k_el, k_tc, p, k_td, k_ld, eps_lim, alpha, beta, m_1, m_2, m_3, mu, cohesion] = properties;
         let elastic: [T; HYPERELASTIC_PROPERTIES] = [k_el, k_tc, p, k_td, k_ld, eps_lim, alpha, beta, m_1, m_2, m_3];
         Ok(Frictional { elastic: Hyperelastic::new(&elastic)?, friction: Friction::new(k_td, mu, cohesion) })
@@ -75,8 +68,7 @@ impl<T: Precision> Frictional<T> {
 // SAFETY: the state is that of the description, and the block's kernels access what `Points` says.
 unsafe impl<T: Precision> Law<T> for Frictional<T> {
     const DESCRIPTION: Description = description::FRICTIONAL;
-    const HAS_LIMIT: bool = true;
-    const HAS_MODES: bool = true;
+    const HAS: Has = Has::YARN;
     const PARTS: [usize; PARTS] = FRICTIONAL_PARTS;
     type State = [T; FRICTIONAL_STATE];
 
@@ -109,7 +101,7 @@ unsafe impl<T: Precision> Law<T> for Frictional<T> {
     #[inline(always)]
     unsafe fn step(&self, points: &Points<T>) -> Result<i32, Error> {
         // SAFETY: the points are valid.
-        unsafe { evaluate(self, points) }
+        unsafe { evaluate_points(self, points) }
     }
 }
 

@@ -3,7 +3,7 @@
 
 use super::axes::FibreFrame;
 pub use super::block::Points;
-use super::block::{PARTS, Precision, evaluate, parts};
+use super::block::{Has, PARTS, Precision, evaluate_points, parts};
 use super::description::{self, Description};
 use super::error::Error;
 use super::hyperelastic::Hyperelastic;
@@ -19,13 +19,8 @@ use super::state::{HYPERELASTIC_PARTS, HYPERELASTIC_STATE, LINEAR_ELASTIC_STATE}
 pub unsafe trait Law<T: Precision>: Copy {
     /// The law's tables, and what hosts have to know of them.
     const DESCRIPTION: Description;
-    /// Whether a point may have a failure limit of its own, [`Points::limit`].
-    const HAS_LIMIT: bool = false;
-    /// Whether a point may have a second axis, or axes that are kept, of its own: [`Points::second_axis`],
-    /// [`Points::axes`].
-    const HAS_AXES: bool = false;
-    /// Whether the law tells the stress by mode, [`Points::modes`].
-    const HAS_MODES: bool = false;
+    /// Which arrays its points may have besides those of every law.
+    const HAS: Has = Has::NOTHING_ELSE;
     /// The number of variables in each part of the state that may be an array of its own, 0 for a part that there is
     /// not; the last one has the latch.
     const PARTS: [usize; PARTS] = [Self::DESCRIPTION.state.len(), 0, 0];
@@ -96,8 +91,7 @@ pub unsafe trait Law<T: Precision>: Copy {
 // SAFETY: the state is that of the description, and the block's kernels access what `Points` says.
 unsafe impl<T: Precision> Law<T> for Hyperelastic<T> {
     const DESCRIPTION: Description = description::HYPERELASTIC;
-    const HAS_LIMIT: bool = true;
-    const HAS_MODES: bool = true;
+    const HAS: Has = Has::YARN;
     const PARTS: [usize; PARTS] = HYPERELASTIC_PARTS;
     type State = [T; HYPERELASTIC_STATE];
 
@@ -127,15 +121,14 @@ unsafe impl<T: Precision> Law<T> for Hyperelastic<T> {
     #[inline(always)]
     unsafe fn step(&self, points: &Points<T>) -> Result<i32, Error> {
         // SAFETY: the points are valid.
-        unsafe { evaluate(self, points) }
+        unsafe { evaluate_points(self, points) }
     }
 }
 
 // SAFETY: the state is that of the description, and the block's kernels access what `Points` says.
 unsafe impl<T: Precision> Law<T> for LinearElastic<T> {
     const DESCRIPTION: Description = description::LINEAR_ELASTIC;
-    const HAS_LIMIT: bool = true;
-    const HAS_AXES: bool = true;
+    const HAS: Has = Has::LINEAR_ELASTIC;
     type State = [T; LINEAR_ELASTIC_STATE];
 
     fn fresh() -> Self::State {
@@ -163,6 +156,6 @@ unsafe impl<T: Precision> Law<T> for LinearElastic<T> {
     #[inline(always)]
     unsafe fn step(&self, points: &Points<T>) -> Result<i32, Error> {
         // SAFETY: the points are valid, and so they are with fewer arrays.
-        unsafe { evaluate(self, &LinearElastic::in_frame(points)?) }
+        unsafe { evaluate_points(self, &LinearElastic::in_frame(points)?) }
     }
 }

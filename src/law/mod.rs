@@ -18,6 +18,7 @@ pub(crate) mod kinematics;
 pub mod linear_elastic;
 pub(crate) mod linear_tangent;
 pub(crate) mod number;
+pub(crate) mod own;
 pub mod parameters;
 pub(crate) mod point;
 pub(crate) mod preparation;

@@ -16,27 +16,12 @@ use super::number::level::Level;
 use super::number::level::has_fma;
 use super::number::real::{Real, Single};
 use super::number::registers::Registers;
+use super::own::Own;
 use super::preparation::PropertyFrame;
-use super::response::{History, Request, Response, nan_unless_finite};
-use super::state::{ALIVE, FAILED, HYPERELASTIC_STATE};
-use super::status;
+use super::response::{OldState, Point, Request, nan_unless_finite, values};
+use super::state::{FAILED, HYPERELASTIC_STATE};
 use super::tangent::{Bases, Measure, may_overflow};
 use super::voigt::Moduli;
-
-/// The results of the law at one point.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Point<T> {
-    /// Cauchy stress 11 22 33 12 23 31.
-    pub stress: [T; 6],
-    /// The new state, in the order of [`state::HYPERELASTIC`](super::state::HYPERELASTIC).
-    pub state: [T; HYPERELASTIC_STATE],
-    /// Second Piola–Kirchhoff stress by mode, S_el, S_tc, S_td, S_ld, each 11 22 33 12 23 31.
-    pub modes: [[T; 6]; 4],
-    /// ρ0 c² for an upper bound c of the wave speed.
-    pub wave_modulus: T,
-    /// 0, or the [`status`] code of the reason why the point could not be evaluated.
-    pub status: i32,
-}
 
 /// Takes the results of a point while they are still in registers: writing them to memory and copying them from there
 /// would make the processor wait.
@@ -102,7 +87,7 @@ impl<T: Real<Mask = bool> + Into<f64>> Hyperelastic<T> {
     ) -> (Point<T>, [T; N]) {
         let (mut point, mut entries) = (Point::nothing(), [T::splat(0.0); N]);
         let sink = (&mut point, &mut entries);
-        let evaluated = evaluate::<T, T, _, _, _, D, _, N>(self, f, own, &cells(*state), tangent, sink);
+        let evaluated = choose_axes::<T, T, _, _, _, D, _, N>(self, f, own, &cells(*state), tangent, sink);
         debug_assert!(evaluated.is_ok()); // only wrong properties are an error, and those of a law are right
         (point, entries)
     }
@@ -244,13 +229,6 @@ impl<T: Copy> Columns<T> for &[[T; 3]; 3] {
     }
 }
 
-/// The old state of a point, wherever its entries are. Only the latch is read at every point, and nothing once the sink
-/// has taken the new state, which may be in the same place.
-pub(crate) trait OldState<T> {
-    /// An entry, in the order of [`state::HYPERELASTIC`](super::state::HYPERELASTIC).
-    fn entry(&self, c: usize) -> T;
-}
-
 impl<T: Copy> OldState<T> for &[Cell<T>; HYPERELASTIC_STATE] {
     #[inline(always)]
     fn entry(&self, c: usize) -> T {
@@ -263,7 +241,7 @@ impl<T: Copy> OldState<T> for &[Cell<T>; HYPERELASTIC_STATE] {
 /// # Errors
 /// The first property that is wrong; the sink is not called.
 #[inline(always)]
-fn evaluate<
+fn choose_axes<
     T: Real<Mask = bool> + Into<f64>,
     R: Single<T>,
     L: Source<T>,
@@ -298,28 +276,6 @@ fn evaluate<
     };
     let axes = MaterialAxes { axes: frame, frame, usable };
     point_in(source, &given, Inputs { f: &f, own, state: &state }, &axes, tangent, sink)
-}
-
-/// What a point may have of its own, in place of what the properties say.
-#[derive(Clone, Copy)]
-pub(crate) struct Own<'a, T> {
-    /// A fibre direction of any length.
-    pub fibre: Option<[T; 3]>,
-    /// ln(1 + ε_lim), or 0 for that of the properties. Read if failure is requested.
-    pub limit: Option<&'a T>,
-}
-
-impl<T> Own<'_, T> {
-    pub const NONE: Self = Own { fibre: None, limit: None };
-
-    /// A fibre direction, or that of the properties, and nothing else.
-    #[inline(always)]
-    pub const fn along(fibre: Option<[T; 3]>) -> Self
-    where
-        T: Copy,
-    {
-        Own { fibre, limit: None }
-    }
 }
 
 /// A call from a host: the properties or a law prepared from them, a point, and what becomes of the results.
@@ -392,7 +348,7 @@ pub(crate) fn evaluate_call<
             call: Call<'_, T, L, F, O, D, S, N>,
         ) -> Result<(), Error> {
             let Call { source, f, own, state, tangent, sink } = call;
-            evaluate::<T, T::Point, L, F, O, D, S, N>(source, f, own, state, tangent, sink)
+            choose_axes::<T, T::Point, L, F, O, D, S, N>(source, f, own, state, tangent, sink)
         }
         if level > Level::Baseline && has_fma() {
             // SAFETY: the processor has AVX2 and FMA, as `has_fma` has found.
@@ -418,17 +374,6 @@ pub(crate) fn cells<T>([a, b, c, d, e, f, g, h, i, j, k]: [T; HYPERELASTIC_STATE
         Cell::new(j),
         Cell::new(k),
     ]
-}
-
-/// The values of N numbers, each of which holds one point.
-#[inline(always)]
-fn values<T: Real, R: Single<T>, const N: usize>(numbers: &[R; N]) -> [T; N] {
-    let (mut values, mut k) = ([T::splat(0.0); N], 0);
-    while k < N {
-        values[k] = numbers[k].value();
-        k += 1;
-    }
-    values
 }
 
 /// The material axes of a point.
@@ -491,73 +436,20 @@ fn point_in<
     let nan_if_invalid = R::select(usable, strain.nan_if_invalid, R::splat(f64::NAN));
     let r = deformed.respond(frame, nan_if_invalid, latch, request);
     let zero = R::splat(0.0);
-    let limit = if request.failure { own.limit.map(|&limit| R::of(limit)) } else { None };
-    // As late as can be, since the compiler moves nothing across this decision.
-    let (index, updated) = match limit {
-        None if request.failure => (failure.index(&strain), r.updated),
-        None => (zero, r.updated),
-        Some(limit) => (failure.at(limit).index(&strain), r.updated & Failure::is_limit(limit)),
-    };
+    // As late as can be, since the compiler moves nothing across what is decided here.
+    let own = own.numbers(request);
+    let index = if request.failure { own.failure_index(failure, &strain) } else { zero };
+    let updated = own.allowed(r.updated);
     let h = law.history(index, &strain, stretch.shear_invariant(), &k, updated, latch, request, shear);
     // This check comes after the stress, so that the stress need not wait for the tangent.
     let representable = if may_overflow { nan_unless_finite(&entries).le(zero) } else { zero.le(zero) };
     if !R::holds(updated & representable) {
         let failed = R::select(Failure::intact(latch), zero, R::splat(1.0)).value();
-        let code: f64 = law.status_code(f, &stretch, usable, limit.map(Failure::is_limit), latch).value().into();
+        let code: f64 = law.status_code(f, &stretch, usable, own.are_allowed(), latch).value().into();
         sink.take(Point::unchanged(state, failed, law.k_el.value(), code as i32), None, [T::splat(0.0); N]);
         return Ok(());
     }
     let point = Point::updated(&r, &h);
     sink.take(point, Some(stretch.inverse_jacobian.value()), values(&entries));
     Ok(())
-}
-
-impl<T: Real<Mask = bool>> Point<T> {
-    /// All zeros.
-    #[inline(always)]
-    pub(crate) fn nothing() -> Self {
-        let zero = T::splat(0.0);
-        Point {
-            stress: [zero; 6],
-            state: [zero; HYPERELASTIC_STATE],
-            modes: [[zero; 6]; 4],
-            wave_modulus: zero,
-            status: status::OK,
-        }
-    }
-
-    /// A point with a new state.
-    #[inline(always)]
-    fn updated<R: Single<T>>(r: &Response<R>, h: &History<R>) -> Self {
-        let failed = h.failed.value();
-        let ([w_el, w_tc, w_td, w_ld], [i_el, i_tc, i_td, i_ld]) = (values(&h.energies), values(&h.invariants));
-        let (index, alive) = (h.failure_index.value(), T::splat(1.0) - failed);
-        Point {
-            stress: values(&r.stress),
-            state: [w_el, w_tc, w_td, w_ld, i_el, i_tc, i_td, i_ld, index, failed, alive],
-            modes: [values(&r.modes[0]), values(&r.modes[1]), values(&r.modes[2]), values(&r.modes[3])],
-            wave_modulus: r.wave_modulus.value(),
-            status: status::OK,
-        }
-    }
-
-    /// A point without stress that keeps its old state. The latch is set to `failed`; entries that are not finite
-    /// become 0.
-    #[inline(never)]
-    fn unchanged(state: &impl OldState<T>, failed: T, wave_modulus: T, status: i32) -> Self {
-        let zero = T::splat(0.0);
-        let mut point = Point { wave_modulus, status, ..Point::nothing() };
-        // The caller has checked the latch, and `alive` is never read.
-        for (c, x) in point.state.iter_mut().enumerate().take(FAILED) {
-            let old = state.entry(c);
-            let finite = (old * zero).le(zero);
-            *x = T::select(finite, old, zero);
-            if !finite && point.status == status::OK {
-                point.status = status::STATE_NOT_FINITE;
-            }
-        }
-        point.state[FAILED] = failed;
-        point.state[ALIVE] = T::splat(1.0) - failed;
-        point
-    }
 }

@@ -1,7 +1,7 @@
 //! From properties to a law: their check against the tables, and what is derived from them once.
 
 use super::axes::FibreFrame;
-use super::bounds::{check, limits, within};
+use super::bounds::{check, checked, limits};
 use super::error::{Error, Value};
 use super::failure::Failure;
 use super::hyperelastic::{self, Hyperelastic};
@@ -57,14 +57,8 @@ impl<T: Real + Into<f64>> Hyperelastic<T> {
     // if the law were copied as a whole, all of them would have to be computed first.
     #[inline(always)]
     pub(super) fn prepare(properties: &[T], frame: &PropertyFrame<T>) -> Result<Self, Error> {
-        const LIMITS: [[f64; HYPERELASTIC_PROPERTIES]; 2] = limits(&parameters::HYPERELASTIC);
-        let Ok(properties) = <&[T; HYPERELASTIC_PROPERTIES]>::try_from(properties) else {
-            check(&parameters::HYPERELASTIC, properties)?;
-            return Err(Error::Plain(status::PROPERTY_COUNT)); // not reached: `check` has returned the error
-        };
-        if !within(&LIMITS, properties) {
-            check(&parameters::HYPERELASTIC, properties)?;
-        }
+        let table = &parameters::HYPERELASTIC;
+        let properties = checked(table, const { &limits(&parameters::HYPERELASTIC) }, properties)?;
         let &[k_el, k_tc, p, k_td, k_ld, _, _, _, m_1, m_2, m_3] = properties;
         if !frame.usable {
             return Err(Error::Direction {

@@ -5,7 +5,8 @@ use super::axes::FibreFrame;
 use super::failure::Failure;
 use super::hyperelastic::{Deformed, Hyperelastic, Kirchhoff};
 use super::kinematics::{Decomposition, Kinematics, Strain, Stretch};
-use super::number::real::Real;
+use super::number::real::{Real, Single};
+use super::state::{ALIVE, FAILED, HYPERELASTIC_STATE};
 use super::status;
 
 /// The results that a caller requests. Values that are not requested have no meaning in the result.
@@ -29,6 +30,15 @@ impl Request {
     /// All results.
     pub const ALL: Request =
         Request { stress: true, energies: true, invariants: true, failure: true, modes: true, wave_modulus: true };
+    /// None.
+    pub(crate) const NOTHING: Request = Request {
+        stress: false,
+        energies: false,
+        invariants: false,
+        failure: false,
+        modes: false,
+        wave_modulus: false,
+    };
     /// Stress and state: what a solver needs at every step.
     pub const STRESS_AND_STATE: Request = Request { modes: false, wave_modulus: false, ..Request::ALL };
 }
@@ -195,4 +205,87 @@ pub(crate) fn nan_unless_finite<R: Real>(values: &[R]) -> R {
         a = x.mul_add(zero, a);
     }
     (a + b) + (c + d)
+}
+
+/// The results of the law at one point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Point<T> {
+    /// Cauchy stress 11 22 33 12 23 31.
+    pub stress: [T; 6],
+    /// The new state, in the order of [`state::HYPERELASTIC`](super::state::HYPERELASTIC).
+    pub state: [T; HYPERELASTIC_STATE],
+    /// Second Piola–Kirchhoff stress by mode, S_el, S_tc, S_td, S_ld, each 11 22 33 12 23 31.
+    pub modes: [[T; 6]; 4],
+    /// ρ0 c² for an upper bound c of the wave speed.
+    pub wave_modulus: T,
+    /// 0, or the [`status`] code of the reason why the point could not be evaluated.
+    pub status: i32,
+}
+
+/// The old state of a point, wherever its entries are. Only the latch is read at every point, and nothing once the sink
+/// has taken the new state, which may be in the same place.
+pub(crate) trait OldState<T> {
+    /// An entry, in the order of [`state::HYPERELASTIC`](super::state::HYPERELASTIC).
+    fn entry(&self, c: usize) -> T;
+}
+
+impl<T: Real<Mask = bool>> Point<T> {
+    /// All zeros.
+    #[inline(always)]
+    pub(crate) fn nothing() -> Self {
+        let zero = T::splat(0.0);
+        Point {
+            stress: [zero; 6],
+            state: [zero; HYPERELASTIC_STATE],
+            modes: [[zero; 6]; 4],
+            wave_modulus: zero,
+            status: status::OK,
+        }
+    }
+
+    /// A point with a new state.
+    #[inline(always)]
+    pub(super) fn updated<R: Single<T>>(r: &Response<R>, h: &History<R>) -> Self {
+        let failed = h.failed.value();
+        let ([w_el, w_tc, w_td, w_ld], [i_el, i_tc, i_td, i_ld]) = (values(&h.energies), values(&h.invariants));
+        let (index, alive) = (h.failure_index.value(), T::splat(1.0) - failed);
+        Point {
+            stress: values(&r.stress),
+            state: [w_el, w_tc, w_td, w_ld, i_el, i_tc, i_td, i_ld, index, failed, alive],
+            modes: [values(&r.modes[0]), values(&r.modes[1]), values(&r.modes[2]), values(&r.modes[3])],
+            wave_modulus: r.wave_modulus.value(),
+            status: status::OK,
+        }
+    }
+
+    /// A point without stress that keeps its old state. The latch is set to `failed`; entries that are not finite
+    /// become 0.
+    #[inline(never)]
+    pub(super) fn unchanged(state: &impl OldState<T>, failed: T, wave_modulus: T, status: i32) -> Self {
+        let zero = T::splat(0.0);
+        let mut point = Point { wave_modulus, status, ..Point::nothing() };
+        // The caller has checked the latch, and `alive` is never read.
+        for (c, x) in point.state.iter_mut().enumerate().take(FAILED) {
+            let old = state.entry(c);
+            let finite = (old * zero).le(zero);
+            *x = T::select(finite, old, zero);
+            if !finite && point.status == status::OK {
+                point.status = status::STATE_NOT_FINITE;
+            }
+        }
+        point.state[FAILED] = failed;
+        point.state[ALIVE] = T::splat(1.0) - failed;
+        point
+    }
+}
+
+/// The values of N numbers, each of which holds one point.
+#[inline(always)]
+pub(super) fn values<T: Real, R: Single<T>, const N: usize>(numbers: &[R; N]) -> [T; N] {
+    let (mut values, mut k) = ([T::splat(0.0); N], 0);
+    while k < N {
+        values[k] = numbers[k].value();
+        k += 1;
+    }
+    values
 }

@@ -14,7 +14,7 @@ use toron::Level;
 use toron::Measure;
 use toron::Point;
 use toron::Real;
-use toron::host::{constants, points};
+use toron::host::{constants, point_and_block, points};
 use toron::law::block::Points;
 use toron::law::interface::Law;
 use toron::law::parameters::PRESETS;
@@ -265,18 +265,18 @@ fn once(properties: &[f64; 11], input: &Input<f64>) -> (Point<f64>, [f64; 21]) {
         [Point { stress: [0.0; 6], state: input.old, modes: [[0.0; 6]; 4], wave_modulus: 0.0, status: 0 }; 2];
     for (point, with_tangent) in answers.iter_mut().zip([true, false]) {
         let (stress, state) = (point.stress.as_mut_ptr(), point.state.as_mut_ptr());
-        let arguments = points::Point {
+        let arguments = point_and_block::Point {
             measure: constants::TORON_TANGENT_JAUMANN,
             deformation_gradient: input.f.as_ptr(),
             state_old: input.old.as_ptr(),
             state_new: state,
             stress,
             tangent: if with_tangent { tangent.as_mut_ptr().cast() } else { null_mut() },
-            ..points::Point::empty()
+            ..point_and_block::Point::empty()
         };
         // SAFETY: eleven properties and state variables, nine entries of F, six stresses, 36 moduli.
         unsafe {
-            point.status = status_of(points::evaluate(&properties[..], &arguments));
+            point.status = status_of(points::hyperelastic_point(&properties[..], &arguments));
             check_prepared(properties, &arguments, point);
         }
     }
@@ -296,12 +296,12 @@ fn status_of(answer: Result<i32, Error>) -> i32 {
 ///
 /// # Safety
 /// The arrays are those of one point.
-unsafe fn check_prepared(properties: &[f64; 11], arguments: &points::Point<f64>, point: &Point<f64>) {
+unsafe fn check_prepared(properties: &[f64; 11], arguments: &point_and_block::Point<f64>, point: &Point<f64>) {
     let (mut stress, mut state) = ([0.0; 6], [0.0; 11]);
-    let again = points::Point { state_new: state.as_mut_ptr(), stress: stress.as_mut_ptr(), ..*arguments };
+    let again = point_and_block::Point { state_new: state.as_mut_ptr(), stress: stress.as_mut_ptr(), ..*arguments };
     let law = Hyperelastic::new(properties).map(|law| PreparedHyperelastic::from(&law));
     // SAFETY: as the caller promises.
-    let answer = law.and_then(|law| unsafe { points::evaluate(&law, &again) });
+    let answer = law.and_then(|law| unsafe { points::hyperelastic_point(&law, &again) });
     assert_eq!(status_of(answer), point.status);
     let prepared = Point { stress, state, ..*point };
     assert_eq!(bits(&prepared).0[..14], bits(point).0[..14], "stress, energies and invariants");

@@ -2,7 +2,8 @@
 //! and a leading dimension for each group; and which points are active.
 
 use nalgebra::Matrix3;
-use toron::host::blocks::{self, Block, Given};
+use toron::host::blocks::{self, Given};
+use toron::host::point_and_block::Block;
 use toron::law::block::{Points, Strides, components, components_mut};
 use toron::law::interface::Law;
 use toron::law::state::{FAILED, HYPERELASTIC_STATE};
@@ -201,7 +202,8 @@ fn few_points_are_active_alike() {
     let mut block = Block { n: 3, failure: failure.as_mut_ptr().cast(), active: active.as_mut_ptr(), ..Block::empty() };
     block.deformation_gradient[0] = f.as_ptr().cast();
     // SAFETY: arrays of three points.
-    let error = unsafe { blocks::evaluate(Given::Properties(&properties), &block) }.expect_err("an inverted point");
+    let error =
+        unsafe { blocks::hyperelastic_block(Given::Properties(&properties), &block) }.expect_err("an inverted point");
     assert_eq!((error.code(), active), (status::INVERTED, [1.0, 0.0, 0.0]));
     assert_eq!(failure[1], [0.0, 0.0, 1.0], "the second point fails, the inverted one does not");
 }

@@ -4,9 +4,11 @@ use std::ptr::{null, null_mut};
 
 use nalgebra::Matrix3;
 use toron::host::arguments::Layout;
-use toron::host::blocks::{self, Block, Given};
+use toron::host::blocks::{self, Given};
 use toron::host::linear_elastic::{self, LinearBlock};
-use toron::host::points::{self, Point};
+use toron::host::point_and_block::Block;
+use toron::host::point_and_block::Point;
+use toron::host::points;
 use toron::law::block::{Points, Strides, components, components_mut};
 use toron::law::interface::Law;
 use toron::law::parameters::SIGMA_LIM;
@@ -172,7 +174,7 @@ fn limits_stand_where_the_caller_says() {
         ..Block::empty()
     };
     // SAFETY: every array has a row for each point.
-    let code = unsafe { blocks::evaluate(Given::Properties(&PROPERTIES), &block) };
+    let code = unsafe { blocks::hyperelastic_block(Given::Properties(&PROPERTIES), &block) };
     assert_eq!((code, of_c), (Ok(status::OK), state.clone()));
     for i in 0..n {
         let wanted = law.with_limit(limit(i)).expect("a limit").point(&f[i], &[0.0; STATE], Request::STRESS_AND_STATE);
@@ -195,7 +197,7 @@ fn limits_stand_where_the_caller_says() {
             ..Block::empty()
         };
         // SAFETY: arrays of one point.
-        let code = unsafe { blocks::evaluate(Given::Properties(&PROPERTIES), &block) };
+        let code = unsafe { blocks::hyperelastic_block(Given::Properties(&PROPERTIES), &block) };
         assert_eq!(code, Ok(status::OK));
         close(&one, "block");
         let mut alone = [0.0; STATE];
@@ -207,7 +209,7 @@ fn limits_stand_where_the_caller_says() {
             ..Point::empty()
         };
         // SAFETY: arrays of one point.
-        let code = unsafe { points::evaluate(&PROPERTIES[..], &point) };
+        let code = unsafe { points::hyperelastic_point(&PROPERTIES[..], &point) };
         assert_eq!(code, Ok(status::OK));
         close(&alone, "point");
     }
@@ -236,7 +238,8 @@ fn a_limit_that_means_nothing_is_found() {
         ..Block::empty()
     };
     // SAFETY: component-major arrays of n points.
-    let error = unsafe { blocks::evaluate(Given::Properties(&PROPERTIES), &block) }.expect_err("a wrong limit");
+    let error =
+        unsafe { blocks::hyperelastic_block(Given::Properties(&PROPERTIES), &block) }.expect_err("a wrong limit");
     assert!(error.code() == status::LIMIT && error.to_string().contains("point 41"), "{error}");
 }
 
@@ -274,7 +277,7 @@ fn a_limit_that_means_nothing_is_an_error_of_its_point() {
             ..Point::empty()
         };
         // SAFETY: arrays of one point.
-        let code = unsafe { points::evaluate(&PROPERTIES[..], &point) };
+        let code = unsafe { points::hyperelastic_point(&PROPERTIES[..], &point) };
         assert_eq!(code, Ok(status::LIMIT));
         let text = toron::Error::Plain(status::LIMIT).to_string();
         assert!(text.contains("the failure limit of this point is negative, NaN or infinite"), "{text}");
@@ -341,7 +344,7 @@ fn a_point_is_as_a_block_of_it() {
                 ..Point::empty()
             };
             // SAFETY: arrays of one point.
-            point.code = unsafe { points::evaluate(&PROPERTIES[..], &arrays) }.expect("a good call");
+            point.code = unsafe { points::hyperelastic_point(&PROPERTIES[..], &arrays) }.expect("a good call");
             let state = block.state.as_mut_ptr();
             let arrays = Points {
                 density: 1.35e-9,

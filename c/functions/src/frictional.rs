@@ -1,10 +1,10 @@
 //! The law with friction: prepared, at one point, at blocks of points.
 
 use libc::{c_char, size_t};
-use toron::host::blocks::Block;
 use toron::host::entry_points::{Message, entry, properties};
 use toron::host::frictional;
-use toron::host::points::Point;
+use toron::host::point_and_block::Block;
+use toron::host::point_and_block::Point;
 use toron::host::prepared::{AsNumbers, PreparedLaw, numbers, prepare};
 use toron::law::block::Precision;
 use toron::law::parameters;

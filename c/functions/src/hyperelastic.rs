@@ -2,9 +2,11 @@
 
 use libc::{c_char, size_t};
 use toron::Error;
-use toron::host::blocks::{self, Block, Given};
+use toron::host::blocks::{self, Given};
 use toron::host::entry_points::{Message, entry, properties};
-use toron::host::points::{self, Point};
+use toron::host::point_and_block::Block;
+use toron::host::point_and_block::Point;
+use toron::host::points;
 use toron::host::prepared::{numbers, prepare};
 use toron::law::parameters;
 
@@ -68,7 +70,7 @@ pub unsafe extern "C" fn toron_hyperelastic_point_f64(
     capacity: size_t,
 ) -> i32 {
     // SAFETY: the caller's arguments, as lib.rs says.
-    unsafe { entry(Message { text: message, capacity }, move || points::evaluate(numbers(law)?, point)) }
+    unsafe { entry(Message { text: message, capacity }, move || points::hyperelastic_point(numbers(law)?, point)) }
 }
 
 /// As `toron_hyperelastic_point_f64`, in single precision.
@@ -80,7 +82,7 @@ pub unsafe extern "C" fn toron_hyperelastic_point_f32(
     capacity: size_t,
 ) -> i32 {
     // SAFETY: the caller's arguments, as lib.rs says.
-    unsafe { entry(Message { text: message, capacity }, move || points::evaluate(numbers(law)?, point)) }
+    unsafe { entry(Message { text: message, capacity }, move || points::hyperelastic_point(numbers(law)?, point)) }
 }
 
 /// As `toron_hyperelastic_point_f64`, with the properties in the table's order, which are checked in every call, in
@@ -94,7 +96,9 @@ pub unsafe extern "C" fn toron_hyperelastic_point_with_properties_f64(
     capacity: size_t,
 ) -> i32 {
     // SAFETY: the caller's arguments, as lib.rs says.
-    unsafe { entry(Message { text: message, capacity }, move || points::evaluate(read(properties, count)?, point)) }
+    unsafe {
+        entry(Message { text: message, capacity }, move || points::hyperelastic_point(read(properties, count)?, point))
+    }
 }
 
 /// As `toron_hyperelastic_point_with_properties_f64`, in single precision.
@@ -107,7 +111,9 @@ pub unsafe extern "C" fn toron_hyperelastic_point_with_properties_f32(
     capacity: size_t,
 ) -> i32 {
     // SAFETY: the caller's arguments, as lib.rs says.
-    unsafe { entry(Message { text: message, capacity }, move || points::evaluate(read(properties, count)?, point)) }
+    unsafe {
+        entry(Message { text: message, capacity }, move || points::hyperelastic_point(read(properties, count)?, point))
+    }
 }
 
 /// The hyperelastic law at a block of points, with or without a tangent: see `toron_block_f64`.
@@ -124,7 +130,9 @@ pub unsafe extern "C" fn toron_hyperelastic_block_f64(
 ) -> i32 {
     // SAFETY: the caller's arguments, as lib.rs says.
     unsafe {
-        entry(Message { text: message, capacity }, move || blocks::evaluate(Given::Prepared(numbers(law)?), block))
+        entry(Message { text: message, capacity }, move || {
+            blocks::hyperelastic_block(Given::Prepared(numbers(law)?), block)
+        })
     }
 }
 
@@ -138,7 +146,9 @@ pub unsafe extern "C" fn toron_hyperelastic_block_f32(
 ) -> i32 {
     // SAFETY: the caller's arguments, as lib.rs says.
     unsafe {
-        entry(Message { text: message, capacity }, move || blocks::evaluate(Given::Prepared(numbers(law)?), block))
+        entry(Message { text: message, capacity }, move || {
+            blocks::hyperelastic_block(Given::Prepared(numbers(law)?), block)
+        })
     }
 }
 
@@ -155,7 +165,7 @@ pub unsafe extern "C" fn toron_hyperelastic_block_with_properties_f64(
     // SAFETY: the caller's arguments, as lib.rs says.
     unsafe {
         entry(Message { text: message, capacity }, move || {
-            blocks::evaluate(Given::Properties(read(properties, count)?), block)
+            blocks::hyperelastic_block(Given::Properties(read(properties, count)?), block)
         })
     }
 }
@@ -172,7 +182,7 @@ pub unsafe extern "C" fn toron_hyperelastic_block_with_properties_f32(
     // SAFETY: the caller's arguments, as lib.rs says.
     unsafe {
         entry(Message { text: message, capacity }, move || {
-            blocks::evaluate(Given::Properties(read(properties, count)?), block)
+            blocks::hyperelastic_block(Given::Properties(read(properties, count)?), block)
         })
     }
 }

@@ -43,8 +43,8 @@ pub use prepared::*;
 pub use tables::*;
 
 pub use toron::host::arguments::Layout;
-pub use toron::host::blocks::Block;
 pub use toron::host::constants::*;
 pub use toron::host::linear_elastic::{LinearBlock, LinearIncrement, LinearPoint};
-pub use toron::host::points::Point;
+pub use toron::host::point_and_block::Block;
+pub use toron::host::point_and_block::Point;
 pub use toron::host::tables::TableRow;

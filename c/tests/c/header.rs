@@ -8,15 +8,14 @@ use toron_test_support::update::is_asked;
 use toron::law::status;
 
 /// Constants and structures, then what is exported.
-const SOURCES: [&str; 18] = [
+const SOURCES: [&str; 17] = [
     "src/law/status.rs",
     "c/functions/src/constants.rs",
     "src/host/constants.rs",
     "src/host/tables.rs",
     "src/host/arguments.rs",
     "c/functions/src/prepared.rs",
-    "src/host/points.rs",
-    "src/host/blocks.rs",
+    "src/host/point_and_block.rs",
     "src/host/linear_elastic.rs",
     "src/host/abaqus/vumat.rs",
     "c/functions/src/about.rs",

@@ -7,7 +7,7 @@ use std::path::Path;
 use nalgebra::Matrix3;
 
 use super::arguments::{Arguments, Reals, Umat, Whole};
-use super::guarded::{Guard, Guarded};
+use super::guarded::{Guard, GuardedArray};
 use super::kinematics::{Components, Modulus};
 use super::material::{MOST_FIELDS, Material};
 use super::shared::Shared;
@@ -263,7 +263,7 @@ impl Answer {
     }
 
     /// Every bit is the same; a NaN equals itself.
-    pub fn same(&self, other: &Answer) -> bool {
+    pub fn has_same_bits(&self, other: &Answer) -> bool {
         let bits = |answer: &Answer| {
             let modulus = answer.modulus.iter().flatten();
             let all = answer.stress.iter().chain(&answer.state).chain(modulus).chain(&answer.energies);
@@ -291,10 +291,10 @@ pub struct Session<'a> {
     pub coarse: bool,
     /// The first PNEWDT that is not larger than 0.
     pub no_step: Option<f64>,
-    stress: Guarded,
-    state: Guarded,
-    modulus: Guarded,
-    constants: Guarded,
+    stress: GuardedArray,
+    state: GuardedArray,
+    modulus: GuardedArray,
+    constants: GuardedArray,
     shared: Option<Shared>,
     records: bool,
     exchanged: bool,
@@ -313,15 +313,15 @@ impl<'a> Session<'a> {
             law,
             material,
             name: [b' ' as c_char; 80],
-            stress: Guarded::new(components, guard)?,
-            state: Guarded::new(material.initial.len(), guard)?,
-            modulus: Guarded::new(components * components, guard)?,
+            stress: GuardedArray::new(components, guard)?,
+            state: GuardedArray::new(material.initial.len(), guard)?,
+            modulus: GuardedArray::new(components * components, guard)?,
             properties: material.properties.clone(),
             fields: material.passed_fields(),
             watched: None,
             coarse: false,
             no_step: None,
-            constants: Guarded::new(material.properties.len(), guard)?,
+            constants: GuardedArray::new(material.properties.len(), guard)?,
             shared,
             records: true,
             exchanged: false,
@@ -474,7 +474,7 @@ impl<'a> Session<'a> {
         self.constants.numbers_mut().copy_from_slice(&self.properties);
         let mut arguments = Arguments::new(call, self.material, self.properties.len(), self.fields);
         let arrays = [&mut self.stress, &mut self.state, &mut self.modulus, &mut self.constants];
-        arguments.pass(self.law.umat, arrays.map(Guarded::as_mut_ptr), self.name);
+        arguments.pass(self.law.umat, arrays.map(GuardedArray::as_mut_ptr), self.name);
         if let Some(watched) = &mut self.watched {
             arguments.note_written(call, &self.fields, &self.properties, self.constants.numbers(), watched);
         }

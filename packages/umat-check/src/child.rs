@@ -186,7 +186,7 @@ fn answer_question(
     allowed: Option<f64>,
 ) -> Finding {
     match question {
-        Question::Build | Question::Deck | Question::Memory => process::touch(session),
+        Question::Build | Question::Deck | Question::Memory => process::touch_beyond_arrays(session),
         Question::Rest => rest::rest(session),
         Question::Stress => stress::stress(session),
         Question::Properties => properties::properties(session),
@@ -209,7 +209,7 @@ fn answer_question(
         Question::Invalid => process::invalid(session, reads),
         Question::Histories => process::histories(session, reads),
         Question::Runtime => process::runtime(session),
-        Question::Coverage => coverage::walk(law, session),
+        Question::Coverage => coverage::cover_lines(law, session),
         Question::DataCheck | Question::Blocks | Question::Single | Question::Deletion => {
             Finding::new(question, Verdict::NotAsked, None, "asked of a VUMAT alone")
         }
@@ -273,7 +273,7 @@ pub fn run_task(
     let listener = std::thread::spawn(move || said.map_or(String::new(), last_bytes));
     let status = watch(&mut child, &shared, longest_call).map_err(io_error)?;
     let messages = reader.join().unwrap_or_default();
-    let said = last_words(&listener.join().unwrap_or_default());
+    let said = last_lines(&listener.join().unwrap_or_default());
     let reply = std::fs::read(&result).ok().and_then(|text| serde_json::from_slice::<ChildReply>(&text).ok());
     if let (Some(reply), Watched::Ended(status)) = (reply, &status)
         && status.success()
@@ -398,7 +398,7 @@ fn at_signal(seen: &Seen, after: &str, call: Option<Call>) -> Ending {
 }
 
 /// The last lines that a law has written, in one.
-fn last_words(text: &str) -> String {
+fn last_lines(text: &str) -> String {
     let lines: Vec<&str> = text.lines().map(str::trim).filter(|line| !line.is_empty()).collect();
     lines[lines.len().saturating_sub(LAST_WORDS)..].join(" / ")
 }

@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 
 use super::finding::{Finding, Verdict};
-use super::report::{Report, words};
+use super::report::{Report, finding_text};
 
 /// JUnit's XML: a suite a material, a case a line.
 pub fn junit(report: &Report, strict: bool) -> String {
@@ -18,7 +18,7 @@ pub fn junit(report: &Report, strict: bool) -> String {
             material.lines.len()
         );
         for line in &material.lines {
-            let (name, message) = (escaped(&line.check), escaped(&words(line)));
+            let (name, message) = (escaped(&line.check), escaped(&finding_text(line)));
             let class = escaped(&format!("{}.{}", report.file, material.name));
             text += &format!("    <testcase name=\"{name}\" classname=\"{class}\"");
             let kinds = escaped(&line.kinds.join(", "));
@@ -80,7 +80,7 @@ pub fn sarif(report: &Report, strict: bool) -> Value {
             results.push(json!({
                 "ruleId": line.check,
                 "level": level,
-                "message": { "text": format!("{}: {}", material.name, words(line)) },
+                "message": { "text": format!("{}: {}", material.name, finding_text(line)) },
                 "locations": [{
                     "physicalLocation": {
                         "artifactLocation": { "uri": report.file },

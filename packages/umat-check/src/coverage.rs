@@ -26,10 +26,10 @@ const PATHS: usize = 8;
 const TIME_STEPS: [f64; 3] = [1.0, 0.01, 100.0];
 
 /// Histories and straight paths to the ends of the range, at several time steps, with the build that counts.
-pub fn walk(law: &Law, session: &mut Session) -> Finding {
+pub fn cover_lines(law: &Law, session: &mut Session) -> Finding {
     let started = Instant::now();
     let mut rng = Rng::with_seed(session.material.seed ^ 0xc0);
-    let mut point = Point::virgin(session, [1, 1]);
+    let mut point = Point::undeformed(session, [1, 1]);
     let _ = point.advance(session, &Matrix3::identity());
     let size = session.material.stretch.iter().map(|stretch| stretch.ln().abs()).fold(0.0, f64::max);
     let mut paths: Vec<Vec<Matrix3<f64>>> = Vec::new();
@@ -43,7 +43,7 @@ pub fn walk(law: &Law, session: &mut Session) -> Finding {
     paths.extend((0..HISTORIES).map(|_| history(&mut rng, session.material, 3)));
     for (number, path) in paths.iter().enumerate() {
         let time_step = session.material.time_step * TIME_STEPS[number % TIME_STEPS.len()];
-        let mut point = Point::virgin(session, [1, 1]);
+        let mut point = Point::undeformed(session, [1, 1]);
         for f1 in path {
             if started.elapsed() > TIME || point.advance_in(session, f1, time_step).is_err() {
                 break;
@@ -67,7 +67,7 @@ pub fn of_counts(folder: &Path) -> Finding {
     let counts: Vec<_> = counts.filter(|path| path.extension().is_some_and(|ending| ending == "gcda")).collect();
     let output = Command::new("gcov").args(["-t", "-b"]).args(&counts).current_dir(folder).output();
     let Ok(output) = output else { return not_asked("there is no gcov, which reads counts of lines") };
-    judged(&parsed(&String::from_utf8_lossy(&output.stdout)))
+    coverage_finding(&parsed(&String::from_utf8_lossy(&output.stdout)))
 }
 
 /// Whether each line with code has run, with its text, by file.
@@ -105,7 +105,7 @@ const REFUSAL: usize = 6;
 /// Words of such a branch: it need not run.
 const REFUSALS: [&str; 8] = ["pnewdt", "xit", "stop", "abqerr", "xplb", "exit", "write", "print"];
 
-fn judged(lines: &Lines) -> Finding {
+fn coverage_finding(lines: &Lines) -> Finding {
     let (mut all, mut missed) = (0, 0);
     let mut named = Vec::new();
     for (file, lines) in lines {
@@ -170,13 +170,15 @@ mod tests {
     fn lines_that_never_ran_are_named_but_for_refusals() {
         let text = "        -:    0:Source:/x/law.f\n        4:    1:      A=1\n    #####:    2:      B=2\n\
                     \x20       -:    3:C\n    #####:    4:      D=2\n        4:    5:      E=1\n    #####:    6:      CALL XIT\n";
-        let line = judged(&parsed(text));
+        let line = coverage_finding(&parsed(text));
         assert!(
             line.text.starts_with("2 of 5 lines are never executed, and not asked about: law.f:2-4;"),
             "{}",
             line.text
         );
-        let line = judged(&parsed(&text.replace("#####:    2", "    1:    2").replace("#####:    4", "    1:    4")));
+        let line = coverage_finding(&parsed(
+            &text.replace("#####:    2", "    1:    2").replace("#####:    4", "    1:    4"),
+        ));
         assert_eq!(line.verdict, Verdict::Right);
         let idle = "function inverse_ called 0 returned 0% blocks executed 0%\n    #####:    7:      X=1\n";
         assert_eq!(parsed(&format!("{text}{idle}")), parsed(text));

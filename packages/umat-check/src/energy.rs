@@ -55,7 +55,7 @@ fn cycle(session: &mut Session, rng: &mut Rng, parts: usize) -> Result<Option<Cy
     // Without NLGEOM the same of the strain.
     let of_strain = |matrix: Matrix3<f64>| (matrix + matrix.transpose()) * 0.5;
     let [a, b] = if session.material.small_strain { [of_strain(a), of_strain(b)] } else { [a, b] };
-    let mut point = Point::virgin(session, [1, 1]);
+    let mut point = Point::undeformed(session, [1, 1]);
     let (mut work, mut way, mut every_second) = (0.0, 0.0, 0.0);
     for k in 1..=parts {
         let t = TAU * k as f64 / parts as f64;
@@ -178,7 +178,7 @@ fn reported(session: &mut Session, increments: usize) -> Result<Option<Reported>
     let mut asked = 0;
     for _ in 0..8 {
         let strain = direction(&mut rng, session.material) * size(session.material);
-        let mut point = Point::virgin(session, [1, 1]);
+        let mut point = Point::undeformed(session, [1, 1]);
         let (mut work, mut largest, mut power_before, mut volume_before) = (0.0, 0.0_f64, 0.0, 1.0);
         let mut differences = Vec::new();
         // There and back.
@@ -333,7 +333,7 @@ fn accumulated(session: &mut Session, found: &Reported) -> Finding {
         return Finding::new(Question::Dissipation, Verdict::Wrong, Some(regained), text).with("energy gained");
     }
     // What a stress from the beginning has stored is no work.
-    let stored = Point::virgin(session, [1, 1]).stress.iter().any(|stress| *stress != 0.0);
+    let stored = Point::undeformed(session, [1, 1]).stress.iter().any(|stress| *stress != 0.0);
     let least = finer.map_or(0.0, |finer| finer.excess);
     if !stored && least > MORE && least > LEFT * found.excess {
         let text = format!("SPD + SCD are more than the work done, by up to {:.1e} of it", found.excess);

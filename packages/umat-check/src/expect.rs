@@ -63,7 +63,7 @@ pub fn expect(session: &mut Session) -> Finding {
 }
 
 fn stress_at_end(session: &mut Session, expected: &Expected) -> Result<Components, String> {
-    let mut point = Point::virgin(session, [1, 1]);
+    let mut point = Point::undeformed(session, [1, 1]);
     let mut strain = [0.0; 6];
     for corner in &expected.path {
         let begin = strain;

@@ -16,7 +16,7 @@ pub enum Guard {
 }
 
 /// Numbers of which the first, or the last, is beside a page without access.
-pub struct Guarded {
+pub struct GuardedArray {
     mapping: *mut libc::c_void,
     size: usize,
     first: *mut f64,
@@ -24,15 +24,15 @@ pub struct Guarded {
 }
 
 // SAFETY: the mapping belongs to this value alone.
-unsafe impl Send for Guarded {}
+unsafe impl Send for GuardedArray {}
 
 /// Entries that may be touched on either side with [`Guard::Padded`].
 const ROOM: usize = 512;
 
-impl Guarded {
+impl GuardedArray {
     /// # Errors
     /// The system has no memory.
-    pub fn new(length: usize, guard: Guard) -> io::Result<Guarded> {
+    pub fn new(length: usize, guard: Guard) -> io::Result<GuardedArray> {
         // SAFETY: it takes a number and gives one.
         let page = unsafe { libc::sysconf(libc::_SC_PAGESIZE) } as usize;
         let bytes = 8 * if guard == Guard::Padded { length + 2 * ROOM } else { length };
@@ -56,7 +56,7 @@ impl Guarded {
         };
         // SAFETY: within the pages that may be touched, and a multiple of eight bytes, since a page's length is one.
         let first = unsafe { mapping.add(page + offset) }.cast();
-        Ok(Guarded { mapping, size, first, length })
+        Ok(GuardedArray { mapping, size, first, length })
     }
 
     pub fn as_mut_ptr(&mut self) -> *mut f64 {
@@ -90,7 +90,7 @@ impl Guarded {
     }
 }
 
-impl Drop for Guarded {
+impl Drop for GuardedArray {
     fn drop(&mut self) {
         // SAFETY: the mapping that was made, once.
         unsafe { libc::munmap(self.mapping, self.size) };

@@ -45,13 +45,13 @@ struct File {
     #[serde(default)]
     allow: BTreeMap<String, Spanned<Positive>>,
     #[serde(default, rename = "material")]
-    materials: Vec<Own>,
+    materials: Vec<MaterialKeys>,
 }
 
 /// The keys of one of several materials.
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Own {
+struct MaterialKeys {
     name: Option<Spanned<String>>,
     properties: Option<Vec<f64>>,
     statev: Option<usize>,
@@ -136,7 +136,7 @@ fn parse(source: &Source, overrides: &Overrides) -> Result<Input, Error> {
         }
         allowed.insert(key.clone(), value.value());
     }
-    let owns = if file.materials.is_empty() { vec![Own::default()] } else { file.materials.clone() };
+    let owns = if file.materials.is_empty() { vec![MaterialKeys::default()] } else { file.materials.clone() };
     let materials: Result<Vec<Material>, Error> =
         owns.iter().map(|own| material(source, &file, own, overrides)).collect();
     let mut materials = materials?;
@@ -149,7 +149,7 @@ fn parse(source: &Source, overrides: &Overrides) -> Result<Input, Error> {
     Ok(Input { materials, allowed })
 }
 
-fn material(source: &Source, file: &File, own: &Own, overrides: &Overrides) -> Result<Material, Error> {
+fn material(source: &Source, file: &File, own: &MaterialKeys, overrides: &Overrides) -> Result<Material, Error> {
     let components = match (overrides.components, &file.ntens) {
         (Some(components), _) => allowed_components(components).map_err(Error::Input)?,
         (None, Some(ntens)) => {
@@ -229,7 +229,7 @@ fn separation(source: &Source, file: &File, components: usize, overrides: &Overr
 }
 
 /// STATEV at the beginning.
-fn initial_state(source: &Source, file: &File, own: &Own, overrides: &Overrides) -> Result<Vec<f64>, Error> {
+fn initial_state(source: &Source, file: &File, own: &MaterialKeys, overrides: &Overrides) -> Result<Vec<f64>, Error> {
     let given = own.initial.as_ref().or(file.initial.as_ref());
     let mut initial = given.map_or(Vec::new(), |initial| initial.get_ref().clone());
     let states = overrides.states.or(own.statev).or(file.statev).unwrap_or(initial.len());

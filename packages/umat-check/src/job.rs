@@ -6,7 +6,7 @@ use nalgebra::Matrix3;
 use super::call::{Answer, Session};
 use super::finding::{Finding, Question, Verdict};
 use super::histories::history;
-use super::point::{Begun, Point};
+use super::point::{Point, StepStart};
 
 const HISTORIES: usize = 8;
 /// Increments of either step, at most.
@@ -33,24 +33,24 @@ pub fn job(session: &mut Session) -> Finding {
         return line(Verdict::NotSure, "there was no answer".to_string());
     }
     let tiny = 1e-9 * session.material.time_step;
-    let mut of = |begun: Begun| differences(session, &paths, &one, begun);
-    let whole = Begun { step: true, increment: true, time: Some(0.0) };
+    let mut of = |begun: StepStart| differences(session, &paths, &one, begun);
+    let whole = StepStart { step: true, increment: true, time: Some(0.0) };
     let found = of(whole);
     if found.count == 0 {
         let text = format!("{asked} histories in two steps (KSTEP = 2, KINC = 1, TIME(1) = 0) as in one");
         return line(Verdict::Right, text);
     }
     let what = format!("{}, in {} of {asked} histories", found.what, found.count);
-    if of(Begun { step: false, ..whole }).count == 0 {
+    if of(StepStart { step: false, ..whole }).count == 0 {
         let text = format!("the law asks for KSTEP: with 2 in a second step it has {what}");
         return line(Verdict::Warning, text).with("depends on the step");
     }
-    if of(Begun { time: None, ..whole }).count > 0 {
+    if of(StepStart { time: None, ..whole }).count > 0 {
         let text = format!("KINC = 1 of a second step begins again what it should not: {what}");
         return line(Verdict::Wrong, text).with("second step");
     }
     // What asks whether TIME(1) is 0 takes any other for no beginning.
-    if of(Begun { time: Some(tiny), ..whole }).count == 0 {
+    if of(StepStart { time: Some(tiny), ..whole }).count == 0 {
         let text = format!("TIME(1) = 0 of a second step begins again what it should not: {what}");
         return line(Verdict::Wrong, text).with("second step");
     }
@@ -59,8 +59,8 @@ pub fn job(session: &mut Session) -> Finding {
 }
 
 /// The answers along a path, whose second half is a step of its own if that is said.
-fn answers(session: &mut Session, path: &[Matrix3<f64>], begun: Option<Begun>) -> Vec<Answer> {
-    let mut point = Point::virgin(session, [1, 1]);
+fn answers(session: &mut Session, path: &[Matrix3<f64>], begun: Option<StepStart>) -> Vec<Answer> {
+    let mut point = Point::undeformed(session, [1, 1]);
     let mut all = Vec::new();
     for (k, f1) in path.iter().enumerate() {
         if let Some(begun) = begun.filter(|_| k == path.len() / 2) {
@@ -72,7 +72,12 @@ fn answers(session: &mut Session, path: &[Matrix3<f64>], begun: Option<Begun>) -
     all
 }
 
-fn differences(session: &mut Session, paths: &[Vec<Matrix3<f64>>], one: &[Vec<Answer>], begun: Begun) -> Differences {
+fn differences(
+    session: &mut Session,
+    paths: &[Vec<Matrix3<f64>>],
+    one: &[Vec<Answer>],
+    begun: StepStart,
+) -> Differences {
     let mut found = Differences::default();
     for (path, one) in paths.iter().zip(one) {
         let two = answers(session, path, Some(begun));

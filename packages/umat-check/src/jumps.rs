@@ -70,9 +70,9 @@ pub fn jumps(session: &mut Session) -> Finding {
             }
         }
         let Some(fine) = jump(&found) else { continue };
-        let virgin = Point::virgin(session, [1, 1]);
+        let undeformed = Point::undeformed(session, [1, 1]);
         let (Some(before), Some(after)) =
-            (stiffness(session, &virgin, &strain), stiffness(session, &fine.after, &strain))
+            (stiffness(session, &undeformed, &strain), stiffness(session, &fine.after, &strain))
         else {
             continue;
         };
@@ -127,7 +127,7 @@ fn largest(
     (increments, time_step): (usize, f64),
     started: Instant,
 ) -> Option<Largest> {
-    let mut point = Point::virgin(session, [1, 1]);
+    let mut point = Point::undeformed(session, [1, 1]);
     let (mut stress, mut size) = (point.global_stress(session.material), 0.0_f64);
     let mut found: Option<(f64, usize, Point)> = None;
     for k in 1..=3 * increments {

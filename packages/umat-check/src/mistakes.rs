@@ -42,7 +42,7 @@ struct Explanation {
 }
 
 /// A mistake that explains a part.
-struct Near {
+struct NearMistake {
     kind: &'static str,
     text: String,
     /// The largest error beside it.
@@ -71,7 +71,7 @@ pub fn name(session: &mut Session, sample: &Sample, conventions: &[Convention]) 
     let unknown = |text: &str| (vec!["unknown".to_string()], text.to_string());
     let deadline = Instant::now() + TIME;
     let mut explanations: Vec<Explanation> = Vec::new();
-    let mut nearest: Option<Near> = None;
+    let mut nearest: Option<NearMistake> = None;
     for &convention in conventions {
         let Some(tried) = sample.tried(session, convention, deadline) else {
             return unknown("too slow a law to be asked in what way");
@@ -153,7 +153,7 @@ impl<'a> Sample<'a> {
             if Instant::now() > deadline {
                 return None;
             }
-            if let Some(exact) = exact(session, &self.states[k], convention) {
+            if let Some(exact) = exact_tangent(session, &self.states[k], convention) {
                 tried.push((k, usual_mistakes(&exact, session.material.layout())));
             }
         }
@@ -190,7 +190,7 @@ impl<'a> Sample<'a> {
     }
 
     /// How far the wrong states are from this mistake, at most.
-    fn near(&self, tried: &Tried, mistake: usize, convention: Convention) -> Option<Near> {
+    fn near(&self, tried: &Tried, mistake: usize, convention: Convention) -> Option<NearMistake> {
         let Hypothesis { kinds, text, factor, .. } = &tried[0].1[mistake];
         if *factor != Factor::One || is_of_other_increment(kinds) || kinds.len() > 1 {
             return None;
@@ -201,7 +201,7 @@ impl<'a> Sample<'a> {
             let mistaken = compare(&self.states[*k].modulus, &all[mistake].modulus, differences, self.components);
             leaves = leaves.max(if mistaken.worst.is_nan() { f64::INFINITY } else { mistaken.worst });
         }
-        Some(Near { kind: kinds[0], text: text.clone(), leaves })
+        Some(NearMistake { kind: kinds[0], text: text.clone(), leaves })
     }
 
     fn largest_error(&self) -> f64 {
@@ -272,7 +272,7 @@ fn fitted(modulus: &Modulus, like: &Modulus) -> f64 {
 }
 
 /// What the usual mistakes are made of, at a state.
-fn exact(session: &mut Session, state: &State, convention: Convention) -> Option<ExactTangent> {
+fn exact_tangent(session: &mut Session, state: &State, convention: Convention) -> Option<ExactTangent> {
     let components = session.material.components;
     let (_, truth) = state.truth(convention, components)?;
     let axes = if session.material.orientation { rotation_of(&state.f1) } else { Matrix3::identity() };

@@ -96,7 +96,8 @@ fn objective(session: &mut Session, reads: Reads, asked: &dyn Fn(&mut Session) -
         Ok(worst) => worst,
         Err(text) => return Finding::new(Question::Objectivity, Verdict::Wrong, None, text).with(NOT_FINITE),
     };
-    let mut line = judged(Question::Objectivity, NOT_OBJECTIVE, &worst, "superposed rotations turn the stress alone");
+    let mut line =
+        rotation_finding(Question::Objectivity, NOT_OBJECTIVE, &worst, "superposed rotations turn the stress alone");
     if line.verdict == Verdict::Wrong && session.material.components == 6 {
         session.exchange(true);
         if asked(session).is_ok_and(|worst| worst.figure <= TOLERANCE) {
@@ -155,7 +156,7 @@ pub fn isotropy(session: &mut Session) -> Finding {
     match asked(session) {
         Ok(worst) => {
             let right = "turning the material turns the stress alone";
-            with_halved_shears(session, judged(Question::Isotropy, "axes matter", &worst, right), &asked)
+            with_halved_shears(session, rotation_finding(Question::Isotropy, "axes matter", &worst, right), &asked)
         }
         Err(text) => Finding::new(Question::Isotropy, Verdict::Wrong, None, text).with(NOT_FINITE),
     }
@@ -269,7 +270,7 @@ type Stress = (Matrix3<f64>, bool);
 
 /// The stress after each increment; the last one may be why there is none.
 fn stresses(session: &mut Session, path: &[Matrix3<f64>], time_step: f64) -> Vec<Result<Stress, Failure>> {
-    let mut point = Point::virgin(session, [1, 1]);
+    let mut point = Point::undeformed(session, [1, 1]);
     let mut all = Vec::new();
     for f in path {
         let before = point.increments();
@@ -296,7 +297,7 @@ pub fn divided(path: &[Matrix3<f64>], parts: usize) -> Vec<Matrix3<f64>> {
     divided
 }
 
-fn judged(question: Question, kind: &str, worst: &Worst, right: &str) -> Finding {
+fn rotation_finding(question: Question, kind: &str, worst: &Worst, right: &str) -> Finding {
     if worst.figure <= TOLERANCE && worst.refused_turned > 0 {
         let text = format!(
             "{} of {HISTORIES} histories end with PNEWDT if they are turned, and not else",

@@ -20,7 +20,7 @@ pub fn place(session: &mut Session) -> Finding {
     for _ in 0..HISTORIES {
         let path = history(&mut rng, session.material, 2);
         let mut stresses = |place: [i32; 2]| -> Vec<_> {
-            let mut point = Point::virgin(session, place);
+            let mut point = Point::undeformed(session, place);
             let stress = |f1| point.advance(session, f1).ok().map(|answer| answer.stress);
             path.iter().take(INCREMENTS).map_while(stress).collect()
         };
@@ -37,11 +37,11 @@ pub fn place(session: &mut Session) -> Finding {
             figure = figure.max(change);
         }
     }
-    judged(figure, compared, counts)
+    place_finding(figure, compared, counts)
 }
 
 /// The line, of the largest change of the stress and of whether elements and points of one element have another answer.
-pub fn judged(figure: f64, compared: usize, [elements, points]: [bool; 2]) -> Finding {
+pub fn place_finding(figure: f64, compared: usize, [elements, points]: [bool; 2]) -> Finding {
     if compared == 0 {
         return Finding::new(Question::Place, Verdict::NotSure, None, "there was no answer");
     }

@@ -27,7 +27,7 @@ pub struct Point {
 
 /// What begins again with a further step: Abaqus has KSTEP go on, and KINC and TIME(1) begin again.
 #[derive(Clone, Copy, Debug)]
-pub struct Begun {
+pub struct StepStart {
     pub step: bool,
     pub increment: bool,
     /// TIME(1) at the beginning, if it does not go on.
@@ -55,7 +55,7 @@ const GROWTH: f64 = 1.5;
 impl Point {
     /// A point that has not been deformed, of this element and number. The element is 1 everywhere: laws may have
     /// tables by it.
-    pub fn virgin(session: &mut Session, place: [i32; 2]) -> Point {
+    pub fn undeformed(session: &mut Session, place: [i32; 2]) -> Point {
         let (state, stress) = (session.initial_state(place), session.initial_stress(place));
         let nothing = [0.0; 6];
         Point {
@@ -185,7 +185,7 @@ impl Point {
     }
 
     /// The point at the beginning of a further step.
-    pub fn next_step(&self, begun: Begun) -> Point {
+    pub fn next_step(&self, begun: StepStart) -> Point {
         Point {
             step: self.step + i32::from(begun.step),
             begun: begun.time.map_or(self.begun, |time| self.time - time),

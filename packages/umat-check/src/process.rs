@@ -20,7 +20,7 @@ pub fn reads(session: &mut Session) -> (Reads, bool) {
     let components = session.material.components;
     let (mut by_deformation, mut by_strain, mut by_third) = (false, false, false);
     for _ in 0..6 {
-        let mut point = Point::virgin(session, [1, 1]);
+        let mut point = Point::undeformed(session, [1, 1]);
         let mut path = history(&mut rng, session.material, 2);
         path.truncate(20);
         for f1 in &path {
@@ -69,11 +69,11 @@ pub fn reads(session: &mut Session) -> (Reads, bool) {
 }
 
 /// A few histories: with a page at either end of the arrays, what is touched beyond ends the process.
-pub fn touch(session: &mut Session) -> Finding {
+pub fn touch_beyond_arrays(session: &mut Session) -> Finding {
     let mut rng = Rng::with_seed(session.material.seed ^ 0x6d);
     let (mut calls, mut answered) = (0, 0);
     for _ in 0..10 {
-        let mut point = Point::virgin(session, [1, 1]);
+        let mut point = Point::undeformed(session, [1, 1]);
         let mut path = history(&mut rng, session.material, 2);
         path.truncate(60);
         for f1 in &path {
@@ -94,7 +94,7 @@ pub fn touch(session: &mut Session) -> Finding {
 
 /// The answers of a history, up to where there are none.
 fn answers(session: &mut Session, path: &[Matrix3<f64>], place: [i32; 2]) -> Vec<Answer> {
-    let mut point = Point::virgin(session, place);
+    let mut point = Point::undeformed(session, place);
     path.iter().map_while(|f| point.advance(session, f).ok()).collect()
 }
 
@@ -117,7 +117,7 @@ pub fn repeat(session: &mut Session) -> Finding {
         |text: String| Finding::new(Question::Repeat, Verdict::Wrong, None, text).with("answers depend on order");
     // Each increment asked twice, as Newton's iterations do, with another strain between.
     for (k, path) in paths.iter().enumerate() {
-        let mut point = Point::virgin(session, [1, k as i32 + 1]);
+        let mut point = Point::undeformed(session, [1, k as i32 + 1]);
         for (increment, f1) in path.iter().enumerate().take(alone[k].len()) {
             let call = point.call(f1, session.material);
             let first = session.call_law(&call);
@@ -128,7 +128,7 @@ pub fn repeat(session: &mut Session) -> Finding {
             let between = point.call(&further, session.material);
             session.call_law(&between);
             let second = session.call_law(&call);
-            if !first.same(&second) {
+            if !first.has_same_bits(&second) {
                 return wrong(format!(
                     "the same call answers otherwise the second time, at increment {}{}",
                     increment + 1,
@@ -142,13 +142,13 @@ pub fn repeat(session: &mut Session) -> Finding {
         }
     }
     // All points side by side, increment by increment.
-    let mut points: Vec<Point> = (0..paths.len()).map(|k| Point::virgin(session, [1, k as i32 + 1])).collect();
+    let mut points: Vec<Point> = (0..paths.len()).map(|k| Point::undeformed(session, [1, k as i32 + 1])).collect();
     let longest = paths.iter().map(Vec::len).max().unwrap_or(0);
     for increment in 0..longest {
         for k in (0..paths.len()).rev() {
             let (Some(f), Some(expected)) = (paths[k].get(increment), alone[k].get(increment)) else { continue };
             match points[k].advance(session, f) {
-                Ok(answer) if answer.same(expected) => {}
+                Ok(answer) if answer.has_same_bits(expected) => {}
                 Ok(answer) => {
                     return wrong(format!(
                         "a point answers otherwise if others are computed between its increments, at increment {}{}",
@@ -211,7 +211,7 @@ pub fn threads(law: &Law, material: &Material, session: &mut Session) -> Finding
         let mut rounds = 0;
         while rounds < 200 && started.elapsed() < Duration::from_secs(3) {
             let found = answers(&mut session, &paths[k], [1, k as i32 + 1]);
-            if found.len() != alone[k].len() || !found.iter().zip(&alone[k]).all(|(a, b)| a.same(b)) {
+            if found.len() != alone[k].len() || !found.iter().zip(&alone[k]).all(|(a, b)| a.has_same_bits(b)) {
                 return Err(());
             }
             rounds += 1;
@@ -256,7 +256,7 @@ pub fn outputs(session: &mut Session) -> Finding {
     let (mut asked, mut stress_depends) = (0, false);
     session.watched = Some(Vec::new());
     for (k, path) in paths(session.material, 0x0f, 8, 30).into_iter().enumerate() {
-        let mut point = Point::virgin(session, [1, k as i32 + 1]);
+        let mut point = Point::undeformed(session, [1, k as i32 + 1]);
         for f1 in &path {
             let mut call = point.call(f1, session.material);
             let zero = session.call_law(&call);
@@ -338,7 +338,7 @@ pub fn exceptions(session: &mut Session) -> Finding {
     let mut raised = [0; 3];
     let mut asked = 0;
     for (k, path) in paths(session.material, 0xf9, 12, 30).into_iter().enumerate() {
-        let mut point = Point::virgin(session, [1, k as i32 + 1]);
+        let mut point = Point::undeformed(session, [1, k as i32 + 1]);
         let rest = [Matrix3::identity()];
         for f1 in rest.iter().chain(&path) {
             let call = point.call(f1, session.material);
@@ -379,7 +379,7 @@ pub fn exceptions(session: &mut Session) -> Finding {
 pub fn invalid(session: &mut Session, reads: Reads) -> Finding {
     let mut said = Vec::new();
     let mut silent = false;
-    let mut point = Point::virgin(session, [1, 1]);
+    let mut point = Point::undeformed(session, [1, 1]);
     let first = history(&mut Rng::with_seed(session.material.seed), session.material, 1);
     for f1 in first.iter().take(3) {
         if point.advance(session, f1).is_err() {
@@ -428,7 +428,7 @@ pub fn histories(session: &mut Session, reads: Reads) -> Finding {
         if number % 64 == 0 && started.elapsed() > TIME {
             break;
         }
-        let mut point = Point::virgin(session, [1, 1]);
+        let mut point = Point::undeformed(session, [1, 1]);
         let target = state(&mut rng, session.material);
         let count = rng.usize(1..5);
         let whole = Increment::between(&point.f, &target).turning_at_most(LARGEST_TURN * count as f64);
@@ -504,10 +504,10 @@ fn rows(f: &Matrix3<f64>) -> String {
 
 /// The same few histories with a build that checks itself, and fills what is unset with NaN.
 pub fn runtime(session: &mut Session) -> Finding {
-    let line = touch(session);
+    let line = touch_beyond_arrays(session);
     let mut rng = Rng::with_seed(session.material.seed ^ 0x6e);
     for _ in 0..6 {
-        let mut point = Point::virgin(session, [1, 1]);
+        let mut point = Point::undeformed(session, [1, 1]);
         for f1 in history(&mut rng, session.material, 2).iter().take(30) {
             match point.advance(session, f1) {
                 Ok(answer) if answer.energies.iter().all(|energy| energy.is_finite()) => {}

@@ -105,7 +105,7 @@ const SHOWN: usize = 6;
 fn answers(session: &mut Session, paths: &[Vec<Matrix3<f64>>]) -> Vec<Vec<Answer>> {
     let mut all = Vec::new();
     for path in paths {
-        let mut point = Point::virgin(session, [1, 1]);
+        let mut point = Point::undeformed(session, [1, 1]);
         all.push(path.iter().take(INCREMENTS).map_while(|f1| point.advance(session, f1).ok()).collect());
     }
     all
@@ -114,8 +114,9 @@ fn answers(session: &mut Session, paths: &[Vec<Matrix3<f64>>]) -> Vec<Vec<Answer
 /// Whether any answer is another one.
 fn differs(session: &mut Session, paths: &[Vec<Matrix3<f64>>], alone: &[Vec<Answer>]) -> bool {
     paths.iter().zip(alone).any(|(path, alone)| {
-        let mut point = Point::virgin(session, [1, 1]);
+        let mut point = Point::undeformed(session, [1, 1]);
         let mut answers = path.iter().take(INCREMENTS).map_while(|f1| point.advance(session, f1).ok());
-        alone.iter().any(|alone| answers.next().is_none_or(|found| !found.same(alone))) || answers.next().is_some()
+        alone.iter().any(|alone| answers.next().is_none_or(|found| !found.has_same_bits(alone)))
+            || answers.next().is_some()
     })
 }

@@ -166,7 +166,7 @@ fn as_text(line: &Finding, program: &str, colours: bool) -> String {
         (true, Verdict::Warning) => format!("\x1b[33m{verdict}\x1b[0m"),
         (true, _) => format!("\x1b[2m{verdict}\x1b[0m"),
     };
-    let mut words = words(line);
+    let mut words = finding_text(line);
     if let Some(call) = &line.call {
         words.push_str(&format!("; {program} --again {call}"));
     }
@@ -177,7 +177,7 @@ fn as_text(line: &Finding, program: &str, colours: bool) -> String {
 }
 
 /// The text, and what the baseline says of the line.
-pub fn words(line: &Finding) -> String {
+pub fn finding_text(line: &Finding) -> String {
     match line.known_figure {
         Some(figure) => format!("(known, but worse: it was {}) {}", short(figure), line.text),
         None if line.known => format!("(known) {}", line.text),

@@ -13,7 +13,7 @@ const TOLERANCE: f64 = 1e-9;
 const NO_STIFFNESS: f64 = 1e-6;
 
 pub fn rest(session: &mut Session) -> Finding {
-    let point = Point::virgin(session, [1, 1]);
+    let point = Point::undeformed(session, [1, 1]);
     let call = point.call(&Matrix3::identity(), session.material);
     let answer = session.call_law(&call);
     if !answer.finite() {

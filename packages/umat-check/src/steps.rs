@@ -67,7 +67,7 @@ impl Shares {
 
 /// A path, the stress at its end with the most parts and the largest on the way, and the last change of the first over
 /// the second.
-struct Ended {
+struct PathEnd {
     path: Vec<Matrix3<f64>>,
     stress: Matrix3<f64>,
     size: f64,
@@ -78,12 +78,12 @@ pub fn steps(session: &mut Session) -> Finding {
     let mut rng = Rng::with_seed(session.material.seed ^ 0x57);
     let mut largest_change = 0.0_f64;
     let (mut coarse, mut fine, mut last) = (0.0, 0.0, 0.0);
-    let (mut compared, mut worst) = (0, None::<Ended>);
+    let (mut compared, mut worst) = (0, None::<PathEnd>);
     let mut shares = Shares::default();
     for _ in 0..HISTORIES {
         let mut path = history(&mut rng, session.material, 2);
         path.truncate(INCREMENTS);
-        let (ends, size) = match ends(session, &path) {
+        let (ends, size) = match end_stresses(session, &path) {
             Ok(found) => found,
             Err(text) => return Finding::new(Question::Steps, Verdict::Wrong, None, text).with(NOT_FINITE),
         };
@@ -99,7 +99,7 @@ pub fn steps(session: &mut Session) -> Finding {
         compared += 1;
         let change = (sixteen - eight).norm() / size;
         if worst.as_ref().is_none_or(|worst| worst.change < change) {
-            worst = Some(Ended { path, stress: sixteen, size, change });
+            worst = Some(PathEnd { path, stress: sixteen, size, change });
         }
     }
     if compared == 0 {
@@ -119,7 +119,7 @@ pub fn steps(session: &mut Session) -> Finding {
     // Two halvings lie between the coarse differences and the fine ones.
     let mut order = 0.5 * (coarse / f64::max(fine, f64::MIN_POSITIVE)).log2();
     if order < LOWEST_ORDER && coarse > 1e-6 && last > SETTLED {
-        match worst.map_or(Ok(None), |worst| finer(session, &worst)) {
+        match worst.map_or(Ok(None), |worst| convergence_order(session, &worst)) {
             Ok(Some((found, change))) => (order, last) = (found, change),
             Ok(None) => {}
             Err(text) => return Finding::new(Question::Steps, Verdict::Wrong, None, text).with(NOT_FINITE),
@@ -138,7 +138,7 @@ pub fn steps(session: &mut Session) -> Finding {
 
 /// The stress at the end of a path in ever more parts, as far as the law does not refuse, and the largest of all on the
 /// way: a path may end where there is next to no stress.
-fn ends(session: &mut Session, path: &[Matrix3<f64>]) -> Result<(Vec<Matrix3<f64>>, f64), String> {
+fn end_stresses(session: &mut Session, path: &[Matrix3<f64>]) -> Result<(Vec<Matrix3<f64>>, f64), String> {
     let (mut ends, mut size) = (Vec::new(), 0.0_f64);
     for parts in PARTS {
         if let Some((stress, largest)) = end(session, path, parts)? {
@@ -151,7 +151,7 @@ fn ends(session: &mut Session, path: &[Matrix3<f64>]) -> Result<(Vec<Matrix3<f64
 
 /// The order of the last two changes of the stress when the parts of a path are halved again and again, and the last
 /// change; none where the law refuses them. It ends where an order is seen twice, or the stress has settled.
-fn finer(session: &mut Session, worst: &Ended) -> Result<Option<(f64, f64)>, String> {
+fn convergence_order(session: &mut Session, worst: &PathEnd) -> Result<Option<(f64, f64)>, String> {
     let started = Instant::now();
     let (mut stress, mut parts, mut seen) = (worst.stress, PARTS[PARTS.len() - 1], 0);
     let (mut change, mut found) = (worst.change, None);
@@ -168,7 +168,7 @@ fn finer(session: &mut Session, worst: &Ended) -> Result<Option<(f64, f64)>, Str
 
 /// The stress at the end of the path and the largest on the way, each of its increments in so many parts.
 fn end(session: &mut Session, path: &[Matrix3<f64>], parts: usize) -> Result<Option<(Matrix3<f64>, f64)>, String> {
-    let mut point = Point::virgin(session, [1, 1]);
+    let mut point = Point::undeformed(session, [1, 1]);
     let mut largest = 0.0_f64;
     for f1 in path {
         let begin = point.f;

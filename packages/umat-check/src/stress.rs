@@ -15,7 +15,7 @@ pub fn stress(session: &mut Session) -> Finding {
     let mut rng = Rng::with_seed(session.material.seed ^ 0x57e);
     let (mut answered, mut largest) = (0, 0.0_f64);
     for _ in 0..HISTORIES {
-        let mut point = Point::virgin(session, [1, 1]);
+        let mut point = Point::undeformed(session, [1, 1]);
         let path = history(&mut rng, session.material, 2);
         for f1 in path.iter().take(INCREMENTS) {
             let Ok(answer) = point.advance(session, f1) else { break };
@@ -23,11 +23,11 @@ pub fn stress(session: &mut Session) -> Finding {
             largest = answer.stress.iter().fold(largest, |largest, stress| largest.max(stress.abs()));
         }
     }
-    judged(largest, answered)
+    stress_finding(largest, answered)
 }
 
 /// The line, of the largest stress of so many increments.
-pub fn judged(largest: f64, increments: usize) -> Finding {
+pub fn stress_finding(largest: f64, increments: usize) -> Finding {
     if increments == 0 {
         return Finding::new(Question::Stress, Verdict::NotSure, None, "there was no answer");
     }

@@ -494,7 +494,7 @@ fn gather(session: &mut Session, reads: Reads) -> Result<(Vec<State>, bool), Box
     let mut rng = Rng::with_seed(session.material.seed);
     let mut states = Vec::new();
     let mut broken = false;
-    let rest = Point::virgin(session, [1, 1]);
+    let rest = Point::undeformed(session, [1, 1]);
     let identity = Matrix3::identity();
     let time_step = session.material.time_step;
     match state(session, &rest, &identity, time_step, (reads, "at rest")) {
@@ -502,7 +502,7 @@ fn gather(session: &mut Session, reads: Reads) -> Result<(Vec<State>, bool), Box
         Err(failure) => broken |= refused(failure)?,
     }
     'histories: for number in 0..HISTORIES {
-        let mut point = Point::virgin(session, [1, 1]);
+        let mut point = Point::undeformed(session, [1, 1]);
         let time_step = session.material.time_step * TIME_STEPS[number % TIME_STEPS.len()];
         let path = history(&mut rng, session.material, 3);
         let asked = [rng.usize(0..path.len()), rng.usize(0..path.len()), path.len() - 1, 0];

@@ -23,7 +23,7 @@ pub fn thermal(session: &mut Session) -> Finding {
     let (mut sure, mut depends, mut set) = (0, false, false);
     let mut worst: Option<(f64, String)> = None;
     for _ in 0..HISTORIES {
-        let mut point = Point::virgin(session, [1, 1]);
+        let mut point = Point::undeformed(session, [1, 1]);
         for f1 in history(&mut rng, session.material, 2).iter().take(INCREMENTS) {
             let call = point.call(f1, session.material);
             let given = session.call_law(&call).by_temperature;

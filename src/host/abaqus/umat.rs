@@ -8,9 +8,9 @@ use libc::{c_char, size_t};
 
 use super::{UMAT_COUNTS, check_counts, property_count};
 use crate::host::ByStep;
+use crate::host::card_variables::{CardNumbers, CardVariables, properties_of};
 use crate::host::entry_points::{Message, check_plane, check_pointers, entry, properties};
 use crate::host::environment::in_default_environment;
-use crate::host::limit_variable;
 use crate::law::block::{Circumstances, components, components_mut};
 use crate::law::derivative::{Derivative, JaumannModulus, Stress};
 use crate::law::error::Error;
@@ -19,8 +19,10 @@ use crate::law::interface::{Law, Points};
 use crate::law::linear_elastic::LinearElastic;
 use crate::law::number::level::Level;
 use crate::law::number::vector::{cross, dot};
+use crate::law::own::Own;
 use crate::law::parameters::HYPERELASTIC_PROPERTIES as PROPERTIES;
-use crate::law::point::{Call, Own, Point, Sink, evaluate_call};
+use crate::law::point::{Call, Sink, evaluate_call};
+use crate::law::response::Point;
 use crate::law::state::HYPERELASTIC_STATE;
 use crate::law::status;
 use crate::law::tangent::Measure;
@@ -105,7 +107,7 @@ impl Umat {
         }
         check_counts(self.ndi, self.nshr, UMAT_COUNTS, self.nstatv, L::DESCRIPTION.state.len())?;
         let table = L::DESCRIPTION.properties;
-        let count = limit_variable::properties_of::<f64, L>(property_count(self.nprops, table)?);
+        let count = properties_of::<f64, L>(property_count(self.nprops, table)?);
         // SAFETY: `props` is not null, as just checked, and has `nprops` values.
         let values = unsafe { properties(self.props, count, table) }?;
         let law = L::new(values)?;
@@ -115,20 +117,17 @@ impl Umat {
         Ok(law)
     }
 
-    /// The point's own failure limit, or 0.
+    /// What the point has of its own.
     ///
     /// # Errors
     /// The card names no variable that may hold it, or it means nothing.
-    fn limit<L: Law<f64>>(&self) -> Result<f64, Error> {
+    fn own<L: Law<f64>>(&self) -> Result<CardNumbers<f64>, Error> {
         let (count, kept) = (property_count(self.nprops, L::DESCRIPTION.properties)?, L::DESCRIPTION.state.len());
         // SAFETY: `law` has found that neither array is null and that the counts are not negative: `nprops` and
         // `nstatv` values.
         unsafe {
-            let place = limit_variable::place::<f64, L>(self.props, count, kept, self.nstatv as usize)?;
-            limit_variable::check(
-                limit_variable::at(self.statev.cast_const(), place),
-                self.statev.add(L::DESCRIPTION.failed),
-            )
+            CardVariables::from_card::<f64, L>(self.props, count, kept, self.nstatv as usize)?
+                .numbers::<f64, L>(self.statev)
         }
     }
 }
@@ -179,17 +178,17 @@ impl StandardLaw for Hyperelastic<f64> {
         let message = Message { text: message, capacity };
         // SAFETY: as above.
         unsafe {
-            let mut limit = None;
+            let mut own = None;
             if !call.is_usual(PROPERTIES) {
-                let code = check(call, &mut limit, message);
+                let code = check(call, &mut own, message);
                 if code != status::OK {
                     return code;
                 }
             }
             if call.ddsdde.is_null() {
-                without_tangent(call, limit.as_ref(), message)
+                without_tangent(call, own.as_ref(), message)
             } else {
-                with_tangent(call, limit.as_ref(), message)
+                with_tangent(call, own.as_ref(), message)
             }
         }
     }
@@ -212,13 +211,13 @@ impl Umat {
 /// As for [`StandardLaw::umat`].
 #[cold]
 #[inline(never)]
-unsafe fn check(call: &Umat, limit: &mut Option<f64>, message: Message) -> i32 {
+unsafe fn check(call: &Umat, own: &mut Option<CardNumbers<f64>>, message: Message) -> i32 {
     let body = || {
         // The kernel checks the properties too.
         if !call.is_usual(PROPERTIES + 1) {
             call.law::<Hyperelastic>()?;
         }
-        *limit = Some(call.limit::<Hyperelastic>()?);
+        *own = Some(call.own::<Hyperelastic>()?);
         Ok(status::OK)
     };
     // SAFETY: the message is the caller's.
@@ -228,17 +227,17 @@ unsafe fn check(call: &Umat, limit: &mut Option<f64>, message: Message) -> i32 {
 /// # Safety
 /// As for [`StandardLaw::umat`]; the arguments have been checked.
 #[inline(never)]
-unsafe fn without_tangent(call: &Umat, limit: Option<&f64>, message: Message) -> i32 {
+unsafe fn without_tangent(call: &Umat, own: Option<&CardNumbers<f64>>, message: Message) -> i32 {
     // SAFETY: the caller's arrays and message.
-    unsafe { hyperelastic(call, limit, message, Stress::<true>) }
+    unsafe { hyperelastic(call, own, message, Stress::<true>) }
 }
 
 /// # Safety
 /// As for [`StandardLaw::umat`]; the arguments have been checked, and DDSDDE is not null.
 #[inline(never)]
-unsafe fn with_tangent(call: &Umat, limit: Option<&f64>, message: Message) -> i32 {
+unsafe fn with_tangent(call: &Umat, own: Option<&CardNumbers<f64>>, message: Message) -> i32 {
     // SAFETY: as above.
-    unsafe { hyperelastic(call, limit, message, JaumannModulus) }
+    unsafe { hyperelastic(call, own, message, JaumannModulus) }
 }
 
 /// The UMAT of the hyperelastic law, by its kernel of one point.
@@ -248,7 +247,7 @@ unsafe fn with_tangent(call: &Umat, limit: Option<&f64>, message: Message) -> i3
 #[inline(always)]
 unsafe fn hyperelastic<D: Derivative<N>, const N: usize>(
     call: &Umat,
-    limit: Option<&f64>,
+    own: Option<&CardNumbers<f64>>,
     message: Message,
     tangent: D,
 ) -> i32
@@ -267,7 +266,11 @@ where
                 &*sink.call.statev.cast::<[Cell<f64>; HYPERELASTIC_STATE]>(),
             )
         };
-        evaluate_call(Call { source, f, own: Own { limit, ..Own::NONE }, state, tangent, sink }, Level::Avx512)?;
+        let own = match own {
+            Some(numbers) => numbers.own(None),
+            None => Own::NONE,
+        };
+        evaluate_call(Call { source, f, own, state, tangent, sink }, Level::Avx512)?;
         Ok(sink.status.get())
     };
     // SAFETY: the message is the caller's; what `body` reads and writes is not null.
@@ -383,20 +386,19 @@ fn current_density(energy: f64, jacobian: f64) -> f64 {
 /// As for [`StandardLaw::umat`].
 unsafe fn step<L: Law<f64>>(call: &Umat) -> Result<i32, Error> {
     let law: L = call.law()?;
-    let limit = call.limit::<L>()?;
+    let own = call.own::<L>()?;
     let (mut sigma, mut state, mut tangent) = ([0.0; 6], L::fresh(), [[0.0; 6]; 6]);
     let wanted = !call.ddsdde.is_null();
     let point = Points {
         f_old: components(if L::DESCRIPTION.reads.old_gradient { call.dfgrd0 } else { call.dfgrd1 }, 1),
         f_new: components(call.dfgrd1, 1),
-        limit: limit_variable::of::<_, L>(&limit),
         circumstances: call.circumstances,
         state_old: L::parts(call.statev, 1),
         state_new: L::parts_mut(state.as_mut().as_mut_ptr(), 1),
         stress: components_mut(sigma.as_mut_ptr(), 1),
         tangent: if wanted { tangent.as_mut_ptr().cast() } else { core::ptr::null_mut() },
         measure: Measure::Jaumann,
-        ..Points::without_arrays(1, 1)
+        ..own.point::<L>()
     };
     // SAFETY: the arrays are not null and those that `Umat` promises, or of one point here.
     let code = unsafe { law.step(&point) }?;

@@ -8,8 +8,8 @@ use libc::{c_char, size_t};
 use super::{VUMAT_COUNTS, check_counts, property_count};
 use crate::host::ByStep;
 use crate::host::arguments::level;
+use crate::host::card_variables::{CardVariables, properties_of};
 use crate::host::entry_points::{Message, check_plane, check_pointers, entry, properties, stiffness_at_rest};
-use crate::host::limit_variable;
 use crate::host::structures::{read, structures};
 use crate::law::block::{Circumstances, Precision, components, components_mut};
 use crate::law::description::Reads;
@@ -106,9 +106,9 @@ unsafe fn vumat<L: Law<T>, T: Precision>(
     let table = L::DESCRIPTION.properties;
     let (count, kept) = (property_count(block.nprops, table)?, L::DESCRIPTION.state.len());
     // SAFETY: `props` is not null, as just checked, and has `nprops` values.
-    let (values, limit) = unsafe {
-        let values = properties(block.props, limit_variable::properties_of::<T, L>(count), table)?;
-        (values, limit_variable::place::<T, L>(block.props, count, kept, block.nstatev as usize)?)
+    let (values, variables) = unsafe {
+        let values = properties(block.props, properties_of::<T, L>(count), table)?;
+        (values, CardVariables::from_card::<T, L>(block.props, count, kept, block.nstatev as usize)?)
     };
     let law = L::new(values)?;
     if block.nshr == 1 {
@@ -119,7 +119,7 @@ unsafe fn vumat<L: Law<T>, T: Precision>(
     if checks {
         moduli = stiffness_at_rest(&law)?;
         // SAFETY: arrays of `nblock` points, which are not null, with the components that `Vumat` says.
-        unsafe { check_limits::<L, T>(block, limit, n) }?;
+        unsafe { variables.check::<T, L>(block.state_old, n) }?;
     }
     // SAFETY: arrays of `nblock` points, which are not null, with the components that `Vumat` says; here and in the
     // functions below.
@@ -135,28 +135,8 @@ unsafe fn vumat<L: Law<T>, T: Precision>(
         if checks {
             return Ok(elastic_check::<L, T>(moduli, block, n));
         }
-        stretched(&law, block, circumstances, limit, n, level)
+        stretched(&law, block, circumstances, variables, n, level)
     }
-}
-
-/// Refuses failure limits that mean nothing, before there is any deformation.
-///
-/// # Errors
-/// The first point that has one.
-///
-/// # Safety
-/// As for [`vumat`], with `n` points.
-unsafe fn check_limits<L: Law<T>, T: Precision>(block: &Vumat<T>, limit: Option<usize>, n: usize) -> Result<(), Error> {
-    let limits = limit_variable::at(block.state_old, limit.map(|place| place * n));
-    if limits.is_null() {
-        return Ok(());
-    }
-    for index in 0..n {
-        let latch = block.state_old.wrapping_add(L::DESCRIPTION.failed * block.nblock as usize + index);
-        // SAFETY: both are rows of the state variables, of `n` points.
-        unsafe { limit_variable::check(limits.wrapping_add(index), latch) }?;
-    }
-    Ok(())
 }
 
 /// An energy of the solver's that stays as it is; 0 in place of one that is not finite.
@@ -225,7 +205,7 @@ unsafe fn stretched<L: Law<T>, T: Precision>(
     law: &L,
     block: &Vumat<T>,
     circumstances: Circumstances<T>,
-    limit: Option<usize>,
+    variables: CardVariables,
     n: usize,
     level: Option<Level>,
 ) -> Result<i32, Error> {
@@ -249,14 +229,13 @@ unsafe fn stretched<L: Law<T>, T: Precision>(
         let points = Points {
             f_old: columns(block.stretch_old),
             f_new: columns(block.stretch_new),
-            limit: limit_variable::at(block.state_old.wrapping_add(start), limit.map(|place| place * n)),
             circumstances: circumstances.from(start),
             state_old: L::parts(block.state_old.wrapping_add(start), n),
             state_new: L::parts_mut(block.state_new.wrapping_add(start), n),
             stress,
             status: codes.as_mut_ptr(),
             level,
-            ..Points::without_arrays(CHUNK.min(n - start), n)
+            ..variables.points(block.state_old.wrapping_add(start), CHUNK.min(n - start), n)
         };
         // SAFETY: the rows have the points from `start` on, of which no more than CHUNK are evaluated; the new state
         // may replace the old one exactly.

@@ -17,7 +17,7 @@ const CHUNK: usize = 64;
 /// # Safety
 /// `cm` has the law's properties; the history and results of the elements may be written, and F is behind their
 /// history.
-unsafe fn evaluate<T: Precision, L: History<T>>(
+unsafe fn evaluate_elements<T: Precision, L: History<T>>(
     cm: *const T,
     nhv: i32,
     elements: &Elements<T>,
@@ -77,7 +77,7 @@ pub(super) unsafe fn vector<T: Precision, L: History<T>>(call: &UmatVector<T>, w
     check_pointers(&[(call.cm, "cm")])?;
     let elements = Elements::new(call)?;
     // SAFETY: `check_pointers` has refused null; rows of `nlq` elements, of which these are some.
-    unsafe { evaluate::<T, L>(call.cm, call.nhv, &elements, when) }
+    unsafe { evaluate_elements::<T, L>(call.cm, call.nhv, &elements, when) }
 }
 
 /// The material routine of one element.
@@ -91,7 +91,7 @@ pub(super) unsafe fn scalar<T: Precision, L: History<T>>(call: &Umat<T>, when: &
     let stress = components_mut(sig, 1);
     let elements = Elements { stress, history: hsv, leading_dimension: 1, first: 0, count: 1, failed: failel };
     // SAFETY: `check_pointers` has refused null; rows of one element.
-    unsafe { evaluate::<T, L>(cm, nhv, &elements, when) }
+    unsafe { evaluate_elements::<T, L>(cm, nhv, &elements, when) }
 }
 
 /// The tangents of `count` elements from `first` on: of a step to F from the state that the material routine has

@@ -10,8 +10,10 @@ use crate::law::error::Error;
 use crate::law::failure::Failure;
 use crate::law::hyperelastic::Hyperelastic;
 use crate::law::number::level::Level;
+use crate::law::own::Own;
 use crate::law::parameters::HYPERELASTIC_PROPERTIES;
-use crate::law::point::{Call, Own, Point, Sink, evaluate_call};
+use crate::law::point::{Call, Sink, evaluate_call};
+use crate::law::response::Point;
 use crate::law::response::{Request, nan_unless_finite};
 use crate::law::state::{FAILED, HYPERELASTIC_STATE};
 use crate::law::status;
@@ -44,7 +46,7 @@ impl MgisLaw for Hyperelastic<f64> {
 #[inline(never)]
 pub unsafe extern "C" fn hyperelastic(view: *mut BehaviourDataView) -> i32 {
     // SAFETY: `view` is null or MGIS's, and `integrate` evaluates only if no pointer that is needed is null.
-    unsafe { integrate(&HYPERELASTIC, view, |view, options| evaluate(view, options, false)) }
+    unsafe { integrate(&HYPERELASTIC, view, |view, options| integrate_point(view, options, false)) }
 }
 
 /// `ToronHyperelastic_PlaneStrain` and `ToronHyperelastic_Axisymmetrical`.
@@ -54,7 +56,7 @@ pub unsafe extern "C" fn hyperelastic(view: *mut BehaviourDataView) -> i32 {
 #[inline(never)]
 pub unsafe extern "C" fn hyperelastic_in_plane(view: *mut BehaviourDataView) -> i32 {
     // SAFETY: as above.
-    unsafe { integrate(&HYPERELASTIC, view, |view, options| evaluate(view, options, true)) }
+    unsafe { integrate(&HYPERELASTIC, view, |view, options| integrate_point(view, options, true)) }
 }
 
 /// Evaluates the law and writes what is requested. Returns the status of the point.
@@ -65,7 +67,7 @@ pub unsafe extern "C" fn hyperelastic_in_plane(view: *mut BehaviourDataView) -> 
 /// # Safety
 /// As for [`MgisLaw::integrate`]; no pointer that is needed is null.
 #[inline(always)]
-unsafe fn evaluate(view: &BehaviourDataView, options: Options, plane: bool) -> Result<i32, Error> {
+unsafe fn integrate_point(view: &BehaviourDataView, options: Options, plane: bool) -> Result<i32, Error> {
     // SAFETY: `integrate` has found these arrays not to be null; they have the values of the tables. The state is in
     // cells, since the new one may replace it.
     let (source, state, f) = unsafe {
@@ -142,7 +144,7 @@ impl ToHost<'_> {
             return;
         }
         operator(&results);
-        // SAFETY: the arrays are those of `evaluate`'s view, whose sizes and pointers are right.
+        // SAFETY: the arrays are those of `integrate_point`'s view, whose sizes and pointers are right.
         unsafe {
             results.store_speed(point.wave_modulus);
             if results.options.integrates {

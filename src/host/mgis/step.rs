@@ -84,7 +84,7 @@ pub unsafe extern "C" fn linear_elastic_in_plane(view: *mut BehaviourDataView) -
 #[inline(always)]
 unsafe fn of_law<L: Law<f64>>(view: *mut BehaviourDataView, plane: bool) -> i32 {
     // SAFETY: `view` is null or MGIS's, and `integrate` evaluates only if no pointer that is needed is null.
-    unsafe { integrate(const { &L::DESCRIPTION }, view, |view, options| evaluate::<L>(view, options, plane)) }
+    unsafe { integrate(const { &L::DESCRIPTION }, view, |view, options| integrate_step::<L>(view, options, plane)) }
 }
 
 /// Evaluates the law and writes what is requested. Returns the status of the point.
@@ -95,7 +95,7 @@ unsafe fn of_law<L: Law<f64>>(view: *mut BehaviourDataView, plane: bool) -> i32 
 /// # Safety
 /// As for [`MgisLaw::integrate`]; no pointer that is needed is null.
 #[inline(never)]
-unsafe fn evaluate<L: Law<f64>>(view: &BehaviourDataView, options: Options, plane: bool) -> Result<i32, Error> {
+unsafe fn integrate_step<L: Law<f64>>(view: &BehaviourDataView, options: Options, plane: bool) -> Result<i32, Error> {
     // SAFETY: `integrate` has found these arrays not to be null; they have the values of the tables. The state is
     // copied, since the new one may replace it.
     let (properties, old, f0) = unsafe {
@@ -118,7 +118,7 @@ unsafe fn evaluate<L: Law<f64>>(view: &BehaviourDataView, options: Options, plan
         temperature: if options.integrates { view.s1 } else { view.s0 }.external_state_variables,
     };
     let step = Step { law: &law, f0: &f0, f1: &f1, old: &old, options, circumstances };
-    let Outcome { stress: cauchy, state, speed, tangent, code } = step.evaluate()?;
+    let Outcome { stress: cauchy, state, speed, tangent, code } = step.outcome()?;
     if code == status::OVERFLOW {
         law.told(code)?;
     }
@@ -207,7 +207,7 @@ impl<L: Law<f64>> Step<'_, L> {
     ///
     /// # Errors
     /// None: the density has been checked.
-    fn evaluate(&self) -> Result<Outcome<L::State>, Error> {
+    fn outcome(&self) -> Result<Outcome<L::State>, Error> {
         let Step { law, f0, f1, old, options, circumstances } = self;
         let (mut stress, mut state, mut speed, mut tangent) = ([0.0; 6], **old, 0.0, [0.0; 81]);
         let mut point = Points {

@@ -72,7 +72,7 @@ pub fn needs_nodes(cycle: i32) -> bool {
 ///
 /// # Safety
 /// The group is what [`Group`] says.
-pub unsafe fn evaluate<T: Precision>(laws: &Laws<T>, group: &Group<T>) -> Result<(), Error> {
+pub unsafe fn evaluate_material<T: Precision>(laws: &Laws<T>, group: &Group<T>) -> Result<(), Error> {
     // SAFETY: the group's arrays are as `Group` says, and `check` refuses null where it is not allowed.
     unsafe {
         group.check(laws)?;
@@ -413,7 +413,7 @@ impl<T: Precision> Group<T> {
     /// A property that is wrong, a fibre direction that has no length.
     ///
     /// # Safety
-    /// As for [`evaluate`], with a group that has been checked.
+    /// As for [`evaluate_material`], with a group that has been checked.
     pub(super) unsafe fn step<L: SolidLaw<T>>(&self, card: &Card<'_, T>) -> Result<(), Error> {
         let law = L::new(card.properties)?;
         // SAFETY: the group has been checked.

@@ -10,7 +10,7 @@ use crate::law::block::MOST;
 use crate::law::error::Error;
 use crate::law::status;
 
-use super::engine::{Group, evaluate};
+use super::engine::{Group, evaluate_material};
 use super::laws::{Laws, MyReal};
 use super::starter::{listing, read};
 
@@ -119,7 +119,7 @@ macro_rules! entries {
         /// The engine's routine, `LUSERnn`.
         ///
         /// # Safety
-        /// As for [`evaluate`]; `message` is null or has `capacity` bytes.
+        /// As for [`evaluate_material`]; `message` is null or has `capacity` bytes.
         pub unsafe fn $group(group: &Group<$t>, message: *mut c_char, capacity: size_t) -> i32 {
             // SAFETY: group and message are as just said.
             unsafe { $group_of(&<$t as MyReal>::TORON, group, message, capacity) }
@@ -128,10 +128,12 @@ macro_rules! entries {
         /// The same with the laws of another list.
         ///
         /// # Safety
-        /// As for [`evaluate`]; `message` is null or has `capacity` bytes.
+        /// As for [`evaluate_material`]; `message` is null or has `capacity` bytes.
         pub unsafe fn $group_of(laws: &Laws<$t>, group: &Group<$t>, message: *mut c_char, capacity: size_t) -> i32 {
             // SAFETY: group and message are as just said.
-            unsafe { entry(Message { text: message, capacity }, || evaluate(laws, group).map(|()| status::OK)) }
+            unsafe {
+                entry(Message { text: message, capacity }, || evaluate_material(laws, group).map(|()| status::OK))
+            }
         }
     };
 }

@@ -35,14 +35,14 @@ pub trait SolidLaw<T: Precision>: Law<T> {
     /// A property that is wrong, a fibre direction that has no length.
     ///
     /// # Safety
-    /// As for [`evaluate`](super::engine::evaluate).
+    /// As for [`evaluate_material`](super::engine::evaluate_material).
     unsafe fn evaluate_group(group: &Group<T>, card: &Card<'_, T>) -> Result<(), Error>;
 }
 
 impl<L: ByStep + Law<T>, T: Precision> SolidLaw<T> for L {
     const OPTIONS: usize = if L::DESCRIPTION.has_fibre() { 1 } else { 0 };
 
-    const HAS_OWN_OPTION: bool = L::HAS_LIMIT;
+    const HAS_OWN_OPTION: bool = L::HAS.limit;
 
     fn modulus_at_rest(properties: &[T]) -> Result<T, Error> {
         let [bulk, shear] = stiffness_at_rest(&L::new(properties)?)?.map(Into::into);

@@ -23,7 +23,7 @@ mod entries;
 pub mod laws;
 pub mod starter;
 
-pub use engine::{Group, evaluate, needs_nodes};
+pub use engine::{Group, evaluate_material, needs_nodes};
 pub use entries::{ListingLine, MaterialCard, read_card_f32, read_card_f64, write_line_f32, write_line_f64};
 pub use entries::{group_f32, group_f64, group_of_f32, group_of_f64};
 pub use laws::{Laws, Material, MyReal, SolidLaw};

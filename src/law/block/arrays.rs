@@ -4,7 +4,8 @@ use core::marker::PhantomData;
 use core::ptr::{null, null_mut};
 
 use super::dispatch::Precision;
-use super::points::{Points, check_layout, components, components_mut};
+use super::layout::{check_layout, components, components_mut};
+use super::points::Points;
 use crate::law::error::Error;
 use crate::law::hyperelastic::Hyperelastic;
 use crate::law::interface::Law;

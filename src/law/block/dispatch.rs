@@ -13,7 +13,7 @@ use super::one::One;
 use super::points::Points;
 use super::request::{ALIGNED, ANY, FRICTION};
 #[cfg(target_arch = "x86_64")]
-use super::request::{FIBRES, LIMITS, SHEAR, STATE, STRESS, WAVE, request};
+use super::request::{FIBRES, LIMITS, SHEAR, STATE, STRESS, WAVE};
 use super::run::{FRICTIONAL_ROWS, HYPERELASTIC_ROWS, LINEAR_ROWS};
 use crate::law::frictional::{Friction, Frictional};
 use crate::law::hyperelastic::Hyperelastic;
@@ -126,8 +126,8 @@ unsafe fn dispatch<T: Precision>(level: Level, law: &Hyperelastic<T>, block: &Po
 /// As for [`Precision::dispatch`], for a block that fills a register.
 #[cfg(target_arch = "x86_64")]
 unsafe fn run<T: Registers, I: Instructions>(law: &Hyperelastic<T>, block: &Points<T>) -> i32 {
-    let Request { stress, energies, invariants, failure, modes, wave_modulus } = request::<T, ANY>(block);
-    let usual = stress && !modes && block.are_usual();
+    let Request { stress, energies, invariants, failure, wave_modulus, .. } = block.request();
+    let usual = stress && block.are_usual();
     let state = usual && energies && invariants && failure && !wave_modulus;
     let explicit = usual && energies && invariants && failure && wave_modulus && !law.shears;
     let nothing_else =
@@ -229,8 +229,8 @@ unsafe fn dispatch_frictional<T: Precision>(level: Level, law: &Frictional<T>, b
 #[cfg(target_arch = "x86_64")]
 unsafe fn run_frictional<T: Registers, I: Instructions>(law: &Frictional<T>, block: &Points<T>) -> i32 {
     let Frictional { elastic, friction } = law;
-    let Request { stress, energies, invariants, failure, modes, wave_modulus } = request::<T, ANY>(block);
-    let usual = stress && energies && invariants && failure && !modes && block.are_usual() && !elastic.shears;
+    let Request { stress, energies, invariants, failure, wave_modulus, .. } = block.request();
+    let usual = stress && energies && invariants && failure && block.are_usual() && !elastic.shears;
     let (fibres, limits) = (!block.fibre[0].is_null(), !block.limits(FAILURE).is_null());
     const PLAIN: u8 = FRICTION + STATE;
     const FIBRE: u8 = FRICTION + STATE + FIBRES;

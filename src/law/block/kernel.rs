@@ -53,7 +53,7 @@ pub(super) unsafe fn sweep<T: Scalar, R: Lanes<T>, const WANT: u8>(
         };
         // SAFETY: count ≤ STAGED, and (first + count − 1) COUNT < n, `registers` being n/COUNT rounded up; a group has
         // two registers at least, unless it is the whole block.
-        unsafe { evaluate::<T, R, WANT>(law, block, first * R::COUNT, count, &mut worst) };
+        unsafe { evaluate_group::<T, R, WANT>(law, block, first * R::COUNT, count, &mut worst) };
         first += count;
         if first >= registers {
             return least_code(worst);
@@ -128,7 +128,7 @@ union Step<R: Real> {
 /// As for [`sweep`], with count ≤ STAGED; i + (count − 1) COUNT < n, and if the last register is not full, there are
 /// two.
 #[inline(always)]
-unsafe fn evaluate<T: Scalar, R: Lanes<T>, const WANT: u8>(
+unsafe fn evaluate_group<T: Scalar, R: Lanes<T>, const WANT: u8>(
     law: Yarn<'_, R>,
     block: &Points<T>,
     i: usize,
@@ -260,7 +260,7 @@ struct Slides<R: Real> {
 /// Evaluates a group, stage by stage.
 ///
 /// # Safety
-/// As for [`evaluate`].
+/// As for [`evaluate_group`].
 #[inline(always)]
 unsafe fn staged<T: Scalar, R: Lanes<T>, A: GroupAxes<R>, const WANT: u8>(group: &Group<'_, T, R, A>, worst: &mut R) {
     let Group { block, i, count, .. } = *group;
@@ -323,12 +323,12 @@ unsafe fn staged<T: Scalar, R: Lanes<T>, A: GroupAxes<R>, const WANT: u8>(group:
 /// The stages. For all of them:
 ///
 /// # Safety
-/// As for [`evaluate`], after those that stand before it; k < count ≤ STAGED in every loop, and at(k) + COUNT ≤ n.
+/// As for [`evaluate_group`], after those that stand before it; k < count ≤ STAGED in every loop, and at(k) + COUNT ≤ n.
 impl<T: Scalar, R: Lanes<T>, A: GroupAxes<R>> Group<'_, T, R, A> {
     /// The first point of register k.
     #[inline(always)]
     unsafe fn at(&self, k: usize) -> usize {
-        // SAFETY: see above; `evaluate` has put all places.
+        // SAFETY: see above; `evaluate_group` has put all places.
         unsafe { *self.places.get(k) }
     }
 

@@ -28,7 +28,7 @@ pub(super) unsafe fn sweep_linear<T: Scalar, R: Lanes<T>>(
     let mut i = points.start;
     while i < points.end {
         // SAFETY: `points` has a multiple of COUNT points, so that i + COUNT ≤ its end ≤ n.
-        worst = worst.min(unsafe { evaluate(&lanes, block, i) });
+        worst = worst.min(unsafe { evaluate_register(&lanes, block, i) });
         i += R::COUNT;
     }
     least_code(worst)
@@ -39,7 +39,7 @@ pub(super) unsafe fn sweep_linear<T: Scalar, R: Lanes<T>>(
 /// # Safety
 /// As for [`sweep_linear`], with i + COUNT ≤ n.
 #[inline(always)]
-unsafe fn evaluate<T: Scalar, R: Lanes<T>>(law: &LinearElastic<R>, block: &Points<T>, i: usize) -> R {
+unsafe fn evaluate_register<T: Scalar, R: Lanes<T>>(law: &LinearElastic<R>, block: &Points<T>, i: usize) -> R {
     let (zero, one) = (R::splat(0.0), R::splat(1.0));
     let state = block.leading_dimension;
     let wanted = Wanted {

@@ -28,10 +28,13 @@ mod avx2;
 #[cfg(target_arch = "x86_64")]
 mod avx512;
 mod baseline;
+mod buffers;
+mod circumstances;
 mod copies;
 mod dispatch;
 mod instructions;
 mod kernel;
+mod layout;
 mod linear;
 #[cfg(target_arch = "x86_64")]
 mod one;
@@ -41,8 +44,10 @@ mod request;
 mod run;
 
 pub use arrays::{Arrays, Block};
+pub use circumstances::Circumstances;
 pub use dispatch::Precision;
 pub(crate) use kernel::least_code;
-pub use points::{Circumstances, PARTS, Points, Strides, components, components_mut};
-pub(crate) use points::{MOST, check_layout, distances, parts};
-pub(crate) use run::{Kernels, at_fault, evaluate, evaluate_one};
+pub(crate) use layout::{MOST, check_layout, distances, parts};
+pub use layout::{components, components_mut};
+pub use points::{Has, PARTS, Points, Strides};
+pub(crate) use run::{Kernels, at_fault, evaluate_one, evaluate_points};

@@ -3,11 +3,11 @@
 use super::points::Points;
 use super::request::{ANY, FRICTION, I_TE, LIMITS, LOST, SLIP, STATE, index_row, request, shears, wants_tangent};
 use crate::law::axes::FibreFrame;
-use crate::law::failure::Failure;
 use crate::law::frictional::Slip;
 use crate::law::hyperelastic::{Deformed, Hyperelastic, Kirchhoff};
 use crate::law::kinematics::{Kinematics, Strain, Stretch};
 use crate::law::number::real::{Lanes, Real, Scalar};
+use crate::law::own::OwnNumbers;
 use crate::law::response::nan_unless_finite;
 use crate::law::state::part::{ENERGIES, FAILURE, INVARIANTS};
 use crate::law::status;
@@ -103,8 +103,8 @@ pub(super) unsafe fn respond<T: Scalar, R: Lanes<T>, const WANT: u8>(
         let tangent = wants_tangent::<T, WANT>(block);
         let frame = if request.modes || tangent { frame::<T, R, WANT>(law, block, i).0 } else { law.frame };
         let point = Deformed { law, kinematics, k, shear: shears::<R, WANT>(law) };
-        let nan_if_invalid = match limit::<T, R, WANT>(block, i) {
-            Some(limit) => R::select(Failure::is_limit(limit), nan_if_invalid, R::splat(f64::NAN)),
+        let nan_if_invalid = match own::<T, R, WANT>(block, i).are_allowed() {
+            Some(allowed) => R::select(allowed, nan_if_invalid, R::splat(f64::NAN)),
             None => nan_if_invalid,
         };
         let nan_if_invalid =
@@ -145,18 +145,14 @@ pub(super) unsafe fn latch<T, R: Lanes<T>, const WANT: u8>(block: &Points<T>, i:
     unsafe { R::load(block.state_old[FAILURE].add((index_row::<WANT>() + 1) * block.leading_dimension + i)) }
 }
 
-/// The limits of points that have their own, where the failure is computed.
+/// What the points have of their own.
 ///
 /// # Safety
 /// As for [`sweep`](super::kernel::sweep), for the lanes from i on.
 #[inline(always)]
-pub(super) unsafe fn limit<T, R: Lanes<T>, const WANT: u8>(block: &Points<T>, i: usize) -> Option<R> {
-    let limited = if WANT & ANY != 0 { !block.limits(FAILURE).is_null() } else { WANT & LIMITS != 0 };
-    if !limited {
-        return None;
-    }
-    // SAFETY: `limit` is not null; it has n ≥ i + COUNT values.
-    Some(unsafe { R::load(block.limit.add(i)) })
+pub(super) unsafe fn own<T, R: Lanes<T>, const WANT: u8>(block: &Points<T>, i: usize) -> OwnNumbers<R> {
+    // SAFETY: the same points, and i + COUNT ≤ n.
+    unsafe { OwnNumbers::of_lanes(block, i, WANT & ANY != 0, WANT & LIMITS != 0) }
 }
 
 /// Stores the tangent of the intact material. Returns 0 where all its entries are finite, else NaN.
@@ -275,8 +271,8 @@ pub(super) unsafe fn store_state<T: Scalar, R: Lanes<T>, const WANT: u8>(
     // SAFETY: what is requested has an array, whose components have n ≥ i + COUNT values.
     unsafe {
         let shear = shears::<R, WANT>(law);
-        let failure = limit::<T, R, WANT>(block, i).map_or(law.failure, |limit| law.failure.at(limit));
-        let index = if request.failure { failure.index(strain) } else { R::splat(0.0) };
+        let own = own::<T, R, WANT>(block, i);
+        let index = if request.failure { own.failure_index(law.failure, strain) } else { R::splat(0.0) };
         let mut r =
             law.history(index, strain, stretch.shear_invariant(), k, outcome.updated, outcome.latch, request, shear);
         if let Some(Remembered { i_td, .. }) = friction {
@@ -389,9 +385,9 @@ pub(super) unsafe fn status_code<T: Scalar, R: Lanes<T>, const WANT: u8>(
         let Slip { d: [d1, d2], i_te, lost } = unsafe { remembered::<T, R>(block, i) };
         finite = finite & (((d1 + d2) + (i_te + lost)) * zero).le(zero);
     }
-    // SAFETY: F has the lanes from i on, and so has a limit.
-    let (limit, gradient) = unsafe { (limit::<T, R, WANT>(block, i), gradient(block, i)) };
-    let code = law.status_code(&gradient, d, usable, limit.map(Failure::is_limit), outcome.latch);
+    // SAFETY: F has the lanes from i on, and so has what the points have of their own.
+    let (own, gradient) = unsafe { (own::<T, R, WANT>(block, i), gradient(block, i)) };
+    let code = law.status_code(&gradient, d, usable, own.are_allowed(), outcome.latch);
     // A slip that is not finite leaves the section without a size.
     let overflow = code.le(R::splat(f64::from(status::OVERFLOW))) & R::splat(f64::from(status::OVERFLOW)).le(code);
     let unexplained = if WANT & FRICTION != 0 { zero.le(code) | overflow } else { zero.le(code) };

@@ -1,15 +1,21 @@
-//! Points as hosts hold them: a pointer for each array, or each component.
+//! Points as hosts hold them: a pointer for each array, or each component. Every list of the arrays that points may have
+//! stands here: what checks them, copies them, passes over some of them, and tells which results they ask for.
 
 use core::ptr::{null, null_mut};
 
+use super::buffers::Copies;
+use super::circumstances::Circumstances;
 use super::dispatch::Precision;
+use super::layout::{check_layout, components_mut, distances};
 use crate::law::description::Reads;
-use crate::law::error::{Error, Value};
+use crate::law::error::Error;
 use crate::law::failure::Failure;
 use crate::law::interface::Law;
 use crate::law::linear_elastic::{Criterion, Rotation};
 use crate::law::number::level::Level;
 use crate::law::number::real::{Real, Scalar};
+use crate::law::response::Request;
+use crate::law::state::part::{ENERGIES, FAILURE, INVARIANTS};
 use crate::law::status;
 use crate::law::tangent::Measure;
 use crate::law::wave_speed;
@@ -82,64 +88,6 @@ pub struct Points<T> {
     pub level: Option<Level>,
 }
 
-/// When a step is, and how warm its points are. Each is read only by a law whose description says so.
-#[derive(Clone, Copy, Debug)]
-pub struct Circumstances<T> {
-    /// The length of the step, and the time at its end; NaN if the host does not know.
-    pub time_increment: f64,
-    pub time: f64,
-    /// The temperature of each point at the end of the step; null if the host does not know.
-    pub temperature: *const T,
-}
-
-impl<T> Circumstances<T> {
-    /// Those of a host that knows none.
-    pub const UNKNOWN: Self = Circumstances { time_increment: f64::NAN, time: f64::NAN, temperature: null() };
-
-    /// Those of the points from `first` on.
-    pub(crate) fn from(self, first: usize) -> Self {
-        let temperature = self.temperature;
-        Circumstances {
-            temperature: if temperature.is_null() { temperature } else { temperature.wrapping_add(first) },
-            ..self
-        }
-    }
-
-    /// Checks that the host knows what the law reads.
-    ///
-    /// # Errors
-    /// A number that is needed and not finite, a step of negative length, no temperatures.
-    #[inline(always)]
-    fn check(&self, reads: &Reads, n: usize) -> Result<(), Error> {
-        let Reads { time_increment, time, temperature, .. } = *reads;
-        if time_increment || time || temperature { self.check_those_read(reads, n) } else { Ok(()) }
-    }
-
-    /// # Errors
-    /// As for [`check`](Self::check).
-    #[inline(never)]
-    fn check_those_read(&self, reads: &Reads, n: usize) -> Result<(), Error> {
-        let wrong = |name, value: f64, wanted| Err(Error::Argument { name, value: Value::of(value), wanted });
-        let unknown = |text| Err(Error::Setting { code: status::BAD_ARGUMENT, text });
-        if reads.time_increment && self.time_increment.is_nan() {
-            return unknown("argument time_increment is not known here, and this law reads it");
-        }
-        if reads.time && self.time.is_nan() {
-            return unknown("argument time is not known here, and this law reads it");
-        }
-        if reads.time_increment && !(0.0 <= self.time_increment && self.time_increment < f64::INFINITY) {
-            return wrong("time_increment", self.time_increment, "a finite number, not negative");
-        }
-        if reads.time && !self.time.is_finite() {
-            return wrong("time", self.time, "a finite number");
-        }
-        if reads.temperature && n > 0 && self.temperature.is_null() {
-            return unknown("argument temperature is not known here, and this law reads it");
-        }
-        Ok(())
-    }
-}
-
 /// The distance from one point to the next in each group of arrays; what has one number for a point (wave speed,
 /// status, active, temperature) is contiguous.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -165,50 +113,6 @@ impl Strides {
         Strides { deformation_gradient: 1, fibre: 1, limit: 1, axes: 1, state: 1, stress: 1, modes: 1, tangent: 1 };
 }
 
-/// The names of an array's leading dimension and stride, for messages.
-macro_rules! distances {
-    ($array:literal) => {
-        [concat!("leading dimension of ", $array), concat!("stride of ", $array)]
-    };
-}
-pub(crate) use distances;
-
-/// The pointers to the components of a component-major array; all null if `array` is.
-#[inline(always)]
-pub fn components<T, const N: usize>(array: *const T, leading_dimension: usize) -> [*const T; N] {
-    let (mut pointers, mut c) = ([array; N], 1);
-    while c < N && !array.is_null() {
-        pointers[c] = array.wrapping_add(c.wrapping_mul(leading_dimension));
-        c += 1;
-    }
-    pointers
-}
-
-/// The same for an array to be written.
-#[inline(always)]
-pub fn components_mut<T, const N: usize>(array: *mut T, leading_dimension: usize) -> [*mut T; N] {
-    let (mut pointers, mut c) = ([array; N], 1);
-    while c < N && !array.is_null() {
-        pointers[c] = array.wrapping_add(c.wrapping_mul(leading_dimension));
-        c += 1;
-    }
-    pointers
-}
-
-/// The pointers to the parts of a state whose rows follow one another; all null if `state` is.
-#[inline(always)]
-pub(crate) fn parts<T>(state: *const T, leading_dimension: usize, counts: [usize; PARTS]) -> [*const T; PARTS] {
-    let (mut pointers, mut part, mut row) = ([null(); PARTS], 0, 0_usize);
-    while part < PARTS {
-        if counts[part] > 0 && !state.is_null() {
-            pointers[part] = state.wrapping_add(row.wrapping_mul(leading_dimension));
-        }
-        row += counts[part];
-        part += 1;
-    }
-    pointers
-}
-
 impl<T> Points<T> {
     /// The limits of points that have their own, where they are read: beside a failure that is computed, which is in
     /// the part `last` of the state.
@@ -225,7 +129,20 @@ impl<T> Points<T> {
     #[cfg_attr(not(target_arch = "x86_64"), allow(dead_code))]
     #[inline(always)]
     pub(super) fn are_usual(&self) -> bool {
-        self.tangent.is_null()
+        self.tangent.is_null() && self.modes.is_null()
+    }
+
+    /// The results that have an array.
+    #[inline(always)]
+    pub(super) fn request(&self) -> Request {
+        Request {
+            stress: !self.stress[0].is_null(),
+            energies: !self.state_new[ENERGIES].is_null(),
+            invariants: !self.state_new[INVARIANTS].is_null(),
+            failure: !self.state_new[FAILURE].is_null(),
+            modes: !self.modes.is_null(),
+            wave_modulus: !self.wave_speed.is_null(),
+        }
     }
 
     /// The points from `first` ≤ n on.
@@ -258,60 +175,22 @@ impl<T> Points<T> {
     }
 }
 
-/// More points, and more numbers between two components, than any memory holds: a greater number is a negative one,
-/// converted. An array of 81 components with such distances is still shorter than half the address space.
-pub(crate) const MOST: usize = isize::MAX as usize >> 10;
-
-/// Checks that the entries of an array with so many components and points are all at different places, component by
-/// component or point by point, and none before its start.
-///
-/// # Errors
-/// Entries may overlap, or are nowhere; `names` are those of the leading dimension and of the stride.
-#[inline(always)]
-pub(crate) fn check_layout(
-    n: usize,
-    components: usize,
-    leading_dimension: usize,
-    stride: usize,
-    names: [&'static str; 2],
-) -> Result<(), Error> {
-    if stride == 1 && leading_dimension >= n && leading_dimension <= MOST {
-        return Ok(()); // the usual layout
-    }
-    check_other_layout(n, components, leading_dimension, stride, names)
+/// Which arrays points of a law may have besides those of every law.
+#[derive(Clone, Copy, Debug)]
+pub struct Has {
+    /// Failure limits of their own, [`Points::limit`].
+    pub limit: bool,
+    /// A second axis, or axes that are kept, of their own: [`Points::second_axis`], [`Points::axes`].
+    pub axes: bool,
+    /// The stress by mode, [`Points::modes`].
+    pub modes: bool,
 }
 
-/// # Errors
-/// As for [`check_layout`].
-#[cold]
-#[inline(never)]
-fn check_other_layout(
-    n: usize,
-    components: usize,
-    leading_dimension: usize,
-    stride: usize,
-    [name, of_stride]: [&'static str; 2],
-) -> Result<(), Error> {
-    let (code, greatest) = (status::BAD_LEADING_DIMENSION, MOST / n.max(1));
-    for (name, value, greatest) in [(of_stride, stride, greatest), (name, leading_dimension, MOST)] {
-        if value > greatest {
-            // As the caller wrote it, if it is negative.
-            return Err(Error::Range { code, name, value: value as i64, least: 1, greatest: greatest as i64 });
-        }
-    }
-    let needed = n.saturating_sub(1).saturating_mul(stride).saturating_add(1);
-    let in_rows = leading_dimension > 0 && stride > (components - 1).saturating_mul(leading_dimension);
-    if n == 0 || (stride > 0 || n == 1) && (leading_dimension >= needed || in_rows) {
-        return Ok(());
-    }
-    let whole = |x: usize| i64::try_from(x).unwrap_or(i64::MAX);
-    // Points in rows: it is the row that is too short.
-    let (what, found, wanted) = if leading_dimension == 1 && stride > 1 {
-        (of_stride, stride, components)
-    } else {
-        (name, leading_dimension, needed)
-    };
-    Err(Error::Count { code, what, found: whole(found), wanted: whole(wanted) })
+impl Has {
+    pub const NOTHING_ELSE: Has = Has { limit: false, axes: false, modes: false };
+    /// Of both yarn laws.
+    pub const YARN: Has = Has { limit: true, modes: true, ..Has::NOTHING_ELSE };
+    pub const LINEAR_ELASTIC: Has = Has { limit: true, axes: true, ..Has::NOTHING_ELSE };
 }
 
 /// What a law wants of its points.
@@ -325,10 +204,8 @@ pub(crate) struct Needs {
     pub latch: usize,
     /// What is read besides F at the end of the step and the old state.
     pub reads: Reads,
-    /// Whether points may have limits, second axes and axes of their own, and modes.
-    pub limit: bool,
-    pub axes: bool,
-    pub modes: bool,
+    /// What points may have.
+    pub has: Has,
 }
 
 impl Needs {
@@ -340,7 +217,7 @@ impl Needs {
             last += 1;
         }
         let reads = description.reads;
-        Needs { parts, last, latch, reads, limit: L::HAS_LIMIT, axes: L::HAS_AXES, modes: L::HAS_MODES }
+        Needs { parts, last, latch, reads, has: L::HAS }
     }
 
     /// How many variables of a part's old state are read: in the last one those up to the latch, behind which is the
@@ -437,18 +314,18 @@ impl<T: Scalar> Points<T> {
             return Err(Error::Null { name: "f_new" });
         }
         let refused = |text| Err(Error::Setting { code: status::BAD_ARGUMENT, text });
-        if !needs.limit && !self.limit.is_null() {
+        if !needs.has.limit && !self.limit.is_null() {
             return refused(
                 "argument limit is not null; allowed: null, since points of this law have no limits of their own",
             );
         }
         let has_axes = !self.second_axis[0].is_null() || !self.axes.is_null();
-        if !needs.axes && has_axes {
+        if !needs.has.axes && has_axes {
             return refused(
                 "second_axis or axes is not null; allowed: null, since points of this law have no axes of their own",
             );
         }
-        if !needs.modes && !self.modes.is_null() {
+        if !needs.has.modes && !self.modes.is_null() {
             return refused("argument modes is not null; allowed: null, since this law has no stress by mode");
         }
         self.circumstances.check(&needs.reads, self.n)?;
@@ -487,71 +364,117 @@ impl<T: Scalar> Points<T> {
     pub(crate) fn level(&self) -> Level {
         self.level.unwrap_or(Level::Avx512).min(Level::best())
     }
+}
 
-    /// Whether the old state is in the arrays of the new one, as far as these are requested.
-    #[inline(always)]
-    pub(super) fn in_place(&self) -> bool {
-        let (mut in_place, mut part) = (true, 0);
-        while part < PARTS {
-            let (old, new) = (self.state_old[part], self.state_new[part].cast_const());
-            in_place &= new.is_null() || old == new;
-            part += 1;
-        }
-        in_place
-    }
+/// How many numbers a point of every law takes in copies: F, fibre, limit, temperature, stress, wave speed and
+/// `active`; and with modes and the largest tangent. A law's state is added to them, and what else its points have, see
+/// [`Kernels::Else`](super::run::Kernels::Else).
+pub(super) const FEW: usize = 9 + 3 + 1 + 1 + 6 + 1 + 1;
+pub(super) const ALL: usize = FEW + 24 + 81;
 
-    /// Whether there is an old state wherever a new one is requested.
-    #[inline(always)]
-    pub(super) fn has_old_state(&self) -> bool {
-        let (mut has, mut part) = (true, 0);
-        while part < PARTS {
-            has &= self.state_new[part].is_null() || !self.state_old[part].is_null();
-            part += 1;
-        }
-        has
-    }
+/// All numbers of a point of a law with so many variables, and so many numbers of [`Kernels::Else`](super::run::Kernels::Else).
+pub(super) const fn rows(state: usize, other: usize) -> usize {
+    ALL + state + other
+}
 
-    /// Copies the old state of one point to the arrays of the new one. The old one stays where it is: kernels that work
-    /// in place may read it from either.
+impl<T: Scalar> Points<T> {
+    /// These points in `copies`, with the arrays that they have; the old state is in the place of the new one. An input
+    /// has a line here, an output one here and one in [`take_results`](Self::take_results).
     ///
     /// # Safety
-    /// The points are valid, there is one, and it has an old state, see [`has_old_state`](Self::has_old_state).
+    /// The points are valid, see [`Points`], and checked; there is room for all numbers of each copy.
     #[inline(always)]
-    pub(super) unsafe fn keep_old_state_of_one(&self, parts: &[usize; PARTS]) {
-        let mut part = 0;
-        while part < PARTS {
-            let (old, new, mut c) = (self.state_old[part], self.state_new[part], 0);
-            while c < parts[part] && !new.is_null() {
-                // SAFETY: of a valid point both arrays have the component c.
-                unsafe { *new.add(c * self.leading_dimension) = *old.add(c * self.leading_dimension) };
-                c += 1;
+    pub(super) unsafe fn read_into<C: Copies<T>>(&self, copies: &mut C, codes: *mut i32, needs: &Needs) -> Points<T> {
+        let stride = &self.strides;
+        let temperature = if needs.reads.temperature { self.circumstances.temperature } else { null() };
+        let f_old = if needs.reads.old_gradient { self.f_old } else { [null(); 9] };
+        // SAFETY: arrays of valid points have as many components as stand here.
+        unsafe {
+            let (state_old, state_new) = self.read_state_into(copies, needs);
+            Points {
+                n: C::COUNT,
+                leading_dimension: C::COUNT,
+                modes_leading_dimension: C::COUNT,
+                axes_leading_dimension: C::COUNT,
+                tangent_leading_dimension: C::COUNT,
+                strides: Strides::UNIT,
+                f_old: copies.columns(&f_old, stride.deformation_gradient),
+                f_new: copies.columns(&self.f_new, stride.deformation_gradient),
+                fibre: copies.columns(&self.fibre, stride.fibre),
+                second_axis: copies.columns(&self.second_axis, stride.fibre),
+                limit: copies.input((self.limits(needs.last), 0), stride.limit, 1),
+                circumstances: Circumstances {
+                    temperature: copies.input((temperature, 0), 1, 1),
+                    ..self.circumstances
+                },
+                axes: copies.input((self.axes.cast_const(), self.axes_leading_dimension), stride.axes, 9),
+                state_old,
+                state_new,
+                stress: components_mut(copies.room_for(self.stress[0], 6), C::COUNT),
+                modes: copies.room_for(self.modes, 24),
+                wave_speed: copies.room_for(self.wave_speed, 1),
+                tangent: copies.room_for(self.tangent, self.measure.components()),
+                active: copies.room_for(self.active, 1),
+                status: codes,
+                ..*self
             }
-            part += 1;
         }
     }
 
-    /// Copies the old state, or zeros where there is none, to the arrays of the new one: for kernels that work in
-    /// place.
+    /// Copies the results of copies to these points.
     ///
     /// # Safety
-    /// The points are valid and next to each other.
-    pub(super) unsafe fn copy_old_state(&mut self, parts: &[usize; PARTS]) {
-        let (n, stride) = (self.n, self.leading_dimension);
-        for ((old, &new), &components) in self.state_old.iter_mut().zip(&self.state_new).zip(parts) {
-            if new.is_null() || old.cast_mut() == new {
-                continue;
+    /// The copies come from [`read_into`](Self::read_into), and have been evaluated.
+    #[inline(always)]
+    pub(super) unsafe fn take_results<C: Copies<T>>(&self, of: &Points<T>, copies: &C, needs: &Needs) {
+        let stride = &self.strides;
+        // SAFETY: arrays of valid points have as many components as stand here, and so have their copies.
+        unsafe {
+            copies.output(of.stress[0], &self.stress, stride.stress, 6);
+            let mut part = 0;
+            while part < PARTS {
+                let new = (self.state_new[part], self.leading_dimension);
+                copies.output(of.state_new[part], new, stride.state, needs.parts[part]);
+                part += 1;
             }
-            for c in 0..components {
-                // SAFETY: of valid points both arrays have the component c, n values from `c * stride` on, and do not
-                // overlap if they are not the same. A number whose bytes are all 0 is 0.
+            copies.output(of.axes, (self.axes, self.axes_leading_dimension), stride.axes, 9);
+            copies.output(of.modes, (self.modes, self.modes_leading_dimension), stride.modes, 24);
+            copies.output(of.wave_speed, (self.wave_speed, 0), 1, 1);
+            let tangent = (self.tangent, self.tangent_leading_dimension);
+            copies.output(of.tangent, tangent, stride.tangent, self.measure.components());
+            copies.output(of.active, (self.active, 0), 1, 1);
+        }
+    }
+
+    /// The old state, where it is read, in the place of the new one, and where the new one goes if it is requested.
+    ///
+    /// # Safety
+    /// As for [`read_into`](Self::read_into).
+    #[inline(always)]
+    unsafe fn read_state_into<C: Copies<T>>(
+        &self,
+        copies: &mut C,
+        needs: &Needs,
+    ) -> ([*const T; PARTS], [*mut T; PARTS]) {
+        let (mut state_old, mut state_new, mut part) = ([null(); PARTS], [null_mut(); PARTS], 0);
+        while part < PARTS {
+            let (old, components) = (self.state_old[part], needs.parts[part]);
+            let (new, latch) = (!self.state_new[part].is_null(), part == needs.last && !old.is_null());
+            if new || latch {
+                let (copy, read) = (copies.room(components), needs.read(part, components));
+                // SAFETY: the old state of valid points has these components, and so has the room. A number whose bytes
+                // are all 0 is 0.
                 unsafe {
                     match old.is_null() {
-                        true => new.add(c * stride).write_bytes(0, n),
-                        false => new.add(c * stride).copy_from_nonoverlapping(old.add(c * stride), n),
+                        true => copy.write_bytes(0, components * C::COUNT),
+                        false => copies.read((old, self.leading_dimension), self.strides.state, read, copy),
                     }
                 }
+                state_old[part] = copy.cast_const();
+                state_new[part] = if new { copy } else { null_mut() };
             }
-            *old = new;
+            part += 1;
         }
+        (state_old, state_new)
     }
 }

@@ -4,7 +4,6 @@ use super::points::Points;
 use crate::law::hyperelastic::Hyperelastic;
 use crate::law::number::real::Real;
 use crate::law::response::Request;
-use crate::law::state::part::{ENERGIES, FAILURE, INVARIANTS};
 
 /// The stress alone, with the fibre direction of the properties; the other flags are added to this.
 #[cfg_attr(not(target_arch = "x86_64"), allow(dead_code))]
@@ -45,14 +44,17 @@ pub(super) fn shears<R: Real, const WANT: u8>(law: &Hyperelastic<R>) -> bool {
 /// The results that are requested of a kernel.
 #[inline(always)]
 pub(super) fn request<T, const WANT: u8>(block: &Points<T>) -> Request {
-    let asked = WANT & ANY != 0;
+    if WANT & ANY != 0 {
+        return block.request();
+    }
+    let state = WANT & STATE != 0;
     Request {
-        stress: !asked || !block.stress[0].is_null(),
-        energies: if asked { !block.state_new[ENERGIES].is_null() } else { WANT & STATE != 0 },
-        invariants: if asked { !block.state_new[INVARIANTS].is_null() } else { WANT & STATE != 0 },
-        failure: if asked { !block.state_new[FAILURE].is_null() } else { WANT & STATE != 0 },
-        modes: asked && !block.modes.is_null(),
-        wave_modulus: if asked { !block.wave_speed.is_null() } else { WANT & WAVE != 0 },
+        stress: true,
+        energies: state,
+        invariants: state,
+        failure: state,
+        wave_modulus: WANT & WAVE != 0,
+        ..Request::NOTHING
     }
 }
 

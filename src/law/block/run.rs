@@ -3,17 +3,17 @@
 
 use core::ptr::{null, null_mut};
 
-use super::copies::{in_copies, rows};
+use super::copies::in_copies;
 use super::dispatch::Precision;
 use super::kernel::STAGED;
 use super::linear::with_tangents;
-use super::points::{Needs, Points, Strides};
+use super::points::{Needs, PARTS, Points, Strides, rows};
 use crate::law::error::Error;
 use crate::law::frictional::Frictional;
 use crate::law::hyperelastic::Hyperelastic;
 use crate::law::interface::Law;
 use crate::law::linear_elastic::{LinearElastic, Rotation};
-use crate::law::number::real::WIDEST;
+use crate::law::number::real::{Scalar, WIDEST};
 use crate::law::state::{FRICTIONAL_STATE, HYPERELASTIC_STATE, LINEAR_ELASTIC_STATE};
 use crate::law::status;
 
@@ -84,6 +84,75 @@ unsafe impl<T: Precision> Kernels<T> for LinearElastic<T> {
     }
 }
 
+impl<T: Scalar> Points<T> {
+    /// Whether the old state is in the arrays of the new one, as far as these are requested.
+    #[inline(always)]
+    fn in_place(&self) -> bool {
+        let (mut in_place, mut part) = (true, 0);
+        while part < PARTS {
+            let (old, new) = (self.state_old[part], self.state_new[part].cast_const());
+            in_place &= new.is_null() || old == new;
+            part += 1;
+        }
+        in_place
+    }
+
+    /// Whether there is an old state wherever a new one is requested.
+    #[inline(always)]
+    fn has_old_state(&self) -> bool {
+        let (mut has, mut part) = (true, 0);
+        while part < PARTS {
+            has &= self.state_new[part].is_null() || !self.state_old[part].is_null();
+            part += 1;
+        }
+        has
+    }
+
+    /// Copies the old state of one point to the arrays of the new one. The old one stays where it is: kernels that work
+    /// in place may read it from either.
+    ///
+    /// # Safety
+    /// The points are valid, there is one, and it has an old state, see [`has_old_state`](Self::has_old_state).
+    #[inline(always)]
+    unsafe fn keep_old_state_of_one(&self, parts: &[usize; PARTS]) {
+        let mut part = 0;
+        while part < PARTS {
+            let (old, new, mut c) = (self.state_old[part], self.state_new[part], 0);
+            while c < parts[part] && !new.is_null() {
+                // SAFETY: of a valid point both arrays have the component c.
+                unsafe { *new.add(c * self.leading_dimension) = *old.add(c * self.leading_dimension) };
+                c += 1;
+            }
+            part += 1;
+        }
+    }
+
+    /// Copies the old state, or zeros where there is none, to the arrays of the new one: for kernels that work in
+    /// place.
+    ///
+    /// # Safety
+    /// The points are valid and next to each other.
+    unsafe fn copy_old_state(&mut self, parts: &[usize; PARTS]) {
+        let (n, stride) = (self.n, self.leading_dimension);
+        for ((old, &new), &components) in self.state_old.iter_mut().zip(&self.state_new).zip(parts) {
+            if new.is_null() || old.cast_mut() == new {
+                continue;
+            }
+            for c in 0..components {
+                // SAFETY: of valid points both arrays have the component c, n values from `c * stride` on, and do not
+                // overlap if they are not the same. A number whose bytes are all 0 is 0.
+                unsafe {
+                    match old.is_null() {
+                        true => new.add(c * stride).write_bytes(0, n),
+                        false => new.add(c * stride).copy_from_nonoverlapping(old.add(c * stride), n),
+                    }
+                }
+            }
+            *old = new;
+        }
+    }
+}
+
 /// The number of points whose old state is copied at a time: a multiple of the points of a stage in either precision.
 const COPIED: usize = 2 * STAGED * WIDEST;
 
@@ -95,7 +164,7 @@ const COPIED: usize = 2 * STAGED * WIDEST;
 /// # Safety
 /// The points are valid, see [`Points`].
 #[inline(always)]
-pub(crate) unsafe fn evaluate<T: Precision, L: Kernels<T>>(law: &L, points: &Points<T>) -> Result<i32, Error> {
+pub(crate) unsafe fn evaluate_points<T: Precision, L: Kernels<T>>(law: &L, points: &Points<T>) -> Result<i32, Error> {
     let needs = const { Needs::of::<T, L>() };
     points.check(&needs)?;
     if points.n == 0 {
@@ -125,7 +194,7 @@ pub(crate) unsafe fn evaluate<T: Precision, L: Kernels<T>>(law: &L, points: &Poi
     }
 }
 
-/// Evaluates a law at one point of which [`evaluate`] need find out nothing: as it has been checked, or as a host makes
+/// Evaluates a law at one point of which [`evaluate_points`] need find out nothing: as it has been checked, or as a host makes
 /// it of its own structure for one point. Returns its status code.
 ///
 /// # Safety
@@ -155,7 +224,7 @@ const SEARCHED: usize = 32;
 /// not seen.
 ///
 /// # Safety
-/// As for [`evaluate`], for the same points, after it.
+/// As for [`evaluate_points`], for the same points, after it.
 pub(crate) unsafe fn at_fault<T: Precision, L: Kernels<T>>(law: &L, points: &Points<T>, code: i32) -> Option<usize> {
     let needs = Needs::of::<T, L>();
     if points.rotation == Rotation::Spin || [status::STATE_NOT_FINITE, status::OVERFLOW].contains(&code) {
@@ -169,7 +238,7 @@ pub(crate) unsafe fn at_fault<T: Precision, L: Kernels<T>>(law: &L, points: &Poi
         let mut codes = [status::OK; SEARCHED];
         let part = Points { status: codes.as_mut_ptr(), ..points.inputs(first, SEARCHED, &needs) };
         // SAFETY: some of valid points, with some of their inputs and a code for each of them.
-        if unsafe { evaluate(law, &part) } == Ok(code) {
+        if unsafe { evaluate_points(law, &part) } == Ok(code) {
             return codes.iter().position(|&found| found == code).map(|i| first + i);
         }
     }

@@ -37,7 +37,7 @@ pub mod state {
 }
 
 use super::axes::FibreFrame;
-use super::block::{Precision, evaluate};
+use super::block::{Precision, evaluate_points};
 use super::bounds::check;
 use super::error::{Error, Value};
 use super::interface::{Law, Points};
@@ -394,6 +394,6 @@ unsafe impl<M: UserMaterial, T: Precision> Law<T> for User<M, T> {
 
     unsafe fn step(&self, points: &Points<T>) -> Result<i32, Error> {
         // SAFETY: the points are valid.
-        unsafe { evaluate(self, points) }
+        unsafe { evaluate_points(self, points) }
     }
 }

@@ -133,40 +133,9 @@ impl DataSheet {
             file.linear_density.as_ref().map(|text| one("linear_density", text, LINEAR_DENSITY)).transpose()?;
         let solid = linear_density.map(|linear_density| linear_density / density);
         let area = file.area.as_ref().map(|text| one("area", text, AREA)).transpose()?;
-        let (fraction, span) = match (&file.volume_fraction, &file.area, solid.zip(area)) {
-            (Some(given), None, _) => (given.value(), given.span()),
-            (None, Some(text), Some((solid, area))) => (solid / area, text.span()),
-            (None, Some(text), None) => {
-                return Err(
-                    source.error(text.span(), "area tells the fibres' fraction of it beside linear_density only")
-                );
-            }
-            _ => {
-                let message = "allowed: volume_fraction, the fibres' part of the yarn's section, or area, that of the section \
-                               with its voids: one of the two";
-                return Err(source.error(sheet.span(), message));
-            }
-        };
-        if fraction > 1.0 {
-            let message = format!("the fibres would be {fraction:.4} of the yarn's section; allowed: at most 1");
-            return Err(source.error(span, &message));
-        }
+        let fraction = fraction(source, sheet, solid.zip(area))?;
         let deviation = value(&file.volume_fraction_deviation).unwrap_or(0.0);
-        if let Some(filaments) = file.filaments.as_ref().filter(|filaments| *filaments.get_ref() == 0) {
-            return Err(source.error(filaments.span(), "filaments is 0; allowed: a whole number from 1"));
-        }
-        if let (Some(text), Some(solid), Some(filaments)) = (&file.linear_density, solid, &file.filaments)
-            && *filaments.get_ref() > 1
-        {
-            let diameter = diameter(solid, *filaments.get_ref());
-            let each = format!("each of {} filaments {} µm thick", filaments.get_ref(), digits(1e6 * diameter));
-            DIAMETERS.check(
-                source,
-                &format!("linear_density is \"{}\", {each}", text.get_ref()),
-                diameter,
-                text.span(),
-            )?;
-        }
+        check_filaments(source, file, solid)?;
         Ok(DataSheet {
             density,
             modulus,
@@ -226,6 +195,50 @@ impl DataSheet {
             )
         })
     }
+}
+
+/// The fibres' part of the yarn's section: as given, or by the sections of the fibres and of the yarn, `solid_and_area`.
+///
+/// # Errors
+/// Both are given or neither, or the part is more than the whole.
+fn fraction(source: &Source, sheet: &Spanned<DataSheetFile>, solid_and_area: Option<(f64, f64)>) -> Result<f64, Error> {
+    let file = sheet.get_ref();
+    let (fraction, span) = match (&file.volume_fraction, &file.area, solid_and_area) {
+        (Some(given), None, _) => (given.value(), given.span()),
+        (None, Some(text), Some((solid, area))) => (solid / area, text.span()),
+        (None, Some(text), None) => {
+            return Err(source.error(text.span(), "area tells the fibres' fraction of it beside linear_density only"));
+        }
+        _ => {
+            let message = "allowed: volume_fraction, the fibres' part of the yarn's section, or area, that of the section \
+                           with its voids: one of the two";
+            return Err(source.error(sheet.span(), message));
+        }
+    };
+    if fraction > 1.0 {
+        let message = format!("the fibres would be {fraction:.4} of the yarn's section; allowed: at most 1");
+        return Err(source.error(span, &message));
+    }
+    Ok(fraction)
+}
+
+/// Checks the number of filaments, and how thick each is in the fibres' section `solid`.
+///
+/// # Errors
+/// There are none, or they are thinner or thicker than any fibre is.
+fn check_filaments(source: &Source, file: &DataSheetFile, solid: Option<f64>) -> Result<(), Error> {
+    if let Some(filaments) = file.filaments.as_ref().filter(|filaments| *filaments.get_ref() == 0) {
+        return Err(source.error(filaments.span(), "filaments is 0; allowed: a whole number from 1"));
+    }
+    if let (Some(text), Some(solid), Some(filaments)) = (&file.linear_density, solid, &file.filaments)
+        && *filaments.get_ref() > 1
+    {
+        let diameter = diameter(solid, *filaments.get_ref());
+        let each = format!("each of {} filaments {} µm thick", filaments.get_ref(), digits(1e6 * diameter));
+        let what = format!("linear_density is \"{}\", {each}", text.get_ref());
+        DIAMETERS.check(source, &what, diameter, text.span())?;
+    }
+    Ok(())
 }
 
 /// A quantity of a sheet, in SI units.

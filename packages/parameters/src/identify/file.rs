@@ -190,16 +190,7 @@ impl Job {
         let left_out = left_out(&source, &mut file)?;
         let units = units::system(&source, &file.units)?;
         let folder = path.parent().unwrap_or(Path::new(""));
-        if file.data.is_empty() && file.fibre.is_none() && file.data_sheet.is_none() {
-            return Err(source.error(
-                0..0,
-                "neither [[data]] nor [fibre] nor [data_sheet] nor [[strength]]: nothing tells a parameter",
-            ));
-        }
-        if let (Some(_), Some(sheet)) = (&file.fibre, &file.data_sheet) {
-            let message = "[fibre] and [data_sheet] both tell k_el and eps_lim; allowed: one of them";
-            return Err(source.error(sheet.span(), message));
-        }
+        check_sources(&source, &file)?;
         let sheet = file.data_sheet.as_ref().map(|sheet| DataSheet::read(&source, sheet)).transpose()?;
         let fibre = file.fibre.as_ref().map(|fibre| known_fibre(fibre.get_ref()));
         let fibre = fibre.or_else(|| sheet.as_ref().map(|sheet| sheet.fibre(&units)));
@@ -212,17 +203,7 @@ impl Job {
         };
         let mut preset = preset_to_be(&source, &file, law, units)?;
         if let Some(sheet) = &sheet {
-            let of_sheet = sheet.density(&units);
-            if let Some(given) =
-                file.yarn.density.as_ref().filter(|given| (given.value() / of_sheet - 1.0).abs() > SAME_DENSITY)
-            {
-                let message = format!(
-                    "density is {}, and by [data_sheet] {of_sheet:.4e}, the fibre's times the volume fraction; allowed: one of them",
-                    given.value()
-                );
-                return Err(source.error(given.span(), &message));
-            }
-            preset.density = Some(of_sheet);
+            preset.density = Some(sheet_density(&source, &file, sheet.density(&units))?);
         }
         let mut known = [None; PARAMETERS];
         known.copy_from_slice(&preset.values[..PARAMETERS]);
@@ -236,31 +217,8 @@ impl Job {
         let sets = reader.sets(&sections, fibre.is_some())?;
         let mut said = reader.said.into_inner();
         said.extend(sheet.iter().flat_map(|sheet| sheet.said.clone()));
-        if let Some(set) = sliding.iter().find(|set| {
-            let of_section = sets.iter().any(|other| other.name == set.name);
-            of_section || sliding.iter().filter(|other| other.name == set.name).count() > 1
-        }) {
-            let message = format!(
-                "{}: data set \"{}\" is there twice; allowed: a name of its own for each",
-                set.declared, set.name
-            );
-            return Err(Error::Input(message));
-        }
-        let fitted = |parameter: Parameter| sets.iter().any(|set| set.fits.contains(&parameter));
-        let mut known_deviations = Vec::new();
-        if let Some(fibre) = fibre {
-            for (parameter, value) in
-                [(Parameter::KEl, fibre.k_el()), (Parameter::EpsLim, fibre.strain_at_failure.value)]
-            {
-                if known[parameter.index()].is_none() && !fitted(parameter) {
-                    known[parameter.index()] = Some(value);
-                }
-            }
-            known_deviations = fibre.deviations();
-            for parameter in ALL.into_iter().filter(|&p| fitted(p) || preset.values[p.index()].is_some()) {
-                known_deviations.iter_mut().for_each(|values| values[parameter.index()] = 0.0);
-            }
-        }
+        check_names(&sliding, &sets)?;
+        let known_deviations = fibre.map_or_else(Vec::new, |fibre| add_fibre(&fibre, &mut known, &sets));
         let start = start(&known, base.as_ref(), &units, &sets);
         let of_base = |parameter: Parameter| base.as_ref().and_then(|base| base.value(parameter.index(), &units));
         let density = preset.density.or_else(|| base.as_ref().and_then(|base| base.density_in(&units)));
@@ -272,6 +230,70 @@ impl Job {
         let intervals = file.intervals;
         Ok(Job { title, units, preset, base, fibre, sheet, problem, intervals, friction, sliding, said, inputs })
     }
+}
+
+/// Checks that something tells the parameters, and only one thing those of the fibre.
+///
+/// # Errors
+/// An input error that says what is allowed.
+fn check_sources(source: &Source<'_>, file: &FitFile) -> Result<(), Error> {
+    if file.data.is_empty() && file.fibre.is_none() && file.data_sheet.is_none() {
+        let message = "neither [[data]] nor [fibre] nor [data_sheet] nor [[strength]]: nothing tells a parameter";
+        return Err(source.error(0..0, message));
+    }
+    if let (Some(_), Some(sheet)) = (&file.fibre, &file.data_sheet) {
+        let message = "[fibre] and [data_sheet] both tell k_el and eps_lim; allowed: one of them";
+        return Err(source.error(sheet.span(), message));
+    }
+    Ok(())
+}
+
+/// The yarn's density by the data sheet, which that of `[yarn]` agrees with if there is one.
+///
+/// # Errors
+/// They differ.
+fn sheet_density(source: &Source<'_>, file: &FitFile, density: f64) -> Result<f64, Error> {
+    let differs = |given: f64| (given / density - 1.0).abs() > SAME_DENSITY;
+    let Some(given) = file.yarn.density.as_ref().filter(|given| differs(given.value())) else { return Ok(density) };
+    let message = format!(
+        "density is {}, and by [data_sheet] {density:.4e}, the fibre's times the volume fraction; allowed: one of them",
+        given.value()
+    );
+    Err(source.error(given.span(), &message))
+}
+
+/// Checks that each data set of sliding has a name of its own.
+///
+/// # Errors
+/// The first whose name another set has.
+fn check_names(sliding: &[Sliding], sets: &[DataSet]) -> Result<(), Error> {
+    let is_twice = |set: &&Sliding| {
+        let of_section = sets.iter().any(|other| other.name == set.name);
+        of_section || sliding.iter().filter(|other| other.name == set.name).count() > 1
+    };
+    let Some(set) = sliding.iter().find(is_twice) else { return Ok(()) };
+    let (place, name) = (&set.declared, &set.name);
+    Err(Error::Input(format!("{place}: data set \"{name}\" is there twice; allowed: a name of its own for each")))
+}
+
+/// Adds what the fibre tells to the parameters that are known and not fitted. Returns the deviations of those that it
+/// tells.
+fn add_fibre(fibre: &Fibre, known: &mut [Option<f64>; PARAMETERS], sets: &[DataSet]) -> Vec<Values> {
+    let is_told = |parameter: Parameter, known: &[Option<f64>; PARAMETERS]| {
+        let fitted = sets.iter().any(|set| set.fits.contains(&parameter));
+        !fitted && known[parameter.index()].is_none()
+    };
+    let by_fibre = ALL.map(|parameter| is_told(parameter, known));
+    for (parameter, value) in [(Parameter::KEl, fibre.k_el()), (Parameter::EpsLim, fibre.strain_at_failure.value)] {
+        if by_fibre[parameter.index()] {
+            known[parameter.index()] = Some(value);
+        }
+    }
+    let mut deviations = fibre.deviations();
+    for parameter in ALL.into_iter().filter(|parameter| !by_fibre[parameter.index()]) {
+        deviations.iter_mut().for_each(|values| values[parameter.index()] = 0.0);
+    }
+    deviations
 }
 
 /// Takes the sets out of the file that it says are to be left out, and says so.

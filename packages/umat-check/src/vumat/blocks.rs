@@ -9,7 +9,7 @@ use nalgebra::Matrix3;
 use super::super::finding::{Finding, Question, Verdict};
 use super::super::histories::history;
 use super::super::material::Material;
-use super::call::{Found, Given, Law, Session};
+use super::call::{Law, PointInput, PointOutput, Session};
 use super::point::{self, Point, time};
 
 /// Abaqus's own blocks have up to 136 points or so; the second size is odd, and no multiple of a vector's length.
@@ -33,8 +33,8 @@ pub fn paths(material: &Material, seed: u64, count: usize, length: usize) -> Vec
 }
 
 /// The first difference, bit by bit: increment and what.
-fn differ(a: &[Found], b: &[Found]) -> Option<(usize, String)> {
-    let place = a.iter().zip(b).position(|(a, b)| !a.same(b))?;
+fn differ(a: &[PointOutput], b: &[PointOutput]) -> Option<(usize, String)> {
+    let place = a.iter().zip(b).position(|(a, b)| !a.has_same_bits(b))?;
     Some((place + 1, a[place].difference(&b[place])))
 }
 
@@ -53,7 +53,7 @@ pub fn place(session: &mut Session) -> io::Result<Finding> {
         let differences = other.stress.iter().zip(&first.stress).map(|(a, b)| (a - b).abs() / size);
         change = differences.fold(change, f64::max);
     }
-    Ok(super::super::place::judged(change, found[0].len(), [change > 0.0, false]))
+    Ok(super::super::place::place_finding(change, found[0].len(), [change > 0.0, false]))
 }
 
 /// The temperature of a point among others.
@@ -75,7 +75,7 @@ pub fn blocks(session: &mut Session) -> io::Result<Finding> {
     };
     // Each point has a temperature of its own.
     let temperatures: Vec<f64> = (0..most).map(|i| temperature(session.material, i)).collect();
-    let alone: Vec<Vec<Found>> = paths
+    let alone: Vec<Vec<PointOutput>> = paths
         .iter()
         .zip(&temperatures)
         .map(|(path, one)| Ok(point::block_at(session, std::slice::from_ref(path), &[*one])?.pop().unwrap_or_default()))
@@ -113,12 +113,12 @@ pub fn blocks(session: &mut Session) -> io::Result<Finding> {
 /// The system has no memory.
 pub fn repeat(session: &mut Session) -> io::Result<Finding> {
     let paths = paths(session.material, 0x2e, SIZES[1], INCREMENTS);
-    let virgin = Point::virgin(session)?;
-    let mut points = vec![virgin; paths.len()];
+    let undeformed = Point::undeformed(session)?;
+    let mut points = vec![undeformed; paths.len()];
     let unturned = Matrix3::<f64>::identity();
     let further = Matrix3::new(1.002, 0.001, 0.0, 0.0, 0.999, 0.0, 0.0, 0.0, 1.001);
     for k in 0..INCREMENTS {
-        let given = |points: &[Point], factor: &Matrix3<f64>| -> Vec<Given> {
+        let given = |points: &[Point], factor: &Matrix3<f64>| -> Vec<PointInput> {
             let all = points.iter().zip(&paths);
             all.map(|(point, path)| point.given(&(path[k] * factor), &unturned, session.material)).collect()
         };
@@ -157,7 +157,7 @@ const THREADS: usize = 8;
 pub fn threads(law: &Law, session: &mut Session) -> io::Result<Finding> {
     let blocks: Vec<Vec<Vec<Matrix3<f64>>>> =
         (0..THREADS).map(|k| paths(session.material, 0x7e + k as u64, SIZES[1], INCREMENTS)).collect();
-    let alone: Vec<Vec<Vec<Found>>> =
+    let alone: Vec<Vec<Vec<PointOutput>>> =
         blocks.iter().map(|paths| point::block(session, paths)).collect::<io::Result<_>>()?;
     let started = Instant::now();
     let run = |k: usize, mut session: Session| -> io::Result<Option<usize>> {

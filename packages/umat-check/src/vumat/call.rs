@@ -5,7 +5,7 @@ use std::io;
 use std::path::Path;
 
 use super::super::call::{open, write_counts};
-use super::super::guarded::{Guard, Guarded};
+use super::super::guarded::{Guard, GuardedArray};
 use super::super::material::Material;
 use super::super::shared::{OF_UMAT, OF_VUMAT, Shared};
 
@@ -124,7 +124,7 @@ pub type Components = [f64; 6];
 
 /// What a call gets of a point.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Given {
+pub struct PointInput {
     pub density: f64,
     /// Tensor components.
     pub strain_increment: Components,
@@ -142,14 +142,14 @@ pub struct Given {
 
 /// What a call gives of a point.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Found {
+pub struct PointOutput {
     pub stress: Components,
     pub state: Vec<f64>,
     /// enerInternNew, enerInelasNew.
     pub energies: [f64; 2],
 }
 
-impl Found {
+impl PointOutput {
     pub fn numbers(&self) -> impl Iterator<Item = f64> + '_ {
         self.stress.iter().chain(&self.state).chain(&self.energies).copied()
     }
@@ -159,12 +159,12 @@ impl Found {
     }
 
     /// Every bit is the same; a NaN equals itself.
-    pub fn same(&self, other: &Found) -> bool {
+    pub fn has_same_bits(&self, other: &PointOutput) -> bool {
         self.numbers().map(f64::to_bits).eq(other.numbers().map(f64::to_bits))
     }
 
     /// What differs first, in words.
-    pub fn difference(&self, other: &Found) -> String {
+    pub fn difference(&self, other: &PointOutput) -> String {
         let differ = |a: &[f64], b: &[f64]| a.iter().zip(b).position(|(a, b)| a.to_bits() != b.to_bits());
         if let Some(c) = differ(&self.stress, &other.stress) {
             format!("stressNew(:, {})", c + 1)
@@ -212,7 +212,7 @@ const WRITTEN: usize = Array::StressNew as usize;
 /// Arrays for blocks of one size, each between pages that must not be touched.
 struct Arrays {
     points: usize,
-    arrays: Vec<Guarded>,
+    arrays: Vec<GuardedArray>,
     precision: Precision,
 }
 
@@ -230,7 +230,7 @@ impl Arrays {
                 .unwrap_or([0; ARRAYS]);
         let arrays = components.iter().enumerate().map(|(index, &count)| {
             let length = if index == Array::Properties as usize { material.properties.len() } else { points * count };
-            Guarded::new(length, guard)
+            GuardedArray::new(length, guard)
         });
         Ok(Arrays { points, arrays: arrays.collect::<io::Result<_>>()?, precision })
     }
@@ -258,7 +258,7 @@ impl Arrays {
 
     /// The bits of all that the law must not write to.
     fn read_only(&self) -> Vec<Vec<u64>> {
-        let bits = |array: &Guarded| array.numbers().iter().map(|value| value.to_bits()).collect();
+        let bits = |array: &GuardedArray| array.numbers().iter().map(|value| value.to_bits()).collect();
         self.arrays[..WRITTEN].iter().map(bits).collect()
     }
 }
@@ -282,7 +282,7 @@ impl Misread {
         }
     }
 
-    fn given(self, given: &Given) -> Given {
+    fn given(self, given: &PointInput) -> PointInput {
         let mut given = given.clone();
         match self {
             Misread::Order => {
@@ -312,7 +312,7 @@ pub struct Session<'a> {
     /// What outputs are before a call.
     pub unset: f64,
     /// The state of a point that has not been deformed, once it is known.
-    pub virgin: Option<Vec<f64>>,
+    pub undeformed: Option<Vec<f64>>,
     /// What arguments are altered by.
     pub misread: Option<Misread>,
     /// Elements have the numbers of their points in the block, and not all 1.
@@ -340,7 +340,7 @@ impl<'a> Session<'a> {
             arrays: None,
             shared,
             unset: 0.0,
-            virgin: None,
+            undeformed: None,
             misread: None,
             numbered: false,
         }
@@ -348,15 +348,15 @@ impl<'a> Session<'a> {
 
     /// Another one for a thread, with room at both ends of its arrays.
     pub fn for_thread(&self, law: &'a Law) -> Session<'a> {
-        let virgin = self.virgin.clone();
-        Session { virgin, ..Session::new(law, self.material, self.precision, Guard::Padded, self.shared) }
+        let undeformed = self.undeformed.clone();
+        Session { undeformed, ..Session::new(law, self.material, self.precision, Guard::Padded, self.shared) }
     }
 
     /// Calls the VUMAT for a block.
     ///
     /// # Errors
     /// The system has no memory.
-    pub fn call_law(&mut self, time: Time, points: &[Given]) -> io::Result<Vec<Found>> {
+    pub fn call_law(&mut self, time: Time, points: &[PointInput]) -> io::Result<Vec<PointOutput>> {
         let count = points.len();
         let material = self.material;
         let mut arrays = match self.arrays.take() {
@@ -379,7 +379,7 @@ impl<'a> Session<'a> {
         match self.misread {
             None => self.fill(&mut arrays, points),
             Some(misread) => {
-                let altered: Vec<Given> = points.iter().map(|given| misread.given(given)).collect();
+                let altered: Vec<PointInput> = points.iter().map(|given| misread.given(given)).collect();
                 self.fill(&mut arrays, &altered);
             }
         }
@@ -393,7 +393,7 @@ impl<'a> Session<'a> {
     ///
     /// # Errors
     /// The system has no memory.
-    pub fn overwritten(&mut self, time: Time, points: &[Given]) -> io::Result<Vec<&'static str>> {
+    pub fn overwritten(&mut self, time: Time, points: &[PointInput]) -> io::Result<Vec<&'static str>> {
         let mut arrays = Arrays::new(points.len(), self.material, self.precision, Guard::Padded)?;
         self.fill(&mut arrays, points);
         let before = arrays.read_only();
@@ -402,7 +402,7 @@ impl<'a> Session<'a> {
         Ok(changed.filter(|((after, before), _)| after != before).map(|(_, name)| name).collect())
     }
 
-    fn fill(&self, arrays: &mut Arrays, points: &[Given]) {
+    fn fill(&self, arrays: &mut Arrays, points: &[PointInput]) {
         let tensor = self.material.components;
         let gradient = gradient_places(tensor);
         for (i, &value) in self.material.properties.iter().enumerate() {
@@ -521,7 +521,7 @@ impl<'a> Session<'a> {
         }
     }
 
-    fn found(&self, arrays: &Arrays, i: usize) -> Found {
+    fn found(&self, arrays: &Arrays, i: usize) -> PointOutput {
         let mut stress = [0.0; 6];
         for (c, value) in stress.iter_mut().enumerate().take(self.material.components) {
             *value = arrays.take(Array::StressNew, c, i);
@@ -529,7 +529,7 @@ impl<'a> Session<'a> {
         if self.misread == Some(Misread::Order) {
             stress.swap(4, 5);
         }
-        Found {
+        PointOutput {
             stress,
             state: (0..self.material.initial.len()).map(|c| arrays.take(Array::StateNew, c, i)).collect(),
             energies: [arrays.take(Array::InternalNew, 0, i), arrays.take(Array::InelasticNew, 0, i)],

@@ -43,7 +43,7 @@ pub fn reply_to(
 /// A question to a VUMAT.
 fn answer_question(question: Question, law: &Law, session: &mut Session, reads: Reads) -> io::Result<Finding> {
     match question {
-        Question::Build | Question::Deck | Question::Memory => process::touch(session),
+        Question::Build | Question::Deck | Question::Memory => process::touch_beyond_arrays(session),
         Question::Rest => process::rest(session),
         Question::Stress => process::stress(session),
         Question::Place => blocks::place(session),

@@ -11,7 +11,7 @@ use super::super::kinematics::rotation_of;
 use super::super::material::Reads;
 use super::super::objectivity::divided;
 use super::super::steps::Shares;
-use super::call::{Given, Misread, Session};
+use super::call::{Misread, PointInput, Session};
 use super::point::{self, Point, tensor, time};
 
 /// Of the stress.
@@ -37,22 +37,22 @@ fn arguments(session: &mut Session) -> io::Result<Arguments> {
     let unturned = Matrix3::<f64>::identity();
     let other = Matrix3::new(1.01, 0.004, 0.0, 0.004, 0.995, 0.0, 0.0, 0.0, 1.003);
     for _ in 0..6 {
-        let mut point = Point::virgin(session)?;
+        let mut point = Point::undeformed(session)?;
         for (k, f1) in history(&mut rng, session.material, 2).iter().take(20).enumerate() {
             let given = point.given(f1, &unturned, session.material);
             let further = point.given(&(f1 * other), &unturned, session.material);
-            let changes: [Given; 4] = [
-                Given { stretch: [given.stretch[0], further.stretch[1]], ..given.clone() },
-                Given { gradient: [given.gradient[0], further.gradient[1]], ..given.clone() },
-                Given { strain_increment: further.strain_increment, ..given.clone() },
+            let changes: [PointInput; 4] = [
+                PointInput { stretch: [given.stretch[0], further.stretch[1]], ..given.clone() },
+                PointInput { gradient: [given.gradient[0], further.gradient[1]], ..given.clone() },
+                PointInput { strain_increment: further.strain_increment, ..given.clone() },
                 // A law of increments of U or F is one of rates too.
-                Given {
+                PointInput {
                     stretch: [further.stretch[1], given.stretch[1]],
                     gradient: [further.gradient[1], given.gradient[1]],
                     ..given.clone()
                 },
             ];
-            let all: Vec<Given> = [given].into_iter().chain(changes).collect();
+            let all: Vec<PointInput> = [given].into_iter().chain(changes).collect();
             let found = session.call_law(time(k, session.material), &all)?;
             if !found[0].finite() {
                 break;
@@ -98,7 +98,7 @@ pub fn objectivity(session: &mut Session) -> io::Result<Finding> {
     // The largest difference from the same stress, and from the same stress turned by R.
     let (mut figure, mut from_global, mut compared) = (0.0_f64, 0.0_f64, 0);
     for _ in 0..HISTORIES {
-        let (mut plain, mut turned) = (Point::virgin(session)?, Point::virgin(session)?);
+        let (mut plain, mut turned) = (Point::undeformed(session)?, Point::undeformed(session)?);
         let mut largest = 0.0_f64;
         for (k, f1) in history(&mut rng, session.material, 2).iter().take(INCREMENTS).enumerate() {
             let turn = rotation(&mut rng, session.material);

@@ -6,7 +6,7 @@ use nalgebra::Matrix3;
 
 use super::super::kinematics::{Increment, rotation_of, rotation_vector};
 use super::super::material::Material;
-use super::call::{Components, Found, Given, Session, Time};
+use super::call::{Components, PointInput, PointOutput, Session, Time};
 
 /// Row and column of each component: 11 22 33 12 23 31.
 const PLACES: [(usize, usize); 6] = [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (2, 0)];
@@ -43,7 +43,7 @@ impl Point {
     ///
     /// # Errors
     /// The system has no memory.
-    pub fn virgin(session: &mut Session) -> io::Result<Point> {
+    pub fn undeformed(session: &mut Session) -> io::Result<Point> {
         let nothing = Point {
             f: Matrix3::identity(),
             turn: Matrix3::identity(),
@@ -51,17 +51,17 @@ impl Point {
             state: session.material.initial.clone(),
             energies: [0.0; 2],
         };
-        if session.virgin.is_none() {
+        if session.undeformed.is_none() {
             let given = nothing.given(&nothing.f, &nothing.turn, session.material);
             let found = session.call_law(Time::data_check(session.material), &[given])?;
-            session.virgin = found.into_iter().next().map(|found| found.state);
+            session.undeformed = found.into_iter().next().map(|found| found.state);
         }
-        let state = session.virgin.clone().unwrap_or_default();
+        let state = session.undeformed.clone().unwrap_or_default();
         Ok(Point { state, ..nothing })
     }
 
     /// What a call gets for the increment to this deformation, which a rotation may be superposed on.
-    pub fn given(&self, f1: &Matrix3<f64>, turn: &Matrix3<f64>, material: &Material) -> Given {
+    pub fn given(&self, f1: &Matrix3<f64>, turn: &Matrix3<f64>, material: &Material) -> PointInput {
         let stretch = |f: &Matrix3<f64>| {
             let u = rotation_of(f).transpose() * f;
             (u + u.transpose()) * 0.5
@@ -73,7 +73,7 @@ impl Point {
             let gradient = if material.explicit.stretch_alone { *u } else { turn * f };
             OF_GRADIENT.map(|place| gradient[place])
         };
-        Given {
+        PointInput {
             density: material.explicit.density / ((u0 + u1) * 0.5).determinant(),
             strain_increment: components(&increment.strain),
             spin: rotation_vector(&increment.rotation).into(),
@@ -87,7 +87,7 @@ impl Point {
     }
 
     /// The point after an increment.
-    pub fn after(&self, f1: &Matrix3<f64>, turn: &Matrix3<f64>, found: &Found) -> Point {
+    pub fn after(&self, f1: &Matrix3<f64>, turn: &Matrix3<f64>, found: &PointOutput) -> Point {
         Point { f: *f1, turn: *turn, stress: found.stress, state: found.state.clone(), energies: found.energies }
     }
 }
@@ -101,7 +101,7 @@ pub fn time(increment: usize, material: &Material) -> Time {
 ///
 /// # Errors
 /// The system has no memory.
-pub fn history(session: &mut Session, path: &[Matrix3<f64>]) -> io::Result<Vec<Found>> {
+pub fn history(session: &mut Session, path: &[Matrix3<f64>]) -> io::Result<Vec<PointOutput>> {
     let mut histories = block(session, &[path.to_vec()])?;
     let mut found = histories.pop().unwrap_or_default();
     let finite = found.iter().take_while(|found| found.finite()).count();
@@ -113,7 +113,7 @@ pub fn history(session: &mut Session, path: &[Matrix3<f64>]) -> io::Result<Vec<F
 ///
 /// # Errors
 /// The system has no memory.
-pub fn block(session: &mut Session, paths: &[Vec<Matrix3<f64>>]) -> io::Result<Vec<Vec<Found>>> {
+pub fn block(session: &mut Session, paths: &[Vec<Matrix3<f64>>]) -> io::Result<Vec<Vec<PointOutput>>> {
     block_at(session, paths, &vec![session.material.temperature; paths.len()])
 }
 
@@ -125,9 +125,9 @@ pub fn block_at(
     session: &mut Session,
     paths: &[Vec<Matrix3<f64>>],
     temperatures: &[f64],
-) -> io::Result<Vec<Vec<Found>>> {
-    let virgin = Point::virgin(session)?;
-    let mut points = vec![virgin; paths.len()];
+) -> io::Result<Vec<Vec<PointOutput>>> {
+    let undeformed = Point::undeformed(session)?;
+    let mut points = vec![undeformed; paths.len()];
     let mut answers = vec![Vec::new(); paths.len()];
     let unturned = Matrix3::<f64>::identity();
     let material = session.material;
@@ -135,9 +135,9 @@ pub fn block_at(
         let all = points.iter().zip(paths).zip(temperatures);
         let given = all.map(|((point, path), &temperature)| {
             let given = point.given(&path[k], &unturned, material);
-            Given { temperature, ..given }
+            PointInput { temperature, ..given }
         });
-        let given: Vec<Given> = given.collect();
+        let given: Vec<PointInput> = given.collect();
         for (i, found) in session.call_law(time(k, material), &given)?.into_iter().enumerate() {
             points[i] = points[i].after(&paths[i][k], &unturned, &found);
             answers[i].push(found);

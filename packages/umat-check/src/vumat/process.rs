@@ -13,7 +13,7 @@ use super::super::kinematics::{Increment, exp};
 use super::super::material::Reads;
 use super::super::process::{EXCEPTIONS, UNSET, feclearexcept, fetestexcept};
 use super::blocks::{SIZES, paths};
-use super::call::{Found, Given, Law, Session, Time};
+use super::call::{Law, PointInput, PointOutput, Session, Time};
 use super::point::{self, Point, components, tensor, time};
 
 const INCREMENTS: usize = 20;
@@ -22,7 +22,7 @@ const INCREMENTS: usize = 20;
 ///
 /// # Errors
 /// The system has no memory.
-pub fn touch(session: &mut Session) -> io::Result<Finding> {
+pub fn touch_beyond_arrays(session: &mut Session) -> io::Result<Finding> {
     for size in SIZES {
         point::block(session, &paths(session.material, 0x6d, size, INCREMENTS))?;
     }
@@ -45,7 +45,7 @@ pub fn rest(session: &mut Session) -> io::Result<Finding> {
         let text = "stress, state or energy is not finite at rest";
         return Ok(Finding::new(Question::Rest, Verdict::Wrong, None, text).with("NaN"));
     }
-    let largest = |found: &Found| found.stress.iter().fold(0.0_f64, |largest, value| largest.max(value.abs()));
+    let largest = |found: &PointOutput| found.stress.iter().fold(0.0_f64, |largest, value| largest.max(value.abs()));
     let (stress, stiffness) = (largest(rest), largest(strained) / session.material.increment);
     let figure = if stress == 0.0 { 0.0 } else { stress / stiffness.max(f64::MIN_POSITIVE) };
     if figure <= NO_STRESS {
@@ -63,7 +63,7 @@ pub fn stress(session: &mut Session) -> io::Result<Finding> {
     let found = point::block(session, &paths(session.material, 0x57e, SIZES[1], INCREMENTS))?;
     let all = found.iter().flatten();
     let largest = all.clone().flat_map(|found| found.stress).fold(0.0_f64, |largest, stress| largest.max(stress.abs()));
-    Ok(super::super::stress::judged(largest, all.count()))
+    Ok(super::super::stress::stress_finding(largest, all.count()))
 }
 
 /// Blocks of several histories, and paths out to the ends of the range, with the build that counts its lines.
@@ -90,23 +90,23 @@ const SMALL: f64 = 1e-6;
 /// The system has no memory.
 pub fn data_check(session: &mut Session) -> io::Result<Finding> {
     let mut rng = Rng::with_seed(session.material.seed ^ 0xdc);
-    let mut nothing = Point::virgin(session)?;
+    let mut nothing = Point::undeformed(session)?;
     nothing.state.clone_from(&session.material.initial);
     let unturned = Matrix3::<f64>::identity();
     let strains: Vec<_> = (0..SIZES[1]).map(|_| direction(&mut rng, session.material) * SMALL).collect();
-    let strained: Vec<Given> =
+    let strained: Vec<PointInput> =
         strains.iter().map(|strain| nothing.given(&exp(strain), &unturned, session.material)).collect();
     // Where strainInc alone says what the strain is.
     let rest = nothing.given(&unturned, &unturned, session.material);
-    let fictitious: Vec<Given> =
-        strains.iter().map(|strain| Given { strain_increment: components(strain), ..rest.clone() }).collect();
+    let fictitious: Vec<PointInput> =
+        strains.iter().map(|strain| PointInput { strain_increment: components(strain), ..rest.clone() }).collect();
     let time = Time::data_check(session.material);
     let (with, without) = (session.call_law(time, &strained)?, session.call_law(time, &fictitious)?);
     let line = |verdict, text: &str| Finding::new(Question::DataCheck, verdict, None, text);
-    if !with.iter().chain(&without).all(Found::finite) {
+    if !with.iter().chain(&without).all(PointOutput::finite) {
         return Ok(line(Verdict::Wrong, "not finite with stepTime = totalTime = 0").with("NaN"));
     }
-    let soft = |found: &[Found]| {
+    let soft = |found: &[PointOutput]| {
         found.iter().zip(&strains).filter(|(found, strain)| tensor(&found.stress).dot(strain) <= 0.0).count()
     };
     if let count @ 1.. = soft(&with) {
@@ -126,14 +126,15 @@ pub fn data_check(session: &mut Session) -> io::Result<Finding> {
 /// The system has no memory.
 pub fn outputs(session: &mut Session) -> io::Result<Finding> {
     let paths = paths(session.material, 0x0f, SIZES[1], INCREMENTS);
-    let mut points = vec![Point::virgin(session)?; paths.len()];
+    let mut points = vec![Point::undeformed(session)?; paths.len()];
     let unturned = Matrix3::<f64>::identity();
     let (components, states) = (session.material.components, session.material.initial.len());
     let mut unset: Vec<String> = Vec::new();
     let mut overwritten = Vec::new();
     for k in 0..INCREMENTS {
         let all = points.iter().zip(&paths);
-        let given: Vec<Given> = all.map(|(point, path)| point.given(&path[k], &unturned, session.material)).collect();
+        let given: Vec<PointInput> =
+            all.map(|(point, path)| point.given(&path[k], &unturned, session.material)).collect();
         let time = time(k, session.material);
         session.unset = f64::from_bits(UNSET);
         let found = session.call_law(time, &given)?;
@@ -188,7 +189,7 @@ pub fn outputs(session: &mut Session) -> io::Result<Finding> {
 pub fn exceptions(session: &mut Session) -> io::Result<Finding> {
     let all = EXCEPTIONS.iter().fold(0, |all, (bit, _)| all | bit);
     let paths = paths(session.material, 0xf9, 12, INCREMENTS);
-    let mut points = vec![Point::virgin(session)?; paths.len()];
+    let mut points = vec![Point::undeformed(session)?; paths.len()];
     let unturned = Matrix3::<f64>::identity();
     let mut raised = [0; 3];
     let mut asked = 0;
@@ -196,7 +197,7 @@ pub fn exceptions(session: &mut Session) -> io::Result<Finding> {
         let all_points = points.iter().zip(&paths);
         // The first one is at rest.
         let f1 = |path: &[Matrix3<f64>]| if k == 0 { Matrix3::identity() } else { path[k - 1] };
-        let given: Vec<Given> =
+        let given: Vec<PointInput> =
             all_points.map(|(point, path)| point.given(&f1(path), &unturned, session.material)).collect();
         for (i, given) in given.into_iter().enumerate() {
             // SAFETY: they take and give numbers, and change the flags of this thread alone.
@@ -237,9 +238,10 @@ pub fn exceptions(session: &mut Session) -> io::Result<Finding> {
 /// The system has no memory.
 pub fn invalid(session: &mut Session) -> io::Result<Finding> {
     let paths = paths(session.material, 0x1a, SIZES[1], 1);
-    let virgin = Point::virgin(session)?;
+    let undeformed = Point::undeformed(session)?;
     let unturned = Matrix3::<f64>::identity();
-    let mut given: Vec<Given> = paths.iter().map(|path| virgin.given(&path[0], &unturned, session.material)).collect();
+    let mut given: Vec<PointInput> =
+        paths.iter().map(|path| undeformed.given(&path[0], &unturned, session.material)).collect();
     let time = time(0, session.material);
     let right = session.call_law(time, &given)?;
     let middle = given.len() / 2;
@@ -248,7 +250,7 @@ pub fn invalid(session: &mut Session) -> io::Result<Finding> {
     given[middle].strain_increment[0] = f64::NAN;
     let found = session.call_law(time, &given)?;
     let line = |verdict, text: &str| Finding::new(Question::Invalid, verdict, None, text);
-    let spoilt = (0..found.len()).filter(|&i| i != middle && !found[i].same(&right[i])).count();
+    let spoilt = (0..found.len()).filter(|&i| i != middle && !found[i].has_same_bits(&right[i])).count();
     if spoilt > 0 {
         let text = format!("NaN at one point changes the answers at {spoilt} others of its block");
         return Ok(line(Verdict::Wrong, &text).with("answers depend on the block"));
@@ -306,7 +308,7 @@ pub fn histories(session: &mut Session, reads: Reads) -> io::Result<Finding> {
     Ok(Finding::new(Question::Histories, Verdict::Right, None, text))
 }
 
-fn not_finite(found: &Found) -> String {
+fn not_finite(found: &PointOutput) -> String {
     let first = |values: &[f64]| values.iter().position(|value| !value.is_finite());
     if let Some(c) = first(&found.stress) {
         format!("stressNew(:, {})", c + 1)

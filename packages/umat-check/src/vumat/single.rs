@@ -8,7 +8,7 @@ use super::super::finding::{Finding, Question, Verdict};
 use super::super::guarded::Guard;
 use super::super::material::Reads;
 use super::blocks::{SIZES, paths};
-use super::call::{Given, Law, Precision, Session};
+use super::call::{Law, PointInput, Precision, Session};
 use super::point::{Point, time};
 
 /// In roundings: what single precision costs a law that is written well, and some room.
@@ -38,14 +38,14 @@ pub fn single(session: &mut Session, reads: Reads) -> io::Result<Finding> {
     };
     let mut other = Session::new(&law, session.material, Precision::Single, Guard::Padded, None);
     let paths = paths(session.material, 0x51, SIZES[1], INCREMENTS);
-    let virgin = Point::virgin(session)?;
-    let mut points = vec![virgin; paths.len()];
+    let undeformed = Point::undeformed(session)?;
+    let mut points = vec![undeformed; paths.len()];
     let unturned = Matrix3::<f64>::identity();
     // The largest of stress over strain: a stiffness.
     let mut stiffness = 0.0_f64;
     let mut differences = Vec::new();
     for k in 0..INCREMENTS {
-        let given: Vec<Given> = points
+        let given: Vec<PointInput> = points
             .iter()
             .zip(&paths)
             .map(|(point, path)| rounded(point.given(&path[k], &unturned, session.material)))
@@ -71,11 +71,11 @@ pub fn single(session: &mut Session, reads: Reads) -> io::Result<Finding> {
             points[i] = points[i].after(&paths[i][k], &unturned, double);
         }
     }
-    Ok(judged(&differences, stiffness, reads))
+    Ok(precision_finding(&differences, stiffness, reads))
 }
 
 /// The line, of differences of the stress with the stress, the strain that they are measured by, and the increment.
-fn judged(differences: &[(f64, f64, f64, usize)], stiffness: f64, reads: Reads) -> Finding {
+fn precision_finding(differences: &[(f64, f64, f64, usize)], stiffness: f64, reads: Reads) -> Finding {
     if stiffness == 0.0 {
         return Finding::new(Question::Single, Verdict::NotSure, None, "there was no stress");
     }
@@ -100,9 +100,9 @@ fn judged(differences: &[(f64, f64, f64, usize)], stiffness: f64, reads: Reads) 
 }
 
 /// All numbers as single precision has them, so that both builds get the same ones.
-fn rounded(given: Given) -> Given {
+fn rounded(given: PointInput) -> PointInput {
     let single = |value: f64| f64::from(value as f32);
-    Given {
+    PointInput {
         density: single(given.density),
         strain_increment: given.strain_increment.map(single),
         spin: given.spin.map(single),
