@@ -21,6 +21,7 @@ pub(super) fn properties_of<T: Precision, L: Law<T>>(count: usize) -> usize {
     count - usize::from(has_constant::<T, L>(count))
 }
 
+#[inline(always)]
 fn has_constant<T: Precision, L: Law<T>>(count: usize) -> bool {
     let properties: &[Property] = L::DESCRIPTION.properties;
     L::HAS.limit && count == properties.len() + 1
@@ -40,6 +41,7 @@ impl CardVariables {
     ///
     /// # Safety
     /// `constants` points to `count` values.
+    #[inline(always)]
     pub unsafe fn from_card<T: Precision, L: Law<T>>(
         constants: *const T,
         count: usize,
@@ -61,6 +63,7 @@ impl CardVariables {
     ///
     /// # Safety
     /// `variables` points to the variables of a point of this law, with those that the card names.
+    #[inline(always)]
     pub unsafe fn numbers<T: Precision, L: Law<T>>(&self, variables: *const T) -> Result<CardNumbers<T>, Error> {
         // SAFETY: the card's variable, and the law's latch.
         unsafe { Ok(CardNumbers { limit: check(at(variables, self.limit, 1), variables.add(L::DESCRIPTION.failed))? }) }
@@ -88,6 +91,7 @@ impl CardVariables {
 
     /// `n` points with what they have of their own, and no other arrays yet; their variables are rows, one `next`
     /// values after the other.
+    #[inline(always)]
     pub fn points<T: Precision>(&self, variables: *const T, n: usize, next: usize) -> Points<T> {
         Points { limit: at(variables, self.limit, next), ..Points::without_arrays(n, next) }
     }
@@ -108,6 +112,7 @@ impl<T: Precision> CardNumbers<T> {
 
     /// The point with them, and no other arrays yet: null where points of the law have none, or where it is 0, that of
     /// the properties, since the kernels for points without them take less time.
+    #[inline(always)]
     pub fn point<L: Law<T>>(&self) -> Points<T> {
         let given: f64 = self.limit.into();
         let limit = if L::HAS.limit && given != 0.0 { &raw const self.limit } else { null() };
@@ -129,6 +134,7 @@ fn place<T: Precision>(name: &'static str, constant: T, kept: usize, variables: 
 }
 
 /// The variable in this place, whose rows are one `next` values after the other, or null.
+#[inline(always)]
 fn at<T>(variables: *const T, place: Option<usize>, next: usize) -> *const T {
     place.map_or(null(), |place| variables.wrapping_add(place * next))
 }
