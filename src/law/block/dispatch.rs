@@ -21,7 +21,9 @@ use crate::law::linear_elastic::LinearElastic;
 use crate::law::number::level::Level;
 use crate::law::number::real::Lanes;
 use crate::law::number::registers::Registers;
+#[cfg(target_arch = "x86_64")]
 use crate::law::response::Request;
+#[cfg(target_arch = "x86_64")]
 use crate::law::state::part::FAILURE;
 use crate::law::status;
 

@@ -9,6 +9,7 @@ pub(crate) mod registers;
 mod scalar;
 mod series;
 pub mod tensor;
+#[cfg(any(test, target_arch = "x86_64"))]
 pub(crate) mod twice;
 pub mod vector;
 #[cfg(target_arch = "x86_64")]

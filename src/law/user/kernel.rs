@@ -9,6 +9,7 @@ use crate::law::description::Description;
 use crate::law::failure::Failure;
 use crate::law::number::level::Level;
 use crate::law::number::real::{Lanes, Real};
+#[cfg(target_arch = "x86_64")]
 use crate::law::number::twice::Twice;
 use crate::law::number::vector::{Matrix, accurate_cross, dot, is_finite};
 use crate::law::status;
