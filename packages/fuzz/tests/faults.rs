@@ -1,4 +1,4 @@
-//! What the fuzzer would find: ten faults planted in the answers that it sees.
+//! What the fuzzer would find: twelve faults planted in the answers that it sees.
 
 use toron_fuzz::points::{FAULTS, Fault, replay, run, smallest};
 use toron_fuzz::seed;
@@ -8,13 +8,10 @@ const POINTS: u64 = 100_000;
 
 #[test]
 fn planted_faults_are_found() {
-    let mut found = 0;
     for fault in FAULTS {
         let (totals, Some(case)) = run(seed(), POINTS, Some(fault)) else {
-            println!("{fault:?}: not found");
-            continue;
+            panic!("{fault:?} is not found in {POINTS} points");
         };
-        found += 1;
         assert_eq!(replay(&case.case, None), Ok(()), "{fault:?}: the case fails without the fault as well");
         println!("{fault:?}: found after {} points: {}", totals.points, case.why);
         // One is made small, which takes longer than to find it.
@@ -24,5 +21,4 @@ fn planted_faults_are_found() {
             assert_eq!(small.case.points.len(), 1, "a case of more points is not small");
         }
     }
-    assert!(found >= 9, "{found} of {} faults found", FAULTS.len());
 }

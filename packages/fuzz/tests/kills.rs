@@ -147,9 +147,10 @@ fn cells(line: &str) -> Vec<String> {
     cells
 }
 
-/// A run that is killed, again and again, and goes on to its end; returns how often.
-fn killed(scene: &Scene, name: &str, lasts: Duration, rng: &mut Rng) -> (u64, PathBuf) {
-    let (place, mut kills) = (scene.place(name), 0);
+/// A run that is killed, again and again, and goes on to its end; returns how often, and how often there was something
+/// to go on from.
+fn killed(scene: &Scene, name: &str, lasts: Duration, rng: &mut Rng) -> ([u64; 2], PathBuf) {
+    let (place, mut kills, mut restarts) = (scene.place(name), 0, 0);
     let mut run = scene.start(&place, false);
     while kills < KILLS_A_RUN {
         sleep(lasts.mul_f64(rng.f64() * 0.7));
@@ -160,10 +161,11 @@ fn killed(scene: &Scene, name: &str, lasts: Duration, rng: &mut Rng) -> (u64, Pa
         run.wait().expect("it ends");
         kills += 1;
         let restart = scene.can_restart(&place);
+        restarts += u64::from(restart);
         run = scene.start(&place, restart);
     }
     scene.ends(&place, run);
-    (kills, place)
+    ([kills, restarts], place)
 }
 
 #[test]
@@ -176,11 +178,12 @@ fn killed_runs_go_on_to_the_same_bytes() {
         let place = scene.place("undisturbed");
         let start = Instant::now();
         scene.ends(&place, scene.start(&place, false));
-        let (lasts, expected, mut kills, mut runs) = (start.elapsed(), results(&place), 0, 0);
+        let (lasts, expected) = (start.elapsed(), results(&place));
+        let (mut kills, mut restarts, mut runs) = (0, 0, 0);
         assert!(expected.len() > 1, "{}: {} results", scene.command, expected.len());
         while kills < wanted {
-            let (more, place) = killed(scene, &format!("{runs}"), lasts, rng);
-            (kills, runs) = (kills + more, runs + 1);
+            let ([more, again], place) = killed(scene, &format!("{runs}"), lasts, rng);
+            (kills, restarts, runs) = (kills + more, restarts + again, runs + 1);
             let found = results(&place);
             let names = |results: &BTreeMap<String, Vec<u8>>| results.keys().cloned().collect::<Vec<_>>();
             assert_eq!(names(&found), names(&expected), "{} in {}", scene.command, place.display());
@@ -188,6 +191,11 @@ fn killed_runs_go_on_to_the_same_bytes() {
                 assert!(found[name] == *bytes, "{}: {name} in {} differs", scene.command, place.display());
             }
         }
-        println!("{}: {kills} kills in {runs} runs of {lasts:?}, {} files the same", scene.command, expected.len());
+        assert!(restarts >= kills / 4, "{}: {restarts} restarts after {kills} kills", scene.command);
+        println!(
+            "{}: {kills} kills in {runs} runs of {lasts:?}, {restarts} with something to go on from, {} files the same",
+            scene.command,
+            expected.len()
+        );
     }
 }

@@ -421,7 +421,6 @@ mod tests {
         );
     }
 
-    /// Some public inputs have FILE=.
     #[test]
     fn counts_are_bounded() {
         for (text, message) in [
@@ -433,6 +432,7 @@ mod tests {
         }
     }
 
+    /// Some public inputs have FILE=.
     #[test]
     fn an_include_is_named_by_input() {
         let error = abaqus::read("deck.inp", "*Include, file=sec.inp\n", &mut Deck::default()).expect_err("refused");

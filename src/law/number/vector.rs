@@ -30,7 +30,7 @@ pub fn along<R: Real>(a: [R; 3], s: R, b: [R; 3]) -> [R; 3] {
     [s.mul_add(b[0], a[0]), s.mul_add(b[1], a[1]), s.mul_add(b[2], a[2])]
 }
 
-/// `a + s b + t c`, as if `a + s b` had not been rounded: for sums that cancel.
+/// `a + s b + t c` where `s b` and `t c` cancel: with a = 0 and fused products as if `s b` had not been rounded.
 #[inline(always)]
 pub fn along_both<R: Real>(a: [R; 3], (s, b): (R, [R; 3]), (t, c): (R, [R; 3])) -> [R; 3] {
     let first = along(a, s, b);

@@ -1,4 +1,4 @@
-//! Ten faults that a numerical library might have, planted in the answers that the fuzzer sees: a test asserts that it
+//! Twelve faults that a numerical library might have, planted in the answers that the fuzzer sees: a test asserts that it
 //! finds them. Nothing of the library is changed.
 
 use super::case::{Case, Host, Law, group, with};
@@ -27,9 +27,13 @@ pub enum Fault {
     SlipStays,
     /// A point that has failed before keeps its stress, in blocks of the linear elastic law.
     FailedCarries,
+    /// A UMAT says of a point that it can evaluate that numbers overflow.
+    UmatOverflows,
+    /// MGIS refuses a point that it can evaluate.
+    MgisRefuses,
 }
 
-pub const FAULTS: [Fault; 10] = [
+pub const FAULTS: [Fault; 12] = [
     Fault::WrongSign,
     Fault::StatusDropped,
     Fault::LossesFall,
@@ -40,6 +44,8 @@ pub const FAULTS: [Fault; 10] = [
     Fault::TransposedTangent,
     Fault::SlipStays,
     Fault::FailedCarries,
+    Fault::UmatOverflows,
+    Fault::MgisRefuses,
 ];
 
 impl Fault {
@@ -121,6 +127,12 @@ impl Fault {
                         outcome.stress.set(0, i, T::splat(case.points[i].state[0]));
                     }
                 }
+            }
+            Fault::UmatOverflows if outcome.entry == Entry::Host && case.host == Host::Umat && outcome.code == 0 => {
+                outcome.code = toron::status::OVERFLOW;
+            }
+            Fault::MgisRefuses if outcome.entry == Entry::Host && case.host == Host::Mgis && outcome.code == 0 => {
+                outcome.code = -1;
             }
             _ => (),
         }

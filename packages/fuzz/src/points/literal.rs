@@ -75,7 +75,7 @@ fn is_tellable(case: &Case, i: usize, old: &[f64]) -> bool {
     };
     let linear = case.law.is_linear();
     let stiffness = &case.properties[..if linear { 3 } else { 5 }];
-    let at_kink = !linear && case.asks_state() && case.properties[2] < 2.0;
+    let at_kink = !linear && case.single && case.properties[2] < 2.0;
     let fibre: f64 = fibre(case, i).map(f64::abs).iter().sum();
     usual(&point.f)
         && (!linear || (usual(&point.f_old) && case.rotation == 0))

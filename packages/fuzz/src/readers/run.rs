@@ -147,8 +147,9 @@ fn names(error: &Error, file: &Path) -> Result<(), String> {
     let message = error.to_string();
     let own = file.file_name().unwrap_or_default().to_string_lossy();
     let beside = file.parent().unwrap_or(file).to_string_lossy();
-    match message.find(&*own).or(message.find(&*beside)) {
-        Some(at) if message.len() > at + own.len() + 4 => Ok(()),
+    let behind = |name: &str| message.find(name).map(|at| at + name.len());
+    match behind(&own).or(behind(&beside)) {
+        Some(named) if message.len() > named + 4 => Ok(()),
         _ => Err(format!("a refusal that does not name the file: {message}")),
     }
 }

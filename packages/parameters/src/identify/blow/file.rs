@@ -8,7 +8,7 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use crate::identify::reader::plain_name;
-use toron::law::parameters::{Dimension, Property};
+use toron::law::parameters::{Dimension, NUMBER, Property};
 use toron_explicit_host::struck::history::{self, Column};
 use toron_explicit_host::struck::plan::Plan;
 use toron_materials::data_table::DataTable;
@@ -259,20 +259,22 @@ fn fits(source: &Source<'_>, blow: &BlowTable, case: &Case) -> Result<Vec<Fitted
     Ok(fits)
 }
 
-/// A tenth of a property's range where that is known, and else a hundredth of the law's least other property of its
-/// dimension: what makes a difference, in any units.
+/// A tenth of a property's range where that is known, 1 for other numbers, and else a ten-thousandth of the law's
+/// greatest property of the same dimension, its stiffness along the fibre: what makes a difference, in any units.
 fn size(table: &[Property], values: &[f64], index: usize) -> f64 {
     let Property { minimum, maximum, dimension, .. } = table[index];
     if maximum <= 1.0 {
         return 0.1 * (maximum - minimum);
     }
-    let alike = table.iter().zip(values).filter(|(property, value)| property.dimension == dimension && **value > 0.0);
-    let least = alike.map(|(_, value)| *value).fold(f64::INFINITY, f64::min);
-    if least.is_finite() { 0.01 * least } else { 1.0 }
+    let alike = table.iter().zip(values).filter(|(property, _)| property.dimension == dimension);
+    let greatest = alike.map(|(_, value)| *value).fold(0.0, f64::max);
+    if dimension == NUMBER || greatest == 0.0 { 1.0 } else { 1e-4 * greatest }
 }
 
 #[cfg(test)]
 mod tests {
+    use approx::assert_relative_eq;
+
     use super::*;
     use toron::law::parameters::FRICTIONAL;
 
@@ -281,10 +283,17 @@ mod tests {
         let place = |name: &str| FRICTIONAL.iter().position(|property| property.name == name).expect("it exists");
         for pascal in [1.0, 1e-6] {
             let mut values = [0.0; FRICTIONAL.len()];
-            for (name, value) in [("k_el", 82e9), ("k_tc", 1e9), ("k_td", 650e6)] {
+            for (name, value) in [("k_el", 82e9), ("k_tc", 1e9), ("k_td", 650e6), ("cohesion", 1e3)] {
                 values[place(name)] = value * pascal;
             }
-            assert_eq!(size(&FRICTIONAL, &values, place("cohesion")), 6.5e6 * pascal);
+            // Of a fibre that is not quite along an axis.
+            values[place("m_2")] = 4e-17;
+            for stress in ["cohesion", "k_ld"] {
+                assert_relative_eq!(size(&FRICTIONAL, &values, place(stress)), 8.2e6 * pascal);
+            }
+            for number in ["alpha", "beta"] {
+                assert_eq!(size(&FRICTIONAL, &values, place(number)), 1.0);
+            }
             assert_eq!(size(&FRICTIONAL, &values, place("mu")), 0.1 * FRICTIONAL[place("mu")].maximum);
         }
     }
