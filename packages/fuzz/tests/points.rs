@@ -36,7 +36,7 @@ fn points() {
         assert!(totals.refused < count / 2 && totals.hosts.iter().all(|points| *points > count / 1000), "{totals:?}");
     }
     if let Some(found) = found {
-        println!("{}", found.why);
+        println!("{}\n{}", found.why, found.case);
         let found = smallest(found, None);
         panic!("{}\nseed {seed}; replay with TORON_FUZZ_CASE='{}'", found.why, found.case);
     }

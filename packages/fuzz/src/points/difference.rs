@@ -45,11 +45,16 @@ fn is_moderate(case: &Case) -> bool {
     };
     let usual = |k: &f64| *k == 0.0 || (1e-3..1e3).contains(k);
     let stiffness = &case.properties[..if case.law.is_linear() { 3 } else { 5 }];
+    // At half a turn in one step the spin's frame jumps.
+    let turns_little = || {
+        let [f, f_old] = [&point.f, &point.f_old].map(|f| Matrix3::from_column_slice(f));
+        f_old.try_inverse().is_some_and(|inverse| (f * inverse + Matrix3::identity()).determinant() > 0.1)
+    };
     upright(&point.f)
         && upright(&point.f_old)
         && point.state.iter().all(|x| x.abs() < 10.0)
         && stiffness.iter().all(usual)
-        && (case.law.is_linear() || (1.2..6.0).contains(&case.properties[2]))
+        && if case.law.is_linear() { turns_little() } else { (1.2..6.0).contains(&case.properties[2]) }
 }
 
 /// Whether the tangent of a case of one point has been looked at, which is one in so many.
