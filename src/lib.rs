@@ -36,6 +36,15 @@
 //! # Ok::<(), toron::Error>(())
 //! ```
 //!
+//! A crate that depends on this one does not take over its profile: without optimisation and with debug information the
+//! kernels take several gigabytes to compile. In your workspace's `Cargo.toml`:
+//!
+//! ```toml
+//! [profile.dev.package.toron]
+//! opt-level = 1
+//! debug = false
+//! ```
+//!
 //! The laws take deformation gradients as columns, `[[T; 3]; 3]`, or as `nalgebra::Matrix3`, where a matrix says by its
 //! type which index is the row; nalgebra is used for nothing else in the hot paths.
 //!
