@@ -120,9 +120,9 @@ pub struct Finder {
 
 impl Finder {
     /// Answers all queries.
-    pub fn find(&mut self, surfaces: &[&Surface]) {
+    pub fn find(&mut self, surfaces: &[Surface]) {
         let Finder { queries, open, at_edges } = self;
-        let surface = |query: &Query| surfaces[query.body as usize];
+        let surface = |query: &Query| &surfaces[query.body as usize];
         debug_assert!(queries.iter().all(|query| !surface(query).state.gone[query.face as usize]));
         open.clear();
         open.extend(0..queries.len() as u32);
@@ -151,14 +151,14 @@ impl Finder {
 
 /// Newton's method on each query's face.
 struct Project<'a> {
-    surfaces: &'a [&'a Surface],
+    surfaces: &'a [Surface],
     queries: &'a mut [Query],
     selected: &'a [u32],
 }
 
 /// The nearest place of queries in the wedge between their face and that before.
 struct AtEdge<'a> {
-    surfaces: &'a [&'a Surface],
+    surfaces: &'a [Surface],
     queries: &'a mut [Query],
     selected: &'a [u32],
 }
@@ -252,14 +252,14 @@ struct AllMet {
 impl Patch {
     /// Of the queries' faces, or of those that they came from.
     #[inline(always)]
-    fn new(surfaces: &[&Surface], queries: &[Query], numbers: &[usize; LANES], before: bool) -> Patch {
+    fn new(surfaces: &[Surface], queries: &[Query], numbers: &[usize; LANES], before: bool) -> Patch {
         let mut corners = [[Lanes::zero(); 3]; 4];
         for l in 0..LANES {
             let query = &queries[numbers[l]];
-            let surface = surfaces[query.body as usize];
+            let surface = &surfaces[query.body as usize];
             let nodes = &surface.faces[if before { query.before } else { query.face } as usize];
             for k in 0..4 {
-                let position = &surface.state.positions[nodes[k] as usize];
+                let position = &surface.state.points[nodes[k] as usize].position;
                 for i in 0..3 {
                     corners[k][i].0[l] = position[i];
                 }
@@ -414,7 +414,7 @@ mod tests {
 
     fn met(surface: &Surface, from: u32, point: Vector) -> Met {
         let mut finder = Finder { queries: vec![Query::new(0, from, Place::default(), point)], ..Finder::default() };
-        finder.find(&[surface]);
+        finder.find(std::slice::from_ref(surface));
         finder.queries[0].met.expect("it is over the surface")
     }
 
@@ -478,7 +478,6 @@ mod tests {
         // border.
         let mut surfaces = [folded(0.4), folded(3.0)];
         surfaces[1].state.gone[1] = true;
-        let surfaces: Vec<&Surface> = surfaces.iter().collect();
         let mut finder = Finder::default();
         for i in 0..43 {
             let (x, body) = (0.07 * f64::from(i) - 1.5, i % 2);
@@ -506,7 +505,7 @@ mod tests {
         for (x, depth) in [(0.3, None), (-0.2, Some(0.1))] {
             query = Query::new(0, query.face, query.place, [x, -0.1, 0.5]);
             let mut finder = Finder { queries: vec![query], ..Finder::default() };
-            finder.find(&[&surface]);
+            finder.find(std::slice::from_ref(&surface));
             query = finder.queries[0];
             let found = query.met.map(|met| met.depth.abs());
             assert!(found.is_some() == depth.is_some(), "{found:?}");

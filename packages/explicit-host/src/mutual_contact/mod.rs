@@ -27,8 +27,9 @@ use super::body::Body;
 use super::lanes::Number;
 use face::{Finder, Place, Query};
 use motion::{Due, Motion};
-use pair::{OnFace, Pair};
+use pair::{Exerted, Pair, Wait};
 use search::{Grid, Near};
+use surface::fetch;
 pub use surface::{Surface, outer_faces};
 
 /// The parameters of contact.
@@ -72,14 +73,87 @@ impl Parameters {
 /// What belongs to a body.
 #[derive(Debug, Default)]
 struct Side {
-    surface: Surface,
     state: SideState,
-    /// The numbers of the pairs that may touch in this step, where they are, and the numbers of those that do.
+    /// Of each pair.
+    waits: Vec<Wait>,
+    /// The numbers of the pairs that may touch in this step.
     near: Vec<u32>,
-    finder: Finder,
-    touched: Vec<u32>,
-    /// Which touched pairs have it as their master: body and number.
+    /// What those that do exert, and the bodies that they do so on.
+    exerted: Vec<Exerted>,
+    masters: Vec<u32>,
+    /// What is exerted on it: by which body, and the place there.
     incoming: Vec<(u32, u32)>,
+}
+
+/// Pairs that are worked on together: what one needs is then still in the processor's nearest memory.
+const AT_ONCE: usize = 128;
+
+impl Side {
+    /// Takes over how long its pairs wait.
+    fn wait(&mut self) {
+        self.waits.clear();
+        self.waits.extend(self.state.pairs.iter().map(Pair::wait));
+    }
+
+    /// Presses the nodes of this body out of the others' faces.
+    fn press<T: Number>(&mut self, number: usize, body: &mut Body<T>, scene: &Scene, finder: &mut Finder) {
+        let Side { state: SideState { pairs, stored, dissipated }, waits, near, exerted, masters, .. } = self;
+        find_near(waits, scene.motion, near);
+        (exerted.clear(), masters.clear());
+        let points = &scene.surfaces[number].state.points;
+        let mut lost = 0.0;
+        *stored = 0.0;
+        for places in near.chunks(AT_ONCE) {
+            finder.queries.clear();
+            for &place in places {
+                let pair = &pairs[place as usize];
+                pair.fetch();
+                fetch(body.springs[pair.node as usize]);
+                fetch(body.forces[pair.node as usize][0].into());
+                let point = points[pair.node as usize].position;
+                finder.queries.push(Query::new(pair.master, pair.face, pair.place, point));
+            }
+            for query in &finder.queries {
+                let master = &scene.surfaces[query.body as usize];
+                for corner in master.faces[query.face as usize] {
+                    fetch(master.state.points[corner as usize].position[2]);
+                }
+            }
+            finder.find(scene.surfaces);
+            for (&place, found) in places.iter().zip(&finder.queries) {
+                let pair = &mut pairs[place as usize];
+                let (force, loss) = pair.update(found, number, scene);
+                lost += loss;
+                *stored += pair.stored;
+                waits[place as usize] = pair.wait();
+                if !pair.counts() {
+                    continue;
+                }
+                let node = pair.node as usize;
+                let (own, on_face) = pair.exert(number, scene);
+                exerted.push(on_face);
+                masters.push(pair.master);
+                body.springs[node] += own;
+                let Some(force) = force else { continue };
+                for i in 0..3 {
+                    body.forces[node][i] += T::from_f64(force[i]);
+                }
+            }
+        }
+        *dissipated += lost;
+    }
+}
+
+/// The numbers of the pairs whose wait is over.
+fn find_near(waits: &[Wait], motion: &Motion, near: &mut Vec<u32>) {
+    // Without jumps, which would not be foreseen: every number is written, and kept if the next one comes behind it.
+    near.resize(waits.len(), 0);
+    let mut count = 0;
+    for (place, wait) in waits.iter().enumerate() {
+        near[count] = place as u32;
+        count += usize::from(wait.is_over(motion));
+    }
+    near.truncate(count);
 }
 
 /// What a body's contact remembers from step to step.
@@ -95,8 +169,16 @@ struct SideState {
 #[derive(Debug)]
 pub struct MutualContact {
     parameters: Parameters,
+    surfaces: Vec<Surface>,
     sides: Vec<Side>,
     pub state: ContactState,
+}
+
+/// What all pairs are worked on with.
+struct Scene<'a> {
+    parameters: Parameters,
+    surfaces: &'a [Surface],
+    motion: &'a Motion,
 }
 
 /// Where nodes are looked for, by slabs, and near whose faces.
@@ -161,25 +243,28 @@ pub struct ContactState {
 impl MutualContact {
     /// Of as many surfaces as there are bodies.
     pub fn new(parameters: Parameters, surfaces: Vec<Surface>) -> Self {
-        let motion = Motion::new(&surfaces.iter().collect::<Vec<_>>());
-        let sides = surfaces.into_iter().map(|surface| Side { surface, ..Side::default() });
-        MutualContact { parameters, sides: sides.collect(), state: ContactState { motion, ..ContactState::default() } }
+        let motion = Motion::new(&surfaces);
+        let sides = surfaces.iter().map(|_| Side::default()).collect();
+        let state = ContactState { motion, ..ContactState::default() };
+        MutualContact { parameters, surfaces, sides, state }
     }
 
     /// # Errors
     /// The archive's.
     pub fn archive(&mut self, archive: &mut Archive<'_>) -> Result<(), postcard::Error> {
         archive.keep(&mut self.state)?;
-        self.sides
-            .iter_mut()
-            .try_for_each(|side| archive.keep(&mut side.surface.state).and_then(|()| archive.keep(&mut side.state)))
+        for (surface, side) in self.surfaces.iter_mut().zip(&mut self.sides) {
+            archive.keep(&mut surface.state)?;
+            archive.keep(&mut side.state)?;
+            side.wait();
+        }
+        Ok(())
     }
 
     /// Adds the forces of the contact to those of the bodies.
     pub fn apply<T: Number>(&mut self, bodies: &mut [Body<T>]) {
-        self.sides.par_iter_mut().zip(&*bodies).for_each(|(side, body)| side.surface.follow(body));
-        let surfaces: Vec<&Surface> = self.sides.iter().map(|side| &side.surface).collect();
-        match self.state.motion.advance(&surfaces, self.parameters.margin) {
+        self.surfaces.par_iter_mut().zip(&*bodies).for_each(|(surface, body)| surface.follow(body));
+        match self.state.motion.advance(&self.surfaces, self.parameters.margin) {
             Due::All => {
                 self.search(&Scope::all(&self.state.motion));
                 self.restart();
@@ -212,10 +297,10 @@ impl MutualContact {
         if torn.is_empty() {
             return scope;
         }
-        for (number, side) in self.sides.iter().enumerate() {
+        for (number, (side, surface)) in self.sides.iter().zip(&self.surfaces).enumerate() {
             // What is beyond a border may have come across a face that was there.
             for pair in side.state.pairs.iter().filter(|pair| !pair.known && torn.contains(&pair.master)) {
-                scope.slabs[motion.slab(number, side.surface.slab_of_node(pair.node))] = true;
+                scope.slabs[motion.slab(number, surface.slab_of_node(pair.node))] = true;
             }
         }
         scope
@@ -225,42 +310,42 @@ impl MutualContact {
     fn search(&mut self, scope: &Scope) {
         let mut pairs: Vec<Vec<Pair>> =
             self.sides.iter_mut().map(|side| std::mem::take(&mut side.state.pairs)).collect();
-        let surfaces: Vec<&Surface> = self.sides.iter().map(|side| &side.surface).collect();
-        let grid = Grid::new(&surfaces, |body| scope.bodies[body], self.parameters.margin);
+        let surfaces = &self.surfaces;
+        let grid = Grid::new(surfaces, |body| scope.bodies[body], self.parameters.margin);
         let motion = &self.state.motion;
-        let search = |(number, (side, old)): (usize, (&Side, &mut Vec<Pair>))| {
-            if side.surface.wall || !scope.slabs[motion.slabs_of(number)].contains(&true) {
+        let search = |(number, (surface, old)): (usize, (&Surface, &mut Vec<Pair>))| {
+            if surface.wall || !scope.slabs[motion.slabs_of(number)].contains(&true) {
                 return;
             }
-            let is_due = |node: &u32| scope.slabs[motion.slab(number, side.surface.slab_of_node(*node))];
-            let nodes: Vec<u32> = side.surface.state.nodes.iter().copied().filter(is_due).collect();
-            let found = self.pairs_of(number, &nodes, &grid, &surfaces);
+            let is_due = |node: &u32| scope.slabs[motion.slab(number, surface.slab_of_node(*node))];
+            let nodes: Vec<u32> = surface.state.nodes.iter().copied().filter(is_due).collect();
+            let found = self.pairs_of(number, &nodes, &grid);
             let is_due = |pair: &Pair| is_due(&pair.node) && scope.bodies[pair.master as usize];
             *old = merge(std::mem::take(old), found, is_due);
         };
-        self.sides.par_iter().zip(&mut pairs).enumerate().for_each(search);
+        surfaces.par_iter().zip(&mut pairs).enumerate().for_each(search);
         for (side, pairs) in self.sides.iter_mut().zip(pairs) {
             side.state.pairs = pairs;
+            side.wait();
         }
     }
 
     /// Follows the motion anew from where the bodies are.
     fn restart(&mut self) {
-        let surfaces: Vec<&Surface> = self.sides.iter().map(|side| &side.surface).collect();
-        self.state.motion.restart(&surfaces, self.parameters.margin);
+        self.state.motion.restart(&self.surfaces, self.parameters.margin);
         self.state.searches += 1;
     }
 
     /// The pairs of a body's nodes with the grid's faces, in their order.
-    fn pairs_of(&self, number: usize, nodes: &[u32], grid: &Grid, surfaces: &[&Surface]) -> Vec<Pair> {
-        let (parameters, side) = (self.parameters, &self.sides[number]);
+    fn pairs_of(&self, number: usize, nodes: &[u32], grid: &Grid) -> Vec<Pair> {
+        let (parameters, surfaces) = (self.parameters, &self.surfaces);
         // Where bodies overlap from the start, they press each other.
         let first = self.state.searches == 0;
         let (mut faces, mut finder) = (Vec::new(), Finder::default());
         // Nodes, and where the faces near them that belong to one body end among the queries.
         let mut ends = Vec::new();
         for &node in nodes {
-            let point = side.surface.state.positions[node as usize];
+            let point = surfaces[number].state.points[node as usize].position;
             grid.near(number, point, &mut faces);
             for of_body in faces.chunk_by(|a, b| a.body == b.body) {
                 let query = |near: &Near| Query::new(near.body, near.face, Place::default(), point);
@@ -274,7 +359,7 @@ impl MutualContact {
             let nearest = parameters.nearest(&finder.queries[start..end]);
             if let Some(&Query { body: master, face, place, met, .. }) = nearest {
                 let share = if surfaces[master as usize].wall { 1.0 } else { 0.5 };
-                let stiffness = share * parameters.stiffness * side.surface.area[node as usize];
+                let stiffness = share * parameters.stiffness * surfaces[number].area[node as usize];
                 let known = first || met.is_some_and(|met| met.depth <= 0.0);
                 let overlap = if first { met.map_or(0.0, |met| met.depth.max(0.0)) } else { 0.0 };
                 let [depth, uncounted] = if parameters.pressed_at_rest { [overlap, 0.0] } else { [0.0, overlap] };
@@ -288,74 +373,19 @@ impl MutualContact {
 
     /// Presses the nodes of every body out of the others' faces.
     fn press<T: Number>(&mut self, bodies: &mut [Body<T>]) {
-        struct Work {
-            pairs: Vec<Pair>,
-            near: Vec<u32>,
-            finder: Finder,
-            touched: Vec<u32>,
-        }
-        let taken = self.sides.iter_mut().map(|side| Work {
-            pairs: std::mem::take(&mut side.state.pairs),
-            near: std::mem::take(&mut side.near),
-            finder: std::mem::take(&mut side.finder),
-            touched: std::mem::take(&mut side.touched),
-        });
-        let mut taken: Vec<Work> = taken.collect();
-        let masses: Vec<Vec<f64>> = bodies.iter_mut().map(|body| std::mem::take(&mut body.mass)).collect();
-        let (parameters, motion) = (self.parameters, &self.state.motion);
-        let surfaces: Vec<&Surface> = self.sides.iter().map(|side| &side.surface).collect();
-        let press = |(number, (work, body)): (usize, (&mut Work, &mut Body<T>))| {
-            let Work { pairs, near, finder, touched } = work;
-            touched.clear();
-            near.clear();
-            finder.queries.clear();
-            let positions = &surfaces[number].state.positions;
-            for (place, pair) in pairs.iter().enumerate().filter(|(_, pair)| pair.may_touch(motion)) {
-                near.push(place as u32);
-                let point = positions[pair.node as usize];
-                finder.queries.push(Query::new(pair.master, pair.face, pair.place, point));
-            }
-            finder.find(&surfaces);
-            let (mut stored, mut dissipated) = (0.0, 0.0);
-            for (&place, found) in near.iter().zip(&finder.queries) {
-                let pair = &mut pairs[place as usize];
-                let (force, loss) = pair.update(found, number, &surfaces, parameters, motion);
-                dissipated += loss;
-                stored += pair.stored;
-                if !pair.counts() {
-                    continue;
-                }
-                touched.push(place);
-                let node = pair.node as usize;
-                let corners = surfaces[pair.master as usize].faces[pair.face as usize];
-                let of_face = &masses[pair.master as usize];
-                let mut on_corners = [0.0; 4];
-                for k in 0..4 {
-                    on_corners[k] = of_face[corners[k] as usize];
-                }
-                body.springs[node] += pair.divide_spring(masses[number][node], on_corners);
-                let Some(force) = force else { continue };
-                for i in 0..3 {
-                    body.forces[node][i] += T::from_f64(force[i]);
-                }
-            }
-            (stored, dissipated)
+        let MutualContact { parameters, surfaces, sides, state } = self;
+        let scene = Scene { parameters: *parameters, surfaces, motion: &state.motion };
+        let press = |finder: &mut Finder, (number, (side, body)): (usize, (&mut Side, &mut Body<T>))| {
+            side.press(number, body, &scene, finder);
         };
-        let energies: Vec<(f64, f64)> = taken.par_iter_mut().zip(&mut *bodies).enumerate().map(press).collect();
-        for (body, mass) in bodies.iter_mut().zip(masses) {
-            body.mass = mass;
-        }
-        for ((side, work), (stored, dissipated)) in self.sides.iter_mut().zip(taken).zip(energies) {
-            Work { pairs: side.state.pairs, near: side.near, finder: side.finder, touched: side.touched } = work;
+        sides.par_iter_mut().zip(bodies).enumerate().for_each_init(Finder::default, press);
+        for side in &mut self.sides {
             side.incoming.clear();
-            side.state.stored = stored;
-            side.state.dissipated += dissipated;
         }
         for body in 0..self.sides.len() {
-            for place in 0..self.sides[body].touched.len() {
-                let pair = self.sides[body].touched[place];
-                let master = self.sides[body].state.pairs[pair as usize].master as usize;
-                self.sides[master].incoming.push((body as u32, pair));
+            for place in 0..self.sides[body].masters.len() {
+                let master = self.sides[body].masters[place] as usize;
+                self.sides[master].incoming.push((body as u32, place as u32));
             }
         }
     }
@@ -366,11 +396,9 @@ impl MutualContact {
     fn collect<T: Number>(&mut self, bodies: &mut [Body<T>]) {
         let sides = &self.sides;
         bodies.par_iter_mut().enumerate().for_each(|(number, body)| {
-            let side = &sides[number];
-            for &(other, pair) in &side.incoming {
-                let pair = &sides[other as usize].state.pairs[pair as usize];
-                let OnFace { force, weights, spring, .. } = pair.on_face;
-                for (weight, corner) in weights.into_iter().zip(side.surface.faces[pair.face as usize]) {
+            for &(other, place) in &sides[number].incoming {
+                let Exerted { corners, force, weights, spring } = sides[other as usize].exerted[place as usize];
+                for (weight, corner) in weights.into_iter().zip(corners) {
                     let corner = corner as usize;
                     body.springs[corner] += weight.abs() * spring;
                     for i in 0..3 {
@@ -385,14 +413,15 @@ impl MutualContact {
     /// What was near a face that is gone may be near another one: the next step looks for it.
     pub fn remove<T: Number>(&mut self, number: usize, body: &Body<T>) {
         let side = &mut self.sides[number];
-        side.surface.remove(body);
-        let gone = side.surface.state.gone.clone();
+        self.surfaces[number].remove(body);
+        let gone = &self.surfaces[number].state.gone;
         let loose = side.state.pairs.extract_if(.., |pair| body.is_loose(pair.node as usize));
         let mut released = loose.map(|mut pair| pair.leave()).sum::<f64>();
         for other in &mut self.sides {
             let on_it =
                 other.state.pairs.iter_mut().filter(|pair| pair.master as usize == number && gone[pair.face as usize]);
             released += on_it.map(Pair::leave).sum::<f64>();
+            other.wait();
         }
         self.state.released += released;
         self.state.torn.push(number as u32);

@@ -21,12 +21,10 @@ const SOON: f64 = 0.5;
 /// Pairs that a thread takes at a time.
 const SHARE: usize = 8192;
 
-/// Two slabs by their numbers, how far they may have moved against each other since the last search of all, and how far
-/// they may go before what was farther than the margin may touch.
+/// Two slabs by their numbers, and how far they may go before what was farther than the margin may touch.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 struct Approach {
     slabs: [u32; 2],
-    moved: f64,
     until: f64,
 }
 
@@ -45,19 +43,24 @@ pub struct Motion {
     /// In the order of their slabs, of which the first is the lower one; where those of each begin.
     approaches: Vec<Approach>,
     starts: Vec<u32>,
+    /// How far the two of each may have moved against each other since the last search of all.
+    moved: Vec<f64>,
     /// By slabs that are far from each other.
     far: f64,
+    /// How the nodes of each slab and of those beside it have moved in the last step.
+    #[serde(skip)]
+    of_slabs: Vec<Bounds>,
 }
 
 impl Motion {
-    pub fn new(surfaces: &[&Surface]) -> Motion {
+    pub fn new(surfaces: &[Surface]) -> Motion {
         let mut first = vec![0];
         for surface in surfaces {
             first.push(first[first.len() - 1] + surface.slabs as u32);
         }
         let starts = vec![0; first[first.len() - 1] as usize + 1];
         // Before the first search.
-        Motion { first, approaches: Vec::new(), starts, far: f64::INFINITY }
+        Motion { first, starts, far: f64::INFINITY, ..Motion::default() }
     }
 
     /// The numbers of bodies and of slabs.
@@ -86,14 +89,14 @@ impl Motion {
     }
 
     /// Adds the motion of a step.
-    pub fn advance(&mut self, surfaces: &[&Surface], margin: f64) -> Due {
-        let mut moved: Vec<Bounds> = Vec::with_capacity(self.starts.len());
+    pub fn advance(&mut self, surfaces: &[Surface], margin: f64) -> Due {
+        self.of_slabs.clear();
         let mut all = Bounds::EMPTY;
         for surface in surfaces {
             let own = &surface.moved_by_slab;
             for slab in 0..own.len() {
                 let (before, after) = (slab.saturating_sub(1), (slab + 1).min(own.len() - 1));
-                moved.push(own[before].with(own[slab]).with(own[after]));
+                self.of_slabs.push(own[before].with(own[slab]).with(own[after]));
                 all = all.with(own[slab]);
             }
         }
@@ -101,20 +104,22 @@ impl Motion {
         if self.far >= NEAR * margin {
             return Due::All;
         }
-        let advance = |approach: &mut Approach| {
-            let [a, b] = approach.slabs.map(|slab| &moved[slab as usize]);
-            approach.moved += a.largest_difference(b).max(0.0);
-            approach.moved >= approach.until
+        let of_slabs = &self.of_slabs;
+        let advance = |due: bool, (approach, moved): (&Approach, &mut f64)| {
+            let [a, b] = approach.slabs.map(|slab| &of_slabs[slab as usize]);
+            *moved += a.largest_difference(b).max(0.0);
+            *moved >= approach.until || due
         };
-        let advance_all = |part: &mut [Approach]| part.iter_mut().fold(false, |due, approach| advance(approach) | due);
+        let advance_all = |(part, moved): (&[Approach], &mut [f64])| part.iter().zip(moved).fold(false, advance);
+        let parts = self.approaches.par_chunks(SHARE).zip(self.moved.par_chunks_mut(SHARE));
         let mut due = Vec::new();
-        if self.approaches.par_chunks_mut(SHARE).map(advance_all).reduce(|| false, |a, b| a | b) {
+        if parts.map(advance_all).reduce(|| false, |a, b| a | b) {
             // Those that would be due soon as well: searches then are rarer.
-            for approach in
-                self.approaches.iter_mut().filter(|approach| approach.moved + SOON * margin >= approach.until)
-            {
-                approach.until = approach.moved + margin;
-                due.push(approach.slabs);
+            for (approach, moved) in self.approaches.iter_mut().zip(&self.moved) {
+                if moved + SOON * margin >= approach.until {
+                    approach.until = moved + margin;
+                    due.push(approach.slabs);
+                }
             }
         }
         Due::Slabs(due)
@@ -127,7 +132,7 @@ impl Motion {
     }
 
     /// Begins anew from where the bodies are.
-    pub fn restart(&mut self, surfaces: &[&Surface], margin: f64) {
+    pub fn restart(&mut self, surfaces: &[Surface], margin: f64) {
         let mut places: Vec<(Bounds, u32)> = Vec::with_capacity(self.starts.len());
         for (body, surface) in surfaces.iter().enumerate() {
             places.extend(surface.places_by_slab().into_iter().map(|place| (place, body as u32)));
@@ -150,7 +155,9 @@ impl Motion {
         let found: Vec<Vec<[u32; 2]>> = (0..order.len()).into_par_iter().map(near).collect();
         let mut slabs = found.concat();
         slabs.sort_unstable();
-        self.approaches = slabs.into_iter().map(|slabs| Approach { slabs, moved: 0.0, until: margin }).collect();
+        self.approaches = slabs.into_iter().map(|slabs| Approach { slabs, until: margin }).collect();
+        self.moved.clear();
+        self.moved.resize(self.approaches.len(), 0.0);
         self.far = 0.0;
         let slabs = self.starts.len() - 1;
         self.starts.clear();
@@ -171,9 +178,9 @@ impl Motion {
         found.ok().map(|place| (start + place) as u32)
     }
 
-    /// How far the two have moved against each other.
+    /// How far the two have moved against each other; 0 where none are followed.
     #[inline(always)]
     pub fn moved(&self, number: u32) -> f64 {
-        self.approaches[number as usize].moved
+        self.moved.get(number as usize).copied().unwrap_or(0.0)
     }
 }

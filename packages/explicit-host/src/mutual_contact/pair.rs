@@ -2,10 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::Parameters;
 use super::face::{Met, Place, Query};
 use super::motion::Motion;
-use super::surface::Surface;
+use super::surface::{Surface, fetch};
+use super::{Parameters, Scene};
 use crate::friction::coulomb_return;
 use crate::vector::{Vector, add, dot};
 
@@ -19,17 +19,18 @@ const ROUNDING: f64 = 1e-6;
 
 /// A node near a face of another body.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
+#[repr(C, align(64))]
 pub struct Pair {
     pub node: u32,
     /// The other body, and the face of it that the node was last nearest to.
     pub master: u32,
     pub face: u32,
+    /// The node cannot touch before its slab and the face's, by this number of [`Motion`]'s, have moved so far against
+    /// each other as `free_until`.
+    pub slabs: u32,
     pub place: Place,
     /// Force by depth.
     pub stiffness: f64,
-    /// The node cannot touch before its slab and the face's, by this number of [`Motion`]'s, have moved
-    /// so far against each other.
-    pub slabs: u32,
     pub free_until: f64,
     /// How deep the node is, and what of its depth does not count: it has not come through this face by so much, but
     /// past an edge or an open end.
@@ -57,8 +58,34 @@ pub struct OnFace {
     pub stiffness: f64,
     /// Whether it counts in the length of steps.
     pub counts: bool,
+}
+
+/// What a pair gives to the corners of its face in a step.
+#[derive(Clone, Copy, Debug)]
+pub struct Exerted {
+    pub corners: [u32; 4],
+    pub force: Vector,
+    pub weights: [f64; 4],
     /// The stiffness over the part that the face has of what bounds the spring's frequency.
     pub spring: f64,
+}
+
+/// How long a pair is not looked at: kept beside the pairs, of most of which a step asks nothing else.
+#[derive(Clone, Copy, Debug)]
+pub struct Wait {
+    /// As [`Pair`] has them; infinite where it has left for good.
+    until: f64,
+    slabs: u32,
+}
+
+impl Wait {
+    /// Whether the pair is to be looked at: not where it has left for good, or where the node cannot have come to the
+    /// part of the face's surface that it was last nearest to.
+    #[inline(always)]
+    pub fn is_over(&self, motion: &Motion) -> bool {
+        let is_clear = (self.until > 0.0) & (motion.moved(self.slabs) < self.until);
+        !is_clear
+    }
 }
 
 impl Pair {
@@ -68,11 +95,9 @@ impl Pair {
         &mut self,
         &Query { face, place, met, .. }: &Query,
         number: usize,
-        surfaces: &[&Surface],
-        Parameters { friction, deepest, .. }: Parameters,
-        motion: &Motion,
+        &Scene { parameters: Parameters { friction, deepest, .. }, surfaces, motion, .. }: &Scene,
     ) -> (Option<Vector>, f64) {
-        let (own, master) = (surfaces[number], surfaces[self.master as usize]);
+        let (own, master) = (&surfaces[number], &surfaces[self.master as usize]);
         let old = self.friction;
         let pressed = (self.face != face).then(|| self.pressed(own, master));
         (self.face, self.place) = (face, place);
@@ -91,8 +116,7 @@ impl Pair {
         self.friction = friction.force;
         self.stored = 0.5 * self.stiffness * self.held(self.depth) + friction.stored;
         let total = add(self.friction, force, met.normal);
-        self.on_face =
-            OnFace { force: total, weights: met.weights, stiffness: self.stiffness, counts: true, spring: 0.0 };
+        self.on_face = OnFace { force: total, weights: met.weights, stiffness: self.stiffness, counts: true };
         (Some(total), lost + friction.dissipated)
     }
 
@@ -159,12 +183,16 @@ impl Pair {
         self.stiffness == 0.0
     }
 
-    /// Whether it is to be looked at: not where it has left for good, or where the node cannot have come to the part of
-    /// the face's surface that it was last nearest to.
+    /// Has the processor fetch what a step asks of it.
     #[inline(always)]
-    pub fn may_touch(&self, motion: &Motion) -> bool {
-        let is_clear = self.free_until > 0.0 && motion.moved(self.slabs) < self.free_until;
-        !self.has_left() && !is_clear
+    pub fn fetch(&self) {
+        fetch(self.stored);
+        fetch(self.on_face.stiffness);
+    }
+
+    #[inline(always)]
+    pub fn wait(&self) -> Wait {
+        Wait { until: if self.has_left() { f64::INFINITY } else { self.free_until }, slabs: self.slabs }
     }
 
     /// Takes a new depth over. In a step in which node and face have moved by `slip` against each other, the depth
@@ -235,23 +263,27 @@ impl Pair {
     /// How far the node has moved in the step against this place of its face.
     fn slip(&self, own: &Surface, master: &Surface, weights: [f64; 4]) -> Vector {
         let corners = weights.into_iter().zip(master.faces[self.face as usize]);
-        corners.fold(own.state.moved[self.node as usize], |slip, (weight, corner)| {
-            add(slip, -weight, master.state.moved[corner as usize])
+        corners.fold(own.state.points[self.node as usize].moved, |slip, (weight, corner)| {
+            add(slip, -weight, master.state.points[corner as usize].moved)
         })
     }
 
-    /// Divides what bounds the spring's frequency between node and face, by their masses: with the part α of the node a
-    /// spring has the sizes 1/α there and, over the corners, 1/(1 − α). Returns the node's.
+    /// What it exerts on its face, and the node's part of its spring. What bounds the spring's frequency is divided
+    /// between node and face by their masses: with the part α of the node a spring has the sizes 1/α there and, over
+    /// the corners, 1/(1 − α).
     #[inline(always)]
-    pub fn divide_spring(&mut self, node: f64, corners: [f64; 4]) -> f64 {
+    pub fn exert(&self, number: usize, &Scene { surfaces, .. }: &Scene) -> (f64, Exerted) {
+        let (own, master) = (&surfaces[number], &surfaces[self.master as usize]);
+        let (node, corners) = (own.state.points[self.node as usize].mass, master.faces[self.face as usize]);
+        let OnFace { force, weights, .. } = self.on_face;
         let mut per_mass = 0.0;
         for i in 0..4 {
-            per_mass += self.on_face.weights[i].abs() / corners[i];
+            per_mass += weights[i].abs() / master.state.points[corners[i] as usize].mass;
         }
         // Tied nodes have no mass of their own.
         let ratio = if node > 0.0 && per_mass.is_finite() { (node * per_mass).clamp(0.1, 10.0) } else { 1.0 };
-        self.on_face.spring = self.stiffness * (1.0 + 1.0 / ratio);
-        self.stiffness * (1.0 + ratio)
+        let spring = self.stiffness * (1.0 + 1.0 / ratio);
+        (self.stiffness * (1.0 + ratio), Exerted { corners, force, weights, spring })
     }
 
     /// Lets go for good; returns what was stored.

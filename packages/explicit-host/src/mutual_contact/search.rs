@@ -41,7 +41,7 @@ struct Entry {
 
 impl Grid {
     /// Of all faces of these bodies that are there.
-    pub fn new(surfaces: &[&Surface], of: impl Fn(usize) -> bool, margin: f64) -> Grid {
+    pub fn new(surfaces: &[Surface], of: impl Fn(usize) -> bool, margin: f64) -> Grid {
         let mut unsorted = Vec::new();
         let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
         let mut sum_of_reaches = 0.0;
@@ -49,12 +49,12 @@ impl Grid {
             for (face, corners) in surface.faces.iter().enumerate().filter(|&(face, _)| !surface.state.gone[face]) {
                 let mut sum = [0.0; 3];
                 for &corner in corners {
-                    sum = add(sum, 1.0, surface.state.positions[corner as usize]);
+                    sum = add(sum, 1.0, surface.state.points[corner as usize].position);
                 }
                 let centre = times(0.25, sum);
                 let mut farthest: f64 = 0.0;
                 for &corner in corners {
-                    let from = minus(surface.state.positions[corner as usize], centre);
+                    let from = minus(surface.state.points[corner as usize].position, centre);
                     farthest = farthest.max(dot(from, from));
                 }
                 let reach = farthest.sqrt() + margin;

@@ -9,7 +9,7 @@ use crate::body::Body;
 use crate::lanes::Number;
 use crate::mesh::Mesh;
 use crate::tie::Tie;
-use crate::vector::minus;
+use crate::vector::{Vector, minus};
 
 /// No face.
 pub const NONE: u32 = u32::MAX;
@@ -45,9 +45,27 @@ pub struct SurfaceState {
     pub gone: Vec<bool>,
     /// The nodes of the faces in their order.
     pub nodes: Vec<u32>,
-    /// Of all nodes of the body: where they are, and how they have moved in the last step.
-    pub positions: Vec<[f64; 3]>,
-    pub moved: Vec<[f64; 3]>,
+    /// Of all nodes of the body.
+    pub points: Vec<Point>,
+}
+
+/// What contact asks of a node, together in the processor's memory.
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
+#[repr(align(64))]
+pub struct Point {
+    pub position: Vector,
+    /// How it has moved in the last step.
+    pub moved: Vector,
+    /// As the body has it now.
+    #[serde(skip)]
+    pub mass: f64,
+}
+
+/// Has the processor fetch what lies around a value: a loop that does nothing else waits for many at once, where each
+/// use would wait for its own.
+#[inline(always)]
+pub fn fetch(value: f64) {
+    std::hint::black_box(value);
 }
 
 /// A slab is as wide as this many of the longest faces; no body has more slabs than this.
@@ -83,8 +101,7 @@ impl Surface {
             state: SurfaceState {
                 gone: vec![false; faces.len()],
                 nodes,
-                positions: mesh.nodes.clone(),
-                moved: vec![[0.0; 3]; mesh.nodes.len()],
+                points: mesh.nodes.iter().map(|&position| Point { position, ..Point::default() }).collect(),
             },
             slabs,
             slab_of_face: faces.iter().map(|face| slab_of_node[face[0] as usize]).collect(),
@@ -133,8 +150,8 @@ impl Surface {
         for &node in &self.state.nodes {
             let node = node as usize;
             let now = body.position(node);
-            let moved = minus(now, self.state.positions[node]);
-            (self.state.positions[node], self.state.moved[node]) = (now, moved);
+            let moved = minus(now, self.state.points[node].position);
+            self.state.points[node] = Point { position: now, moved, mass: body.mass[node] };
             self.moved_by_slab[self.slab_of_node[node] as usize].take(moved);
         }
     }
@@ -143,11 +160,11 @@ impl Surface {
     pub fn places_by_slab(&self) -> Vec<Bounds> {
         let mut places = vec![Bounds::EMPTY; self.slabs];
         for &node in &self.state.nodes {
-            places[self.slab_of_node[node as usize] as usize].take(self.state.positions[node as usize]);
+            places[self.slab_of_node[node as usize] as usize].take(self.state.points[node as usize].position);
         }
         for face in (0..self.faces.len()).filter(|&face| !self.state.gone[face]) {
             for corner in self.faces[face] {
-                places[self.slab_of_face[face] as usize].take(self.state.positions[corner as usize]);
+                places[self.slab_of_face[face] as usize].take(self.state.points[corner as usize].position);
             }
         }
         places

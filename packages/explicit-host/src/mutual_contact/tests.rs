@@ -433,9 +433,9 @@ fn slabs_have_moved_no_less_than_their_nodes() {
     let mut random = fastrand::Rng::with_seed(5);
     for shared in [0.0, 1e-5] {
         let (mut bodies, contact) = crossed(0.0, &media);
-        let mut surfaces: Vec<Surface> = contact.sides.into_iter().map(|side| side.surface).collect();
-        let mut motion = Motion::new(&surfaces.iter().collect::<Vec<_>>());
-        motion.restart(&surfaces.iter().collect::<Vec<_>>(), margin);
+        let mut surfaces: Vec<Surface> = contact.surfaces;
+        let mut motion = Motion::new(&surfaces);
+        motion.restart(&surfaces, margin);
         let mut far = false;
         for step in 0..30 {
             // At first all nodes move alike; from step 15 on each body has a motion of its own, and each node some
@@ -449,7 +449,7 @@ fn slabs_have_moved_no_less_than_their_nodes() {
                 }
             }
             surfaces.iter_mut().zip(&bodies).for_each(|(surface, body)| surface.follow(body));
-            let due = motion.advance(&surfaces.iter().collect::<Vec<_>>(), margin);
+            let due = motion.advance(&surfaces, margin);
             far |= !matches!(due, Due::Slabs(slabs) if slabs.is_empty());
             let (mut followed, mut largest) = (0, 0.0_f64);
             for &a in &surfaces[0].state.nodes {
@@ -534,7 +534,10 @@ fn what_is_clear_is_not_in_contact() {
                 *u = [1e-6 * phase, -5e-6 * (1.0 - phase.cos()) + 2e-7 * wave, 3e-6 * phase.sin()];
             }
             if every_step {
-                contact.sides.iter_mut().flat_map(|side| &mut side.state.pairs).for_each(|pair| pair.free_until = 0.0);
+                for side in &mut contact.sides {
+                    side.state.pairs.iter_mut().for_each(|pair| pair.free_until = 0.0);
+                    side.wait();
+                }
             }
             contact.apply(&mut bodies);
             stored.push(contact.state.stored);
