@@ -197,6 +197,58 @@ impl Scope {
     }
 }
 
+/// A search.
+struct Look<'a> {
+    parameters: Parameters,
+    surfaces: &'a [Surface],
+    grid: Grid,
+    /// Where bodies overlap from the start, they press each other.
+    first: bool,
+}
+
+impl Look<'_> {
+    /// The pairs of a body's nodes with the grid's faces, in their order; not of those that press already, which go on
+    /// as they were.
+    fn pairs_of(&self, number: usize, nodes: &[u32], old: &[Pair]) -> Vec<Pair> {
+        let (mut faces, mut finder) = (Vec::new(), Finder::default());
+        // Nodes, and where the faces near them that belong to one body end among the queries.
+        let mut ends = Vec::new();
+        let mut old = old.iter().peekable();
+        for &node in nodes {
+            let point = self.surfaces[number].state.points[node as usize].position;
+            self.grid.near(number, point, &mut faces);
+            for of_body in faces.chunk_by(|a, b| a.body == b.body) {
+                let key = (node, of_body[0].body);
+                while old.next_if(|pair| pair.key() < key).is_some() {}
+                if old.peek().is_some_and(|pair| pair.key() == key && pair.is_pressed()) {
+                    continue;
+                }
+                let query = |near: &Near| Query::new(near.body, near.face, Place::default(), point);
+                finder.queries.extend(of_body.iter().map(query));
+                ends.push((node, finder.queries.len()));
+            }
+        }
+        finder.find(self.surfaces);
+        let (mut pairs, mut start) = (Vec::with_capacity(ends.len()), 0);
+        for (node, end) in ends {
+            let nearest = self.parameters.nearest(&finder.queries[start..end]);
+            pairs.extend(nearest.map(|nearest| self.pair(number, node, nearest)));
+            start = end;
+        }
+        pairs
+    }
+
+    /// The new pair of a node and the face's surface that it is nearest to.
+    fn pair(&self, number: usize, node: u32, &Query { body: master, face, place, met, .. }: &Query) -> Pair {
+        let share = if self.surfaces[master as usize].wall { 1.0 } else { 0.5 };
+        let stiffness = share * self.parameters.stiffness * self.surfaces[number].area[node as usize];
+        let known = self.first || met.is_some_and(|met| met.depth <= 0.0);
+        let overlap = if self.first { met.map_or(0.0, |met| met.depth.max(0.0)) } else { 0.0 };
+        let [depth, uncounted] = if self.parameters.pressed_at_rest { [overlap, 0.0] } else { [0.0, overlap] };
+        Pair { node, master, face, place, stiffness, known, depth, uncounted, ..Pair::default() }
+    }
+}
+
 /// Puts new pairs in the place of those that are due; where one of these touches it goes on as it was. Both are in the
 /// order of their keys.
 fn merge(old: Vec<Pair>, found: Vec<Pair>, due: impl Fn(&Pair) -> bool) -> Vec<Pair> {
@@ -212,7 +264,7 @@ fn merge(old: Vec<Pair>, found: Vec<Pair>, due: impl Fn(&Pair) -> bool) -> Vec<P
         }
         let new = found.next_if(|new| new.key() == pair.key());
         match new {
-            _ if pair.on_face.stiffness > 0.0 => merged.push(Pair { free_until: 0.0, ..pair }),
+            _ if pair.is_pressed() => merged.push(Pair { free_until: 0.0, ..pair }),
             // What was outside one face has not come through another one.
             Some(new) => {
                 let known = new.known || pair.known && pair.face == new.face;
@@ -299,7 +351,8 @@ impl MutualContact {
         }
         for (number, (side, surface)) in self.sides.iter().zip(&self.surfaces).enumerate() {
             // What is beyond a border may have come across a face that was there.
-            for pair in side.state.pairs.iter().filter(|pair| !pair.known && torn.contains(&pair.master)) {
+            let on_torn = side.state.pairs.iter().zip(&side.waits).filter(|(_, wait)| torn.contains(&wait.master));
+            for (pair, _) in on_torn.filter(|(pair, _)| !pair.known) {
                 scope.slabs[motion.slab(number, surface.slab_of_node(pair.node))] = true;
             }
         }
@@ -308,67 +361,28 @@ impl MutualContact {
 
     /// Finds the nodes of the scope that are near faces of its bodies; pairs that go on keep their friction.
     fn search(&mut self, scope: &Scope) {
-        let mut pairs: Vec<Vec<Pair>> =
-            self.sides.iter_mut().map(|side| std::mem::take(&mut side.state.pairs)).collect();
-        let surfaces = &self.surfaces;
-        let grid = Grid::new(surfaces, |body| scope.bodies[body], self.parameters.margin);
-        let motion = &self.state.motion;
-        let search = |(number, (surface, old)): (usize, (&Surface, &mut Vec<Pair>))| {
+        let (parameters, surfaces, motion) = (self.parameters, &self.surfaces[..], &self.state.motion);
+        let grid = Grid::new(surfaces, |body| scope.bodies[body], parameters.margin);
+        let look = Look { parameters, surfaces, grid, first: self.state.searches == 0 };
+        let search = |(number, (side, surface)): (usize, (&mut Side, &Surface))| {
             if surface.wall || !scope.slabs[motion.slabs_of(number)].contains(&true) {
                 return;
             }
             let is_due = |node: &u32| scope.slabs[motion.slab(number, surface.slab_of_node(*node))];
             let nodes: Vec<u32> = surface.state.nodes.iter().copied().filter(is_due).collect();
-            let found = self.pairs_of(number, &nodes, &grid);
+            let old = std::mem::take(&mut side.state.pairs);
+            let found = look.pairs_of(number, &nodes, &old);
             let is_due = |pair: &Pair| is_due(&pair.node) && scope.bodies[pair.master as usize];
-            *old = merge(std::mem::take(old), found, is_due);
-        };
-        surfaces.par_iter().zip(&mut pairs).enumerate().for_each(search);
-        for (side, pairs) in self.sides.iter_mut().zip(pairs) {
-            side.state.pairs = pairs;
+            side.state.pairs = merge(old, found, is_due);
             side.wait();
-        }
+        };
+        self.sides.par_iter_mut().zip(surfaces).enumerate().for_each(search);
     }
 
     /// Follows the motion anew from where the bodies are.
     fn restart(&mut self) {
         self.state.motion.restart(&self.surfaces, self.parameters.margin);
         self.state.searches += 1;
-    }
-
-    /// The pairs of a body's nodes with the grid's faces, in their order.
-    fn pairs_of(&self, number: usize, nodes: &[u32], grid: &Grid) -> Vec<Pair> {
-        let (parameters, surfaces) = (self.parameters, &self.surfaces);
-        // Where bodies overlap from the start, they press each other.
-        let first = self.state.searches == 0;
-        let (mut faces, mut finder) = (Vec::new(), Finder::default());
-        // Nodes, and where the faces near them that belong to one body end among the queries.
-        let mut ends = Vec::new();
-        for &node in nodes {
-            let point = surfaces[number].state.points[node as usize].position;
-            grid.near(number, point, &mut faces);
-            for of_body in faces.chunk_by(|a, b| a.body == b.body) {
-                let query = |near: &Near| Query::new(near.body, near.face, Place::default(), point);
-                finder.queries.extend(of_body.iter().map(query));
-                ends.push((node, finder.queries.len()));
-            }
-        }
-        finder.find(surfaces);
-        let (mut pairs, mut start) = (Vec::new(), 0);
-        for (node, end) in ends {
-            let nearest = parameters.nearest(&finder.queries[start..end]);
-            if let Some(&Query { body: master, face, place, met, .. }) = nearest {
-                let share = if surfaces[master as usize].wall { 1.0 } else { 0.5 };
-                let stiffness = share * parameters.stiffness * surfaces[number].area[node as usize];
-                let known = first || met.is_some_and(|met| met.depth <= 0.0);
-                let overlap = if first { met.map_or(0.0, |met| met.depth.max(0.0)) } else { 0.0 };
-                let [depth, uncounted] = if parameters.pressed_at_rest { [overlap, 0.0] } else { [0.0, overlap] };
-                let nearest = Pair { face, place, ..Pair::default() };
-                pairs.push(Pair { node, master, stiffness, known, depth, uncounted, ..nearest });
-            }
-            start = end;
-        }
-        pairs
     }
 
     /// Presses the nodes of every body out of the others' faces.
@@ -417,11 +431,17 @@ impl MutualContact {
         let gone = &self.surfaces[number].state.gone;
         let loose = side.state.pairs.extract_if(.., |pair| body.is_loose(pair.node as usize));
         let mut released = loose.map(|mut pair| pair.leave()).sum::<f64>();
+        side.wait();
         for other in &mut self.sides {
+            let pairs = other.state.pairs.iter_mut().zip(&mut other.waits);
             let on_it =
-                other.state.pairs.iter_mut().filter(|pair| pair.master as usize == number && gone[pair.face as usize]);
-            released += on_it.map(Pair::leave).sum::<f64>();
-            other.wait();
+                pairs.filter(|(_, wait)| wait.master as usize == number).filter(|(pair, _)| gone[pair.face as usize]);
+            let leave = |(pair, wait): (&mut Pair, &mut Wait)| {
+                let stored = pair.leave();
+                *wait = pair.wait();
+                stored
+            };
+            released += on_it.map(leave).sum::<f64>();
         }
         self.state.released += released;
         self.state.torn.push(number as u32);

@@ -70,12 +70,13 @@ pub struct Exerted {
     pub spring: f64,
 }
 
-/// How long a pair is not looked at: kept beside the pairs, of most of which a step asks nothing else.
+/// How long a pair is not looked at, and whose face it is near: kept beside the pairs, of most of which a step asks nothing else.
 #[derive(Clone, Copy, Debug)]
 pub struct Wait {
     /// As [`Pair`] has them; infinite where it has left for good.
     until: f64,
     slabs: u32,
+    pub master: u32,
 }
 
 impl Wait {
@@ -172,6 +173,11 @@ impl Pair {
         self.on_face.counts
     }
 
+    #[inline(always)]
+    pub fn is_pressed(&self) -> bool {
+        self.on_face.stiffness > 0.0
+    }
+
     /// Pairs are in this order.
     pub fn key(&self) -> (u32, u32) {
         (self.node, self.master)
@@ -192,7 +198,8 @@ impl Pair {
 
     #[inline(always)]
     pub fn wait(&self) -> Wait {
-        Wait { until: if self.has_left() { f64::INFINITY } else { self.free_until }, slabs: self.slabs }
+        let until = if self.has_left() { f64::INFINITY } else { self.free_until };
+        Wait { until, slabs: self.slabs, master: self.master }
     }
 
     /// Takes a new depth over. In a step in which node and face have moved by `slip` against each other, the depth

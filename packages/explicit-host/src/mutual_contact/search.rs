@@ -130,21 +130,26 @@ impl Grid {
                 let from = minus(entry.centre, point);
                 let distance = dot(from, from);
                 if entry.body as usize != own && distance <= entry.reach * entry.reach {
-                    found.push(Near { body: entry.body, distance, face: entry.face });
+                    insert(Near { body: entry.body, distance, face: entry.face }, found);
                 }
             }
         }
-        found.sort_unstable_by(|a, b| {
-            a.body.cmp(&b.body).then(a.distance.total_cmp(&b.distance)).then(a.face.cmp(&b.face))
-        });
-        let mut count = 0;
-        found.dedup_by(|next, last| {
-            // In several columns.
-            if (next.body, next.face) == (last.body, last.face) {
-                return true;
-            }
-            count = if next.body == last.body { count + 1 } else { 0 };
-            count >= FACES
-        });
     }
+}
+
+/// Puts a face in its place by body, distance and number, if it is one of the [`FACES`] nearest ones of its body.
+#[inline(always)]
+fn insert(near: Near, found: &mut Vec<Near>) {
+    let start = found.iter().position(|other| other.body >= near.body).unwrap_or(found.len());
+    let end = start + found[start..].iter().take_while(|other| other.body == near.body).count();
+    let is_before = |other: &&Near| other.distance.total_cmp(&near.distance).then(other.face.cmp(&near.face)).is_lt();
+    let place = start + found[start..end].iter().take_while(is_before).count();
+    // A face may be in several columns.
+    if place == start + FACES || place < end && found[place].face == near.face {
+        return;
+    }
+    if end == start + FACES {
+        found.remove(end - 1);
+    }
+    found.insert(place, near);
 }
