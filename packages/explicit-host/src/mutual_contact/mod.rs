@@ -99,7 +99,8 @@ impl Side {
     fn press<T: Number>(&mut self, number: usize, body: &mut Body<T>, scene: &Scene, finder: &mut Finder) {
         let Side { state: SideState { pairs, stored, dissipated }, waits, near, exerted, masters, .. } = self;
         find_near(waits, scene.motion, near);
-        (exerted.clear(), masters.clear());
+        exerted.clear();
+        masters.clear();
         let points = &scene.surfaces[number].state.points;
         let mut lost = 0.0;
         *stored = 0.0;

@@ -70,7 +70,8 @@ pub struct Exerted {
     pub spring: f64,
 }
 
-/// How long a pair is not looked at, and whose face it is near: kept beside the pairs, of most of which a step asks nothing else.
+/// How long a pair is not looked at, and whose face it is near: kept beside the pairs, of most of which a step asks
+/// nothing else.
 #[derive(Clone, Copy, Debug)]
 pub struct Wait {
     /// As [`Pair`] has them; infinite where it has left for good.
