@@ -1,25 +1,29 @@
-//! Bounds of wave speeds by direction: the fast wave runs along the fibre, where elements are long.
+//! Bounds of stiffness by direction: the fast wave runs along the fibre, where elements are long.
 //!
-//! ρ0 c² ≤ A (m·n)² + B for every wave of direction n, with the fibre's direction m. By modes, as the law's own bound
-//! is derived (`docs/design/law.md`): the elongation is k_el (m·n)² at most, and the others, with the section's
-//! area ratio J_t and its distortion a = 2 I_td,
+//! No gradient h of the velocity meets more stiffness ρ0 c² than A (m·h m)² + G |P h m|² + C (tr h_t)² + 2 D |dev h_t|²
+//! + I |h|², with the fibre's direction m, P across it, and h_t the symmetric part of P h P: what stretches the fibre,
+//! what turns it, what compacts and what distorts the section, and what has no direction. No term but the last has both
+//! motions along the fibre and across it. A wave across the fibre, h = u ⊗ n, meets C + D + I at most. By modes, as the
+//! law's own bound is derived (`docs/design/law.md`), with the section's area ratio J_t and its distortion a = 2 I_td:
 //!
+//! - elongation: A = k_el, and G is the tension, k_el ln λ ≤ k_el (λ² − 1)/2;
 //! - compaction: W″/4 + |W′|. |W′| is the sum of the Kirchhoff stresses across, and W″ = (p − 1) |W′|/|I_tc| is no more
-//!   than (p − 1) |W′| from |I_tc| = 1 on, where |W′| is p k_tc, and less than (p − 1) p k_tc before;
-//! - distortion: ¼ k_td ((a/sinh a) eᵃ + a) ≤ ¾ k_td cosh a;
-//! - distortion that friction limits to I_te, a = 2 I_te: a eᵃ/sinh a ≤ 1 + 2 a, so that this is ¼ k_td (1 + 3 a) at
-//!   most, and a ≤ 4 (µ p_t + c)/k_td, p_t = ½ |W′|: ¼ k_td + 3 (µ ½ |W′| + c); where the fibres slide, the pressure
-//!   that grows adds µ W″/4;
-//! - longitudinal shear: (k_ld/λ²)(2 J_t eᵃ + 4 |P b e|).
+//!   than (p − 1) |W′| from |I_tc| = 1 on, where |W′| is p k_tc, and less than (p − 1) p k_tc before. W″/4 is
+//!   C;
+//! - distortion: ¼ k_td ((a/sinh a) eᵃ + a) ≤ ¼ k_td (1 + 3 a), of which 2 a are the stress's, and a² ≤ 2 (cosh a − 1);
+//! - distortion that friction limits to I_te, a = 2 I_te: a ≤ 4 (µ p_t + c)/k_td, p_t = ½ |W′|: ¼ k_td + 3 (µ ½ |W′| +
+//!   c); where the fibres slide, the pressure that grows adds µ W″/4;
+//! - longitudinal shear: (k_ld/λ²)(2 J_t eᵃ + 4 |P b e|), without direction.
 //!
-//! Roots of x are replaced by (1 + x)/2, no less. Of the linear elastic law, which has no Poisson's ratios, A is E1,
-//! and B the other moduli and twice the largest stress, which the spin of its frame takes along. This needs the first
-//! axis to be the fibre's, which axes that turn otherwise leave.
+//! Of the linear elastic law, which has no Poisson's ratios, A and G are E1, and I the other moduli and twice the
+//! largest stress, which the spin of its frame takes along. This needs the first axis to be the fibre's, which axes that
+//! turn otherwise leave.
 
 use core::ops::{Add, Div, Mul, Sub};
 
 use super::hyperelastic;
 use super::linear_elastic::{self, Rotation};
+use super::number::real::Real;
 
 /// Numbers that bounds are computed in: one point's, or those of several points side by side.
 pub trait Arithmetic: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> {
@@ -28,6 +32,19 @@ pub trait Arithmetic: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Outpu
 
     /// The larger ones of both.
     fn larger(self, other: Self) -> Self;
+
+    /// The square root of what is not negative.
+    fn root(self) -> Self;
+}
+
+/// The bounds A, G, C, D and I at a deformation.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stiffness<N> {
+    pub elongation: N,
+    pub tension: N,
+    pub compaction: N,
+    pub distortion: N,
+    pub all_round: N,
 }
 
 impl Arithmetic for f64 {
@@ -39,6 +56,11 @@ impl Arithmetic for f64 {
     #[inline(always)]
     fn larger(self, other: Self) -> Self {
         if self > other { self } else { other }
+    }
+
+    #[inline(always)]
+    fn root(self) -> Self {
+        Real::sqrt(self)
     }
 }
 
@@ -101,45 +123,52 @@ impl WaveBounds {
         }
     }
 
-    /// A and B; `None` where there is one bound.
+    /// At a deformation; `None` where there is one bound.
     #[inline(always)]
-    pub fn at<N: Arithmetic>(&self, point: &Deformed<N>) -> Option<[N; 2]> {
-        let (constant, half, one, two) = (N::constant, N::constant(0.5), N::constant(1.0), N::constant(2.0));
-        let Deformed { columns: [u, v, w], stress, volume_ratio: ratio, .. } = *point;
+    pub fn at<N: Arithmetic>(&self, point: &Deformed<N>) -> Option<Stiffness<N>> {
+        let (constant, zero, one) = (N::constant, N::constant(0.0), N::constant(1.0));
+        let Deformed { columns: [u, v, w], stress, volume_ratio: ratio, stretch_square, .. } = *point;
         match *self {
             WaveBounds::Isotropic => None,
             WaveBounds::Hyperelastic { k_el, k_tc, p, k_td, k_ld, friction } => {
-                let per_square = one / point.stretch_square;
+                let per_square = one / stretch_square;
                 let along = dot(u, times(stress, u)) * per_square;
                 let slope = size(ratio * (stress[0] + stress[1] + stress[2] - along));
                 let curvature = constant(0.25 * (p - 1.0)) * slope.larger(constant(p * k_tc));
-                let compaction = curvature + slope;
                 let [c22, c33] = point.section;
-                // cosh a = (c22 + c33)/(2 J_t), J_t² = J²/λ².
                 let area_square = ratio * ratio * per_square;
-                let mean = half * (c22 + c33);
-                let cosh = half * (one + mean * mean / area_square);
-                let distortion = match friction {
-                    None => constant(0.75 * k_td) * cosh,
-                    Some([mu, cohesion]) => {
-                        constant(0.25 * k_td + 3.0 * cohesion) + constant(1.5 * mu) * slope + constant(mu) * curvature
+                let area = area_square.root();
+                let cosh = (constant(0.5) * (c22 + c33) / area).larger(one);
+                let distorted = (constant(2.0) * (cosh - one)).root();
+                let [compaction, distortion, stressed] = match friction {
+                    None => {
+                        [curvature, constant(0.25 * k_td) * (one + distorted), slope + constant(0.5 * k_td) * distorted]
                     }
+                    Some([mu, cohesion]) => [
+                        curvature + constant(mu) * curvature,
+                        constant(0.25 * k_td + cohesion) + constant(0.5 * mu) * slope,
+                        slope + constant(2.0 * cohesion) + constant(mu) * slope,
+                    ],
                 };
-                let mut across = compaction + distortion;
+                let mut all_round = stressed;
                 if k_ld > 0.0 {
                     let (h2, h3) = (dot(u, v), dot(u, w));
                     let slant = (h2 * h2 + h3 * h3) * per_square;
-                    let area = half * (one + area_square);
-                    let coupling = (one + c22 + c33) * (constant(0.2) + constant(5.0) * slant);
-                    across = across + constant(k_ld) * per_square * (constant(4.0) * area * cosh + coupling);
+                    let exponential = cosh + (cosh * cosh - one).root();
+                    let coupling = ((c22 + c33) * slant).root();
+                    let twice = area * exponential + constant(2.0) * coupling;
+                    all_round = all_round + constant(2.0 * k_ld) * per_square * twice;
                 }
-                Some([constant(k_el), across])
+                let tension = constant(0.5 * k_el) * (stretch_square - one).larger(zero);
+                Some(Stiffness { elongation: constant(k_el), tension, compaction, distortion, all_round })
             }
             WaveBounds::LinearElastic { along, across } => {
                 let row = |a: usize, b: usize, c: usize| size(stress[a]) + size(stress[b]) + size(stress[c]);
                 let largest = row(0, 3, 5).larger(row(3, 1, 4)).larger(row(5, 4, 2));
                 let j = ratio.larger(one);
-                Some([constant(along) * j, j * (constant(across) + two * largest)])
+                let all_round = j * (constant(across) + constant(2.0) * largest);
+                let along = constant(along) * j;
+                Some(Stiffness { elongation: along, tension: along, compaction: zero, distortion: zero, all_round })
             }
         }
     }

@@ -357,9 +357,12 @@ impl<T: Number> ElementBlock<T> {
     /// What limits the step, for each element: Δt² ω² + 2 Δt d ≤ 4 for all of its motions, divided by the square of the
     /// reference step, which stands for Δt in the damping. Which elements have collapsed.
     ///
-    /// With the law's bound A |h m|² + B |h|² of the stiffness against a gradient h, motions along and across the fibre
-    /// have the stiffnesses (A + B) m·S m and B S_t at most, S being that of [`Measures`], and each its own damping;
-    /// the largest eigenvalue of the pair is that of a 2 × 2 matrix.
+    /// By the law's bounds A, G, C, D, I of the stiffness (`toron::law::wave_bounds`), and with S of [`Measures`], motions
+    /// along the fibre have the stiffnesses (A + I) m·S m by gradients along it and I S_t by those across at most.
+    /// Motions across it have (G + I) m·S m and (C + D) tr S_t + I S_t: what compacts and what distorts are single
+    /// components of the gradient, each no larger than by the sum over the corners. Each has its own damping; the largest
+    /// eigenvalue of such a pair is that of a 2 × 2 matrix. Nothing couples motions along and across but what I counts in
+    /// both.
     #[inline(always)]
     fn bound_step(&mut self, medium: &Medium<T>, scratch: &mut Scratch<T>, options: StepOptions, shared: f64) {
         let (one, four) = (Lanes::constant(1.0), Lanes::constant(4.0));
@@ -389,31 +392,39 @@ impl<T: Number> ElementBlock<T> {
             let isotropic = speed * speed;
             let own_modulus = isotropic * Lanes::constant(medium.density);
             let stride = self.shapes.stride;
-            let [along, across] = match bounds_at(&medium.bounds, own_modulus, f, stress, &section, stride, first) {
-                None => [isotropic, isotropic],
-                Some([along, across]) => [(along + across) * per_density, across * per_density],
-            };
+            let bounds = bounds_at(&medium.bounds, own_modulus, f, stress, &section, stride, first);
+            let all_round = bounds.all_round * per_density;
             let measures = &scratch.measures;
-            let stiff_along = along * Lanes::at(&measures.spread_along, first);
-            let stiff_across = across * Lanes::at(&measures.spread_across, first);
-            let coupling = four * along * across * Lanes::at(&measures.slanting, first);
-            let damped_along = Lanes::at(&measures.damping_along, first);
-            let damped_across = Lanes::at(&measures.damping_across, first);
-            let [viscous_along, viscous_across] = [twice * damped_along, twice * damped_across];
-            let pair = larger_of_pair(stiff_along + viscous_along, stiff_across + viscous_across, coupling);
-            let rate = (own.max(pair) + shared).only_where(active);
+            let [spread_along, spread_across] =
+                [Lanes::at(&measures.spread_along, first), Lanes::at(&measures.spread_across, first)];
+            let slanting = four * Lanes::at(&measures.slanting, first);
+            let stretching = bounds.elongation * per_density + all_round;
+            let turning = bounds.tension * per_density + all_round;
+            let deforming = (bounds.compaction + bounds.distortion) * per_density;
+            let trace = Lanes::at(&measures.trace_across, first);
+            let along = Motions {
+                stiff: [stretching * spread_along, all_round * spread_across],
+                coupling: stretching * all_round * slanting,
+                damped: [Lanes::at(&measures.damping_along, first), Lanes::zero()],
+            };
+            let across = Motions {
+                stiff: [turning * spread_along, deforming * trace + all_round * spread_across],
+                coupling: turning * (four * deforming + all_round) * slanting,
+                damped: [Lanes::zero(), Lanes::at(&measures.damping_across, first)],
+            };
+            let viscous = twice * along.damped[0].max(across.damped[1]);
+            let rate = (own.max(along.rate(one, twice).max(across.rate(one, twice))) + shared).only_where(active);
             rate.store(&mut self.rates, first);
-            viscous_along.max(viscous_across).only_where(active).store(&mut self.viscous, first);
-            let viscous_at_corners = viscous_along.max(twice * Lanes::at(&measures.damping_at_corners, first));
-            let at_corners = stiff_along + across * Lanes::at(&measures.trace_across, first) + viscous_at_corners;
-            (corner_part * at_corners + own).store(&mut self.corners, first);
+            viscous.only_where(active).store(&mut self.viscous, first);
             self.group_rates[group] = T::from_f64(rate.largest());
+            let damped_corners = twice * Lanes::at(&measures.damping_at_corners, first);
+            let corner_along = along.stiff[0] + all_round * trace + twice * along.damped[0];
+            let corner_across = across.stiff[0] + (deforming + all_round) * trace + damped_corners;
+            (corner_part * corner_along.max(corner_across) + own).store(&mut self.corners, first);
             // As in the body's stable step.
-            let along = square * stiff_along + twice_shortest * damped_along;
-            let across = square * stiff_across + twice_shortest * damped_across;
-            let pair = larger_of_pair(along, across, square * square * coupling);
-            let collapsed = one.only_where(((square * own).max(pair) + square * shared).only_where(active) - four);
-            collapsed.store(&mut scratch.collapsed, first);
+            let most = along.rate(square, twice_shortest).max(across.rate(square, twice_shortest));
+            let most = (square * own).max(most) + square * shared;
+            one.only_where(most.only_where(active) - four).store(&mut scratch.collapsed, first);
         }
     }
 
@@ -540,6 +551,26 @@ impl<T: Number> ElementBlock<T> {
             }
             Entry::Solid(_) => 0.0,
         }
+    }
+}
+
+/// Motions along the fibre, or across it: what resists them by gradients along it and across, four times the square of
+/// what couples these, and their damping.
+struct Motions<T> {
+    stiff: [Lanes<T>; 2],
+    coupling: Lanes<T>,
+    damped: [Lanes<T>; 2],
+}
+
+impl<T: Number> Motions<T> {
+    /// The largest rate, times the square of a step, of which the damping counts twice; `square` may be 1 instead, with
+    /// `twice` over the square.
+    #[inline(always)]
+    fn rate(&self, square: Lanes<T>, twice: Lanes<T>) -> Lanes<T> {
+        let [along, across] = self.stiff;
+        let [damped_along, damped_across] = self.damped;
+        let [along, across] = [square * along + twice * damped_along, square * across + twice * damped_across];
+        larger_of_pair(along, across, square * square * self.coupling)
     }
 }
 

@@ -42,6 +42,8 @@ pub struct Body<T> {
     pub springs: Vec<f64>,
     pub most_contact: f64,
     pub limit: StepLimit,
+    /// The block and place of what limited it when that was looked at last.
+    pub worst: Option<(usize, usize)>,
     /// Of the last step.
     pub sums: Sums,
 }
@@ -97,6 +99,7 @@ impl<T: Number> Body<T> {
             springs: vec![0.0; count],
             most_contact: 0.0,
             limit: StepLimit::default(),
+            worst: None,
             sums: Sums::default(),
             mesh,
         };

@@ -198,14 +198,19 @@ impl<T: Number> Solver<T> {
     /// The stable step from what limits the elements, in whose rates damping is held against the last stable step: a
     /// longer one is damped less than that says, and a shorter one more, at most as the ratio of the two.
     fn stable_step(&mut self) -> Result<(), Error> {
-        let expected = self.state.stable.map_or(0.0, |stable| NEAR * 4.0 / (stable * stable));
-        let look = |body: &mut Body<T>| {
-            body.rate_contact();
-            body.limit_step(expected);
-        };
         match &mut self.bodies[..] {
-            [body] => look(body),
-            bodies => bodies.par_iter_mut().for_each(look),
+            [body] => body.rate_contact(),
+            bodies => bodies.par_iter_mut().for_each(Body::rate_contact),
+        }
+        let mut expected = self.state.stable.map_or(0.0, |stable| NEAR * 4.0 / (stable * stable));
+        if self.shred_mass == 0.0 {
+            // What limited the last step limits this one, or is not far from what does.
+            let now = self.bodies.iter().map(Body::last_worst_rate).fold(0.0, f64::max);
+            expected = expected.max((1.0 - ROUNDING) * now);
+        }
+        match &mut self.bodies[..] {
+            [body] => body.limit_step(expected),
+            bodies => bodies.par_iter_mut().for_each(|body| body.limit_step(expected)),
         }
         let worst =
             |bodies: &[Body<T>]| bodies.iter().fold(StepLimit::default(), |worst, body| worst.worse(body.limit));

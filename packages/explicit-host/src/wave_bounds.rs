@@ -2,7 +2,7 @@
 
 use super::lanes::{Lanes, Number, load};
 use toron::law::parameters::HYPERELASTIC_PROPERTIES;
-use toron::law::wave_bounds::{Arithmetic, Deformed, WaveBounds};
+use toron::law::wave_bounds::{Arithmetic, Deformed, Stiffness, WaveBounds};
 use toron_materials::material::model::{Law, Material};
 
 /// The measures of F that the bounds need, beside F: J, λ², and the section's metric.
@@ -24,7 +24,8 @@ pub fn wave_bounds(material: &Material) -> WaveBounds {
     }
 }
 
-/// A and B of elements from `first` on; `None` where there is one bound. `own` is the law's own bound of ρ0 c².
+/// The bounds of elements from `first` on; where they do not know directions, all is `own`, the law's own bound of ρ0
+/// c².
 ///
 /// Bounds by friction's limit hold for whatever distortion the limit allows: with a large cohesion they are far above
 /// the law's own, of the distortion that is there, which holds for every direction.
@@ -37,22 +38,31 @@ pub fn bounds_at<T: Number>(
     section: &Section<T>,
     stride: usize,
     first: usize,
-) -> Option<[Lanes<T>; 2]> {
+) -> Stiffness<Lanes<T>> {
+    let zero = Lanes::zero();
+    let isotropic = Stiffness { elongation: zero, tension: zero, compaction: zero, distortion: zero, all_round: own };
     if *bounds == WaveBounds::Isotropic {
-        return None;
+        return isotropic;
     }
     let [f0, f1, f2, f3, f4, f5, f6, f7, f8] = load(f, stride, first);
     let [c22, c33, _] = load(section.metric, stride, first);
-    let [along, across] = bounds.at(&Deformed {
+    let found = bounds.at(&Deformed {
         columns: [[f0, f1, f2], [f3, f4, f5], [f6, f7, f8]],
         stress: load(stress, stride, first),
         volume_ratio: Lanes::at(section.volume_ratio, first),
         stretch_square: Lanes::at(section.stretch_square, first),
         section: [c22, c33],
-    })?;
-    match bounds {
-        WaveBounds::Hyperelastic { friction: Some(_), .. } => Some([along.only_where(own - across), across.min(own)]),
-        _ => Some([along, across]),
+    });
+    let Some(found) = found else { return isotropic };
+    let WaveBounds::Hyperelastic { friction: Some(_), .. } = bounds else { return found };
+    let all_round = found.all_round.min(own);
+    let (rest, half) = (own - all_round, Lanes::constant(0.5));
+    Stiffness {
+        elongation: found.elongation.min(rest),
+        tension: found.tension.min(rest),
+        compaction: found.compaction.min(rest),
+        distortion: found.distortion.min(half * rest),
+        all_round,
     }
 }
 
@@ -66,12 +76,17 @@ impl<T: Number> Arithmetic for Lanes<T> {
     fn larger(self, other: Self) -> Self {
         self.max(other)
     }
+
+    #[inline(always)]
+    fn root(self) -> Self {
+        self.sqrt()
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use fastrand::Rng;
-    use nalgebra::{Matrix3, Vector3};
+    use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
 
     use super::*;
     use crate::element::{Measures, Shapes};
@@ -105,8 +120,8 @@ mod tests {
         }
     }
 
-    /// A and B at a deformation gradient with this stress and this bound of the law's own.
-    fn bounds(material: &Material, own: f64, f: &Matrix3<f64>, stress: &[f64; 6]) -> [f64; 2] {
+    /// The bounds at a deformation gradient with this stress and this bound of the law's own.
+    fn bounds(material: &Material, own: f64, f: &Matrix3<f64>, stress: &[f64; 6]) -> Stiffness<f64> {
         let nodes: Vec<[f64; 3]> = (0..8).map(|i| [i & 1, i >> 1 & 1, i >> 2].map(f64::from)).collect();
         let shapes = Shapes::<f64>::new(&[std::array::from_fn(|i| i as u32)], &[], &nodes, 0.0);
         let mut measures = Measures::new(shapes.stride);
@@ -115,13 +130,15 @@ mod tests {
         shapes.measure(&f, &mut measures);
         let Measures { volume_ratio, stretch_square, metric, .. } = &measures;
         let section = Section { volume_ratio, stretch_square, metric };
-        bounds_at(&wave_bounds(material), Lanes::splat(own), &f, &stress, &section, shapes.stride, 0)
-            .expect("by direction")
-            .map(|lanes| lanes.0[0])
+        let found = bounds_at(&wave_bounds(material), Lanes::splat(own), &f, &stress, &section, shapes.stride, 0);
+        let Stiffness { elongation, tension, compaction, distortion, all_round } = found;
+        let [elongation, tension, compaction, distortion, all_round] =
+            [elongation, tension, compaction, distortion, all_round].map(|lanes| lanes.0[0]);
+        Stiffness { elongation, tension, compaction, distortion, all_round }
     }
 
-    /// No rate of deformation h, a wave's u ⊗ n or another one, meets more stiffness than A |h m|² + B |h|². Returns
-    /// how near one came.
+    /// No rate of deformation h, a wave's u ⊗ n or another one, meets more stiffness than A (m·h m)² + G |P h m|² + C (tr
+    /// h_t)² + 2 D |dev h_t|² + I |h|². Returns how near one came.
     fn check(material: &Material, spread: f64) -> f64 {
         let mut random = Rng::with_seed(7);
         let mut nearest: f64 = 0.0;
@@ -135,11 +152,41 @@ mod tests {
             let Ok((stress, tangent)) = material.tangent(&f, 0.0, &material.at_rest()) else { continue };
             let request = Request { wave_modulus: true, ..Request::default() };
             let Ok(answer) = material.evaluate(&f, 0.0, &material.at_rest(), request) else { continue };
-            let [along, across] = bounds(material, answer.wave_modulus, &f, &stress);
+            let bound = bounds(material, answer.wave_modulus, &f, &stress);
             if let WaveBounds::Hyperelastic { friction: Some(_), .. } = wave_bounds(material) {
-                assert!(across <= answer.wave_modulus, "{across:e} {:e}", answer.wave_modulus);
+                let most = answer.wave_modulus * (1.0 + 1e-12);
+                let Stiffness { elongation, tension, compaction, distortion, all_round } = bound;
+                assert!(
+                    [elongation, tension, compaction, 2.0 * distortion].iter().all(|part| part + all_round <= most),
+                    "{bound:?} {most:e}"
+                );
             }
             let m = f.column(0).normalize();
+            let across = Matrix3::identity() - m * m.transpose();
+            let of_section = |h: &Matrix3<f64>| {
+                let part = 0.5 * across * (h + h.transpose()) * across;
+                let trace = part.trace();
+                (trace, part - 0.5 * trace * across)
+            };
+            let most = |h: &Matrix3<f64>, other: &Matrix3<f64>| {
+                let [(trace, dev), (other_trace, other_dev)] = [h, other].map(of_section);
+                bound.elongation * m.dot(&(h * m)) * m.dot(&(other * m))
+                    + bound.tension * (across * h * m).dot(&(other * m))
+                    + bound.compaction * trace * other_trace
+                    + 2.0 * bound.distortion * dev.dot(&other_dev)
+                    + bound.all_round * h.dot(other)
+            };
+            let met = |h: &Matrix3<f64>, other: &Matrix3<f64>| {
+                let [step, other] = [h, other].map(|h| SVector::<f64, 9>::from_column_slice((h * f).as_slice()));
+                0.5 * (step.dot(&(tangent * other)) + other.dot(&(tangent * step)))
+            };
+            let unit = |c: usize| Matrix3::from_fn(|i, j| if i + 3 * j == c { 1.0 } else { 0.0 });
+            let left = SMatrix::<f64, 9, 9>::from_fn(|i, j| {
+                let (h, other) = (unit(i), unit(j));
+                most(&h, &other) - met(&h, &other)
+            });
+            let least = left.symmetric_eigenvalues().min();
+            assert!(least > -1e-9 * bound.elongation.max(bound.all_round), "{least:e} {bound:?} {f}");
             for general in [true, false] {
                 let h = if general {
                     Matrix3::from_fn(|_, _| number(1.0))
@@ -147,11 +194,7 @@ mod tests {
                     let [u, n] = [0, 1].map(|_| Vector3::from_fn(|_, _| number(1.0)).normalize());
                     u * n.transpose()
                 };
-                let step = nalgebra::SVector::<f64, 9>::from_column_slice((h * f).as_slice());
-                let stiffness = step.dot(&(tangent * step));
-                let bound = along * (h * m).norm_squared() + across * h.norm_squared();
-                assert!(stiffness < bound, "{stiffness:e} {bound:e} {f} {h}");
-                nearest = nearest.max(stiffness / bound);
+                nearest = nearest.max(met(&h, &h) / most(&h, &h));
             }
         }
         nearest
