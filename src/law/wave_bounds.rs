@@ -1,10 +1,16 @@
 //! Bounds of stiffness by direction: the fast wave runs along the fibre, where elements are long.
 //!
-//! No gradient h of the velocity meets more stiffness ρ0 c² than A (m·h m)² + G |P h m|² + C (tr h_t)² + 2 D |dev h_t|²
-//! + I |h|², with the fibre's direction m, P across it, and h_t the symmetric part of P h P: what stretches the fibre,
-//! what turns it, what compacts and what distorts the section, and what has no direction. No term but the last has both
-//! motions along the fibre and across it. A wave across the fibre, h = u ⊗ n, meets C + D + I at most. By modes, as the
-//! law's own bound is derived (`docs/design/law.md`), with the section's area ratio J_t and its distortion a = 2 I_td:
+//! With the fibre's direction m, P across it, and h_t the symmetric part of P h P, no gradient h of the velocity meets
+//! more stiffness ρ0 c² than
+//!
+//! ```text
+//! A (m·h m)² + G |P h m|² + C (tr h_t)² + 2 D |dev h_t|² + I |h|²
+//! ```
+//!
+//! what stretches the fibre, what turns it, what compacts and what distorts the section, and what has no direction. No
+//! term but the last has both motions along the fibre and across it. A wave across the fibre, h = u ⊗ n, meets C + D + I
+//! at most. By modes, as the law's own bound is derived (`docs/design/law.md`), with the section's area ratio J_t and
+//! its distortion a = 2 I_td:
 //!
 //! - elongation: A = k_el, and G is the tension, k_el ln λ ≤ k_el (λ² − 1)/2;
 //! - compaction: W″/4 + |W′|. |W′| is the sum of the Kirchhoff stresses across, and W″ = (p − 1) |W′|/|I_tc| is no more
