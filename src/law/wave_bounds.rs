@@ -18,7 +18,7 @@
 //!   C;
 //! - distortion: ¼ k_td ((a/sinh a) eᵃ + a) ≤ ¼ k_td (1 + 3 a), of which 2 a are the stress's, and a² ≤ 2 (cosh a − 1);
 //! - distortion that friction limits to I_te, a = 2 I_te: a ≤ 4 (µ p_t + c)/k_td, p_t = ½ |W′|: ¼ k_td + 3 (µ ½ |W′| +
-//!   c); where the fibres slide, the pressure that grows adds µ W″/4;
+//!   c); where the fibres slide, the pressure that grows adds µ W″/4, half of it to C and half to D;
 //! - longitudinal shear: (k_ld/λ²)(2 J_t eᵃ + 4 |P b e|), without direction.
 //!
 //! Of the linear elastic law, which has no Poisson's ratios, A and G are E1, and I the other moduli and twice the
@@ -151,8 +151,8 @@ impl WaveBounds {
                         [curvature, constant(0.25 * k_td) * (one + distorted), slope + constant(0.5 * k_td) * distorted]
                     }
                     Some([mu, cohesion]) => [
-                        curvature + constant(mu) * curvature,
-                        constant(0.25 * k_td + cohesion) + constant(0.5 * mu) * slope,
+                        curvature + constant(0.5 * mu) * curvature,
+                        constant(0.25 * k_td + cohesion) + constant(0.5 * mu) * (slope + curvature),
                         slope + constant(2.0 * cohesion) + constant(mu) * slope,
                     ],
                 };

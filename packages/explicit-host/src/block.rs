@@ -359,8 +359,8 @@ impl<T: Number> ElementBlock<T> {
     ///
     /// By the law's bounds A, G, C, D, I of the stiffness (`toron::law::wave_bounds`), and with S of [`Measures`], motions
     /// along the fibre have the stiffnesses (A + I) m·S m by gradients along it and I S_t by those across at most.
-    /// Motions across it have (G + I) m·S m and (C + D) tr S_t + I S_t: what compacts and what distorts are single
-    /// components of the gradient, each no larger than by the sum over the corners. Each has its own damping; the largest
+    /// Motions across it have (G + I) m·S m and (C + D) tr S_t + I S_t: what compacts is one component of the
+    /// gradient, and what distorts two at right angles, each no larger than by the sum over the corners. Each has its own damping; the largest
     /// eigenvalue of such a pair is that of a 2 × 2 matrix. Nothing couples motions along and across but what I counts in
     /// both.
     #[inline(always)]

@@ -42,8 +42,6 @@ pub struct Body<T> {
     pub springs: Vec<f64>,
     pub most_contact: f64,
     pub limit: StepLimit,
-    /// The block and place of what limited it when that was looked at last.
-    pub worst: Option<(usize, usize)>,
     /// Of the last step.
     pub sums: Sums,
 }
@@ -62,6 +60,8 @@ pub struct BodyState<T> {
     pub deleted: Vec<usize>,
     /// How many of them because they had collapsed or turned inside out.
     pub collapsed: usize,
+    /// The block and place of the element that limited the step last, where that was looked for.
+    pub worst: Option<(usize, usize)>,
     /// Hourglass energy of deleted elements.
     pub released: f64,
     /// The mass that nodes of torn ends have been lent; empty before the first.
@@ -84,6 +84,7 @@ impl<T: Number> Body<T> {
                 intact_elements: vec![0; count],
                 deleted: Vec::new(),
                 collapsed: 0,
+                worst: None,
                 released: 0.0,
                 lent: Vec::new(),
                 needs: Vec::new(),
@@ -99,7 +100,6 @@ impl<T: Number> Body<T> {
             springs: vec![0.0; count],
             most_contact: 0.0,
             limit: StepLimit::default(),
-            worst: None,
             sums: Sums::default(),
             mesh,
         };

@@ -155,13 +155,13 @@ impl<T: Number> Body<T> {
 
     /// The rate now of what limited this body's step when that was looked at last.
     pub fn last_worst_rate(&self) -> f64 {
-        self.worst.map_or(0.0, |(number, i)| self.rate_of(&self.blocks[number], i))
+        self.state.worst.map_or(0.0, |(number, i)| self.rate_of(&self.blocks[number], i))
     }
 
     /// What limits the step of this body, where that is above this rate, by the rates of its contact.
     pub fn limit_step(&mut self, least: f64) {
         let found = self.worst_element(self.most_contact, least);
-        self.worst = found.map(|(_, number, i)| (number, i)).or(self.worst);
+        self.state.worst = found.map(|(_, number, i)| (number, i)).or(self.state.worst);
         self.limit = found.map_or(StepLimit::default(), |(rate, number, i)| {
             let block = &self.blocks[number];
             let (contact, torn) = (rate - block.rates[i].into(), self.is_torn(&block.shapes.nodes[i]));

@@ -1,4 +1,4 @@
-//! The laws' bounds of wave speeds by direction, of neighbouring elements at once.
+//! The laws' bounds of stiffness by direction, of neighbouring elements at once.
 
 use super::lanes::{Lanes, Number, load};
 use toron::law::parameters::HYPERELASTIC_PROPERTIES;
@@ -201,7 +201,7 @@ mod tests {
     }
 
     #[test]
-    fn no_wave_of_the_hyperelastic_law_is_faster() {
+    fn nothing_of_the_hyperelastic_law_is_stiffer() {
         for k_ld in [0.0, 126e6] {
             for spread in [0.02, 0.3, 0.6] {
                 assert!(check(&material("kevlar-km2-600", k_ld), spread) > 0.5);
@@ -210,7 +210,7 @@ mod tests {
     }
 
     #[test]
-    fn no_wave_of_the_law_with_friction_is_faster() {
+    fn nothing_of_the_law_with_friction_is_stiffer() {
         for k_ld in [0.0, 126e6] {
             for spread in [0.02, 0.3, 0.6] {
                 assert!(check(&material("kevlar-km2-600-frictional", k_ld), spread) > 0.5);
@@ -232,7 +232,7 @@ mod tests {
     }
 
     #[test]
-    fn no_wave_of_the_linear_elastic_law_is_faster() {
+    fn nothing_of_the_linear_elastic_law_is_stiffer() {
         for spread in [0.02, 0.2] {
             assert!(check(&turning("kevlar-km2-600-linear", &[], Rotation::Fibre), spread) > 0.5);
         }
