@@ -7,15 +7,15 @@
 //! A (m·h m)² + G |P h m|² + C (tr h_t)² + 2 D |dev h_t|² + I |h|²
 //! ```
 //!
-//! what stretches the fibre, what turns it, what compacts and what distorts the section, and what has no direction. No
-//! term but the last has both motions along the fibre and across it. A wave across the fibre, h = u ⊗ n, meets C + D + I
-//! at most. By modes, as the law's own bound is derived (`docs/design/law.md`), with the section's area ratio J_t and
-//! its distortion a = 2 I_td:
+//! Its terms belong to what stretches the fibre, what turns it, what compacts the section, what distorts it, and what
+//! has no direction. No term but the last has both motions along the fibre and across it. A wave across the fibre, h =
+//! u ⊗ n, meets C + D + I at most. `docs/design/law.md` derives them for waves; that they hold for any h is tested where
+//! elements use them. By modes, with the section's area ratio J_t and its distortion a = 2 I_td:
 //!
 //! - elongation: A = k_el, and G is the tension, k_el ln λ ≤ k_el (λ² − 1)/2;
 //! - compaction: W″/4 + |W′|. |W′| is the sum of the Kirchhoff stresses across, and W″ = (p − 1) |W′|/|I_tc| is no more
-//!   than (p − 1) |W′| from |I_tc| = 1 on, where |W′| is p k_tc, and less than (p − 1) p k_tc before. W″/4 is
-//!   C;
+//!   than (p − 1) |W′| from |I_tc| = 1 on, where |W′| is p k_tc, and less than (p − 1) p k_tc before. C is
+//!   W″/4;
 //! - distortion: ¼ k_td ((a/sinh a) eᵃ + a) ≤ ¼ k_td (1 + 3 a), of which 2 a are the stress's, and a² ≤ 2 (cosh a − 1);
 //! - distortion that friction limits to I_te, a = 2 I_te: a ≤ 4 (µ p_t + c)/k_td, p_t = ½ |W′|: ¼ k_td + 3 (µ ½ |W′| +
 //!   c); where the fibres slide, the pressure that grows adds µ W″/4, half of it to C and half to D;
@@ -144,6 +144,7 @@ impl WaveBounds {
                 let [c22, c33] = point.section;
                 let area_square = ratio * ratio * per_square;
                 let area = area_square.root();
+                // cosh a = (c22 + c33)/(2 J_t), J_t² = J²/λ².
                 let cosh = (constant(0.5) * (c22 + c33) / area).larger(one);
                 let distorted = (constant(2.0) * (cosh - one)).root();
                 let [compaction, distortion, stressed] = match friction {

@@ -359,10 +359,10 @@ impl<T: Number> ElementBlock<T> {
     ///
     /// By the law's bounds A, G, C, D, I of the stiffness (`toron::law::wave_bounds`), and with S of [`Measures`], motions
     /// along the fibre have the stiffnesses (A + I) m·S m by gradients along it and I S_t by those across at most.
-    /// Motions across it have (G + I) m·S m and (C + D) tr S_t + I S_t: what compacts is one component of the
-    /// gradient, and what distorts two at right angles, each no larger than by the sum over the corners. Each has its own damping; the largest
-    /// eigenvalue of such a pair is that of a 2 × 2 matrix. Nothing couples motions along and across but what I counts in
-    /// both.
+    /// Motions across it have (G + I) m·S m and (C + D) tr S_t + I S_t: what compacts is one component of the gradient,
+    /// and what distorts two at right angles, each no larger than by the sum over the corners. Each has its own damping;
+    /// the largest eigenvalue of such a pair is that of a 2 × 2 matrix. Nothing couples motions along and across but what
+    /// I counts in both.
     #[inline(always)]
     fn bound_step(&mut self, medium: &Medium<T>, scratch: &mut Scratch<T>, options: StepOptions, shared: f64) {
         let (one, four) = (Lanes::constant(1.0), Lanes::constant(4.0));
@@ -407,6 +407,7 @@ impl<T: Number> ElementBlock<T> {
                 coupling: stretching * all_round * slanting,
                 damped: [Lanes::at(&measures.damping_along, first), Lanes::zero()],
             };
+            // What deforms couples by no more than √C + √(2 D), the square of which is at most 4 (C + D).
             let across = Motions {
                 stiff: [turning * spread_along, deforming * trace + all_round * spread_across],
                 coupling: turning * (four * deforming + all_round) * slanting,
@@ -563,8 +564,7 @@ struct Motions<T> {
 }
 
 impl<T: Number> Motions<T> {
-    /// The largest rate, times the square of a step, of which the damping counts twice; `square` may be 1 instead, with
-    /// `twice` over the square.
+    /// The largest of `square` times what resists and `twice` times what damps: Δt² and 2 Δt, or 1 and 2/Δt.
     #[inline(always)]
     fn rate(&self, square: Lanes<T>, twice: Lanes<T>) -> Lanes<T> {
         let [along, across] = self.stiff;

@@ -34,7 +34,7 @@ const SHARINGS: usize = 3;
 const NEARLY: f64 = 0.95;
 /// What limits the step is looked for from this part of the last rate on.
 const NEAR: f64 = 0.8;
-/// And from this part of the rate on that it has now: rates are known to a part of 2⁻⁷.
+/// And from this part on of the rate that it has now: rates are known to 2⁻⁷ of themselves, so that it is found again.
 const BELOW: f64 = 0.99;
 /// The run ends with an error when the step is this fraction of the first one: elements that do not fail have
 /// collapsed.
@@ -206,7 +206,7 @@ impl<T: Number> Solver<T> {
         }
         let mut expected = self.state.stable.map_or(0.0, |stable| NEAR * 4.0 / (stable * stable));
         if self.shred_mass == 0.0 {
-            // What limited the last step limits this one, or is not far from what does: it is found again.
+            // What limited the last step limits this one, or is not far from what does.
             let now = self.bodies.iter().map(Body::last_worst_rate).fold(0.0, f64::max);
             expected = expected.max(BELOW * now);
         }

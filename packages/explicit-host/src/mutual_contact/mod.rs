@@ -90,7 +90,7 @@ const AT_ONCE: usize = 128;
 
 impl Side {
     /// Takes over how long its pairs wait.
-    fn wait(&mut self) {
+    fn renew_waits(&mut self) {
         self.waits.clear();
         self.waits.extend(self.state.pairs.iter().map(Pair::wait));
     }
@@ -309,7 +309,7 @@ impl MutualContact {
         for (surface, side) in self.surfaces.iter_mut().zip(&mut self.sides) {
             archive.keep(&mut surface.state)?;
             archive.keep(&mut side.state)?;
-            side.wait();
+            side.renew_waits();
         }
         Ok(())
     }
@@ -375,7 +375,7 @@ impl MutualContact {
             let found = look.pairs_of(number, &nodes, &old);
             let is_due = |pair: &Pair| is_due(&pair.node) && scope.bodies[pair.master as usize];
             side.state.pairs = merge(old, found, is_due);
-            side.wait();
+            side.renew_waits();
         };
         self.sides.par_iter_mut().zip(surfaces).enumerate().for_each(search);
     }
@@ -432,7 +432,7 @@ impl MutualContact {
         let gone = &self.surfaces[number].state.gone;
         let loose = side.state.pairs.extract_if(.., |pair| body.is_loose(pair.node as usize));
         let mut released = loose.map(|mut pair| pair.leave()).sum::<f64>();
-        side.wait();
+        side.renew_waits();
         for other in &mut self.sides {
             let pairs = other.state.pairs.iter_mut().zip(&mut other.waits);
             let on_it =

@@ -17,7 +17,7 @@ const PART: f64 = 0.5;
 /// Lengths closer than this part of themselves are the same.
 const ROUNDING: f64 = 1e-6;
 
-/// A node near a face of another body.
+/// A node near a face of another body. What most steps ask of it comes first, in one line of the processor's memory.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 #[repr(C, align(64))]
 pub struct Pair {

@@ -536,7 +536,7 @@ fn what_is_clear_is_not_in_contact() {
             if every_step {
                 for side in &mut contact.sides {
                     side.state.pairs.iter_mut().for_each(|pair| pair.free_until = 0.0);
-                    side.wait();
+                    side.renew_waits();
                 }
             }
             contact.apply(&mut bodies);
