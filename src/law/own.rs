@@ -47,17 +47,18 @@ pub(crate) struct OwnNumbers<R> {
 }
 
 impl<R: Real> OwnNumbers<R> {
-    /// Those of the lanes from point i on: `any` for a kernel that looks up what the points have; else it is compiled for
-    /// points that have limits, if `limited`, and nothing else of their own.
+    pub const NONE: Self = OwnNumbers { limit: None };
+
+    /// Those of the lanes from point i on.
     ///
     /// # Safety
-    /// The points are valid, see [`Points`], with i + COUNT ≤ n, and have limits if the kernel is compiled for them.
+    /// The points are valid, see [`Points`], with i + COUNT ≤ n.
     #[inline(always)]
-    pub unsafe fn of_lanes<T>(points: &Points<T>, i: usize, any: bool, limited: bool) -> Self
+    pub unsafe fn of_lanes<T>(points: &Points<T>, i: usize) -> Self
     where
         R: Lanes<T>,
     {
-        let limited = if any { !points.limits(FAILURE).is_null() } else { limited };
+        let limited = !points.limits(FAILURE).is_null();
         // SAFETY: `limit` is not null; it has n ≥ i + COUNT values.
         OwnNumbers { limit: if limited { Some(unsafe { R::load(points.limit.add(i)) }) } else { None } }
     }

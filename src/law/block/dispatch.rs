@@ -13,7 +13,7 @@ use super::one::One;
 use super::points::Points;
 use super::request::{ALIGNED, ANY, FRICTION};
 #[cfg(target_arch = "x86_64")]
-use super::request::{FIBRES, LIMITS, SHEAR, STATE, STRESS, WAVE};
+use super::request::{SHEAR, STATE, STRESS};
 use super::run::{FRICTIONAL_ROWS, HYPERELASTIC_ROWS, LINEAR_ROWS};
 use crate::law::frictional::{Friction, Frictional};
 use crate::law::hyperelastic::Hyperelastic;
@@ -130,55 +130,26 @@ unsafe fn dispatch<T: Precision>(level: Level, law: &Hyperelastic<T>, block: &Po
 unsafe fn run<T: Registers, I: Instructions>(law: &Hyperelastic<T>, block: &Points<T>) -> i32 {
     let Request { stress, energies, invariants, failure, wave_modulus, .. } = block.request();
     let usual = stress && block.are_usual();
-    let state = usual && energies && invariants && failure && !wave_modulus;
-    let explicit = usual && energies && invariants && failure && wave_modulus && !law.shears;
-    let nothing_else =
-        !energies && !invariants && !failure && block.state_old[FAILURE].is_null() && block.active.is_null();
-    let stress_alone = usual && nothing_else && !wave_modulus && !law.shears;
-    let fibres = !block.fibre[0].is_null();
-    let limits = !block.limits(FAILURE).is_null();
+    let state = usual && energies && invariants && failure;
+    let nothing_else = !energies && !invariants && !failure && !wave_modulus;
+    let remembers = !block.state_old[FAILURE].is_null() || !block.active.is_null();
+    let stress_alone = usual && nothing_else && !remembers && !law.shears;
+    let aligned = law.aligned && block.fibre[0].is_null();
     let none = &Friction::none();
-    const STATE_FIBRES: u8 = STATE + FIBRES;
-    const STATE_ALIGNED: u8 = STATE + ALIGNED;
-    const SHEAR_STATE_FIBRES: u8 = SHEAR + STATE + FIBRES;
-    const SHEAR_STATE_ALIGNED: u8 = SHEAR + STATE + ALIGNED;
-    const SHEAR_STATE: u8 = SHEAR + STATE;
-    const WAVE_STATE_FIBRES: u8 = WAVE + STATE + FIBRES;
-    const WAVE_STATE_ALIGNED: u8 = WAVE + STATE + ALIGNED;
-    const LIMITS_STATE: u8 = LIMITS + STATE;
-    const LIMITS_STATE_FIBRES: u8 = LIMITS + STATE_FIBRES;
-    const LIMITS_STATE_ALIGNED: u8 = LIMITS + STATE_ALIGNED;
-    const LIMITS_SHEAR_STATE: u8 = LIMITS + SHEAR_STATE;
-    const LIMITS_SHEAR_STATE_FIBRES: u8 = LIMITS + SHEAR_STATE_FIBRES;
-    const LIMITS_SHEAR_STATE_ALIGNED: u8 = LIMITS + SHEAR_STATE_ALIGNED;
-    const LIMITS_WAVE_STATE_FIBRES: u8 = LIMITS + WAVE_STATE_FIBRES;
-    const LIMITS_WAVE_STATE_ALIGNED: u8 = LIMITS + WAVE_STATE_ALIGNED;
-    const STRESS_FIBRES: u8 = STRESS + FIBRES;
     const STRESS_ALIGNED: u8 = STRESS + ALIGNED;
+    const STATE_ALIGNED: u8 = STATE + ALIGNED;
+    const SHEAR_STATE: u8 = SHEAR + STATE;
+    const SHEAR_STATE_ALIGNED: u8 = SHEAR + STATE_ALIGNED;
     // SAFETY: the block fills a register, and has the arrays of the request that each kernel is compiled for: that is
-    // what `state`, `explicit`, `stress_alone` and `fibres` tell.
+    // what `state` and `stress_alone` tell.
     unsafe {
-        match (state, law.shears, stress_alone) {
-            (true, false, _) if limits && fibres => I::run::<T, LIMITS_STATE_FIBRES>(law, none, block),
-            (true, false, _) if limits && law.aligned => I::run::<T, LIMITS_STATE_ALIGNED>(law, none, block),
-            (true, false, _) if limits => I::run::<T, LIMITS_STATE>(law, none, block),
-            (true, true, _) if limits && fibres => I::run::<T, LIMITS_SHEAR_STATE_FIBRES>(law, none, block),
-            (true, true, _) if limits && law.aligned => I::run::<T, LIMITS_SHEAR_STATE_ALIGNED>(law, none, block),
-            (true, true, _) if limits => I::run::<T, LIMITS_SHEAR_STATE>(law, none, block),
-            _ if limits && explicit && fibres => I::run::<T, LIMITS_WAVE_STATE_FIBRES>(law, none, block),
-            _ if limits && explicit && law.aligned => I::run::<T, LIMITS_WAVE_STATE_ALIGNED>(law, none, block),
-            _ if limits => run_any::<T, I>(law, block),
-            (true, false, _) if fibres => I::run::<T, STATE_FIBRES>(law, none, block),
-            (true, false, _) if law.aligned => I::run::<T, STATE_ALIGNED>(law, none, block),
-            (true, false, _) => I::run::<T, STATE>(law, none, block),
-            (true, true, _) if fibres => I::run::<T, SHEAR_STATE_FIBRES>(law, none, block),
-            (true, true, _) if law.aligned => I::run::<T, SHEAR_STATE_ALIGNED>(law, none, block),
-            (true, true, _) => I::run::<T, SHEAR_STATE>(law, none, block),
-            (_, _, true) if fibres => I::run::<T, STRESS_FIBRES>(law, none, block),
-            (_, _, true) if law.aligned => I::run::<T, STRESS_ALIGNED>(law, none, block),
-            (_, _, true) => I::run::<T, STRESS>(law, none, block),
-            _ if explicit && fibres => I::run::<T, WAVE_STATE_FIBRES>(law, none, block),
-            _ if explicit && law.aligned => I::run::<T, WAVE_STATE_ALIGNED>(law, none, block),
+        match (aligned, law.shears) {
+            (true, false) if state => I::run::<T, STATE_ALIGNED>(law, none, block),
+            (true, true) if state && !wave_modulus => I::run::<T, SHEAR_STATE_ALIGNED>(law, none, block),
+            (false, false) if state => I::run::<T, STATE>(law, none, block),
+            (false, true) if state && !wave_modulus => I::run::<T, SHEAR_STATE>(law, none, block),
+            (true, _) if stress_alone => I::run::<T, STRESS_ALIGNED>(law, none, block),
+            (false, _) if stress_alone => I::run::<T, STRESS>(law, none, block),
             _ => run_any::<T, I>(law, block),
         }
     }
@@ -231,22 +202,16 @@ unsafe fn dispatch_frictional<T: Precision>(level: Level, law: &Frictional<T>, b
 #[cfg(target_arch = "x86_64")]
 unsafe fn run_frictional<T: Registers, I: Instructions>(law: &Frictional<T>, block: &Points<T>) -> i32 {
     let Frictional { elastic, friction } = law;
-    let Request { stress, energies, invariants, failure, wave_modulus, .. } = block.request();
-    let usual = stress && energies && invariants && failure && block.are_usual() && !elastic.shears;
-    let (fibres, limits) = (!block.fibre[0].is_null(), !block.limits(FAILURE).is_null());
-    const PLAIN: u8 = FRICTION + STATE;
-    const FIBRE: u8 = FRICTION + STATE + FIBRES;
-    const FIRST: u8 = FRICTION + STATE + ALIGNED;
-    const WAVE_FIBRE: u8 = WAVE + FIBRE;
-    const WAVE_FIRST: u8 = WAVE + FIRST;
+    let Request { stress, energies, invariants, failure, .. } = block.request();
+    let state = stress && energies && invariants && failure && block.are_usual() && !elastic.shears;
+    let aligned = elastic.aligned && block.fibre[0].is_null();
+    const SLIP_STATE: u8 = FRICTION + STATE;
+    const SLIP_STATE_ALIGNED: u8 = SLIP_STATE + ALIGNED;
     // SAFETY: as for `run`.
     unsafe {
-        match (usual && !limits, wave_modulus) {
-            (true, false) if fibres => I::run::<T, FIBRE>(elastic, friction, block),
-            (true, false) if elastic.aligned => I::run::<T, FIRST>(elastic, friction, block),
-            (true, false) => I::run::<T, PLAIN>(elastic, friction, block),
-            (true, true) if fibres => I::run::<T, WAVE_FIBRE>(elastic, friction, block),
-            (true, true) if elastic.aligned => I::run::<T, WAVE_FIRST>(elastic, friction, block),
+        match (state, aligned) {
+            (true, true) => I::run::<T, SLIP_STATE_ALIGNED>(elastic, friction, block),
+            (true, false) => I::run::<T, SLIP_STATE>(elastic, friction, block),
             _ => run_any_frictional::<T, I>(law, block),
         }
     }

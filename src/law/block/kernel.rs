@@ -7,7 +7,7 @@ use super::outputs::{
     respond, status_code, store_state,
 };
 use super::points::Points;
-use super::request::{ALIGNED, ANY, FIBRES, FRICTION, STATE, wants_tangent};
+use super::request::{ALIGNED, ANY, FRICTION, STATE, wants_tangent};
 use crate::law::axes::{Axes, FibreFrame, FirstAxis};
 use crate::law::frictional::{Friction, Hold, Slip};
 use crate::law::hyperelastic::{Hyperelastic, Kirchhoff};
@@ -144,17 +144,14 @@ unsafe fn evaluate_group<T: Scalar, R: Lanes<T>, const WANT: u8>(
         // `const`, so that each kernel is compiled in its own axes alone.
         if const { WANT & ALIGNED != 0 } {
             staged::<T, R, FirstAxis, WANT>(&Group { law, block, i, count, places, axes: FirstAxis }, worst);
-        } else if const { WANT & (FIBRES | ANY) != 0 } {
-            let mut axes = Stage::new();
-            for k in 0..count {
-                axes.put(k, frame::<T, R, WANT>(law.elastic, block, *places.get(k)));
-            }
-            staged::<T, R, _, WANT>(&Group { law, block, i, count, places, axes: &axes }, worst);
         } else {
-            staged::<T, R, FibreFrame<R>, WANT>(
-                &Group { law, block, i, count, places, axes: law.elastic.frame },
-                worst,
-            );
+            let mut axes = Stage::new();
+            let own = !block.fibre[0].is_null();
+            for k in 0..if own { count } else { 1 } {
+                axes.put(k, frame::<T, R>(law.elastic, block, *places.get(k)));
+            }
+            let axes = Frames { axes: &axes, own };
+            staged::<T, R, _, WANT>(&Group { law, block, i, count, places, axes }, worst);
         }
     }
 }
@@ -184,22 +181,19 @@ impl<R: Real> GroupAxes<R> for FirstAxis {
     }
 }
 
-/// The same frame everywhere.
-impl<R: Real> GroupAxes<R> for FibreFrame<R> {
-    type Axes = FibreFrame<R>;
-    #[inline(always)]
-    unsafe fn get(&self, _: usize) -> (FibreFrame<R>, Option<R::Mask>) {
-        (*self, None)
-    }
+/// Frames of the registers, or, if no point has a direction of its own, one for all.
+#[derive(Clone, Copy)]
+struct Frames<'a, R: Real> {
+    axes: &'a Stage<(FibreFrame<R>, R::Mask)>,
+    own: bool,
 }
 
-/// A frame of each point.
-impl<R: Real> GroupAxes<R> for &Stage<(FibreFrame<R>, R::Mask)> {
+impl<R: Real> GroupAxes<R> for Frames<'_, R> {
     type Axes = FibreFrame<R>;
     #[inline(always)]
     unsafe fn get(&self, k: usize) -> (FibreFrame<R>, Option<R::Mask>) {
-        // SAFETY: a frame has been put for every register of the group.
-        let (frame, usable) = *unsafe { Stage::get(self, k) };
+        // SAFETY: a frame has been put for every register of the group, or for the first one.
+        let (frame, usable) = *unsafe { self.axes.get(if self.own { k } else { 0 }) };
         (frame, Some(usable))
     }
 }

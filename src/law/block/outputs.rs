@@ -1,7 +1,7 @@
 //! What the kernel reads of a register's points besides F, and what it stores: results, new states, status codes.
 
 use super::points::Points;
-use super::request::{ANY, FRICTION, I_TE, LIMITS, LOST, SLIP, STATE, index_row, request, shears, wants_tangent};
+use super::request::{ANY, FRICTION, I_TE, LOST, SLIP, STATE, index_row, request, shears, wants_tangent};
 use crate::law::axes::FibreFrame;
 use crate::law::frictional::Slip;
 use crate::law::hyperelastic::{Deformed, Hyperelastic, Kirchhoff};
@@ -54,17 +54,17 @@ pub(super) unsafe fn gradient<T, R: Lanes<T>>(block: &Points<T>, i: usize) -> [[
 /// # Safety
 /// As for [`sweep`](super::kernel::sweep), for the lanes from i on.
 #[inline(always)]
-pub(super) unsafe fn frame<T, R: Lanes<T>, const WANT: u8>(
+pub(super) unsafe fn frame<T, R: Lanes<T>>(
     law: &Hyperelastic<R>,
     block: &Points<T>,
     i: usize,
 ) -> (FibreFrame<R>, R::Mask) {
     let m = &block.fibre;
-    if WANT & ANY != 0 && m[0].is_null() {
+    if m[0].is_null() {
         let zero = R::splat(0.0);
         return (law.frame, zero.le(zero));
     }
-    // SAFETY: the kernel is built for fibres, or the pointers are not null: n ≥ i + COUNT values for each component.
+    // SAFETY: the pointers are not null: n ≥ i + COUNT values for each component.
     let direction = unsafe { [R::load(m[0].add(i)), R::load(m[1].add(i)), R::load(m[2].add(i))] };
     FibreFrame::new(direction)
 }
@@ -101,7 +101,7 @@ pub(super) unsafe fn respond<T: Scalar, R: Lanes<T>, const WANT: u8>(
         let latch = latch::<T, R, WANT>(block, i);
         // Only the modes and the tangent need the frame again.
         let tangent = wants_tangent::<T, WANT>(block);
-        let frame = if request.modes || tangent { frame::<T, R, WANT>(law, block, i).0 } else { law.frame };
+        let frame = if request.modes || tangent { frame::<T, R>(law, block, i).0 } else { law.frame };
         let point = Deformed { law, kinematics, k, shear: shears::<R, WANT>(law) };
         let nan_if_invalid = match own::<T, R, WANT>(block, i).are_allowed() {
             Some(allowed) => R::select(allowed, nan_if_invalid, R::splat(f64::NAN)),
@@ -151,8 +151,11 @@ pub(super) unsafe fn latch<T, R: Lanes<T>, const WANT: u8>(block: &Points<T>, i:
 /// As for [`sweep`](super::kernel::sweep), for the lanes from i on.
 #[inline(always)]
 pub(super) unsafe fn own<T, R: Lanes<T>, const WANT: u8>(block: &Points<T>, i: usize) -> OwnNumbers<R> {
+    if WANT & (STATE | ANY) == 0 {
+        return OwnNumbers::NONE;
+    }
     // SAFETY: the same points, and i + COUNT ≤ n.
-    unsafe { OwnNumbers::of_lanes(block, i, WANT & ANY != 0, WANT & LIMITS != 0) }
+    unsafe { OwnNumbers::of_lanes(block, i) }
 }
 
 /// Stores the tangent of the intact material. Returns 0 where all its entries are finite, else NaN.

@@ -5,27 +5,21 @@ use crate::law::hyperelastic::Hyperelastic;
 use crate::law::number::real::Real;
 use crate::law::response::Request;
 
-/// The stress alone, with the fibre direction of the properties; the other flags are added to this.
+/// The stress alone; the other flags are added to this.
 #[cfg_attr(not(target_arch = "x86_64"), allow(dead_code))]
 pub(super) const STRESS: u8 = 0;
-/// Energies, invariants, failure and the latch as well.
+/// Energies, invariants, failure and the latch as well, and without [`SHEAR`] the wave speed, where it is requested.
 pub(super) const STATE: u8 = 1;
-/// A fibre direction for each point.
-pub(super) const FIBRES: u8 = 2;
-/// The fibre direction of the properties is the first axis.
-pub(super) const ALIGNED: u8 = 4;
+/// The fibre direction of the properties is the first axis, and no point has a direction of its own.
+pub(super) const ALIGNED: u8 = 2;
 /// All that the block has arrays for and, if the law has one, longitudinal shear: the kernel looks these up at run time
 /// for each group of registers.
-pub(super) const ANY: u8 = 8;
+pub(super) const ANY: u8 = 4;
 /// Longitudinal shear, compiled with the state alone: it is rarely used.
-pub(super) const SHEAR: u8 = 16;
-/// The wave speed, compiled with the state alone: what explicit solvers request in every step.
-pub(super) const WAVE: u8 = 32;
-/// Points with failure limits of their own, beside the state.
 #[cfg_attr(not(target_arch = "x86_64"), allow(dead_code))]
-pub(super) const LIMITS: u8 = 64;
+pub(super) const SHEAR: u8 = 8;
 /// The law with friction between the fibres. The last part of its state begins with four variables of its own.
-pub(super) const FRICTION: u8 = 128;
+pub(super) const FRICTION: u8 = 16;
 pub(super) const LOST: usize = 0;
 pub(super) const I_TE: usize = 1;
 pub(super) const SLIP: usize = 2;
@@ -53,7 +47,7 @@ pub(super) fn request<T, const WANT: u8>(block: &Points<T>) -> Request {
         energies: state,
         invariants: state,
         failure: state,
-        wave_modulus: WANT & WAVE != 0,
+        wave_modulus: state && WANT & SHEAR == 0 && !block.wave_speed.is_null(),
         ..Request::NOTHING
     }
 }
