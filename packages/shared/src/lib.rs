@@ -32,3 +32,4 @@ pub mod short_number;
 pub mod text_table;
 pub mod toml_error;
 pub mod toml_file;
+mod toml_value;

@@ -7,21 +7,22 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::nearest;
+use super::toml_value::Wrong;
 
 /// A value of more characters is cut.
 const LONGEST: usize = 40;
 
 /// The message for an error: `layers is "many"; allowed: a whole number`, or the parser's own where no value is wrong.
-pub fn message(text: &str, error: &toml::de::Error) -> String {
-    explained(text, error).or_else(|| comma(text, error)).unwrap_or_else(|| with_hint(error.message().trim_end()))
+pub(crate) fn message(text: &str, wrong: &Wrong) -> String {
+    explained(text, wrong).or_else(|| comma(text, wrong)).unwrap_or_else(|| with_hint(&wrong.message))
 }
 
 /// Of a line that is no TOML: the number in it whose decimals stand behind a comma.
-fn comma(text: &str, error: &toml::de::Error) -> Option<String> {
+fn comma(text: &str, wrong: &Wrong) -> Option<String> {
     if DeTable::parse(text).is_ok() {
         return None;
     }
-    let (before, behind) = text.split_at_checked(error.span()?.start)?;
+    let (before, behind) = text.split_at_checked(wrong.place.as_ref()?.start)?;
     let start = before.rfind('\n').map_or(0, |end| end + 1);
     let end = before.len() + behind.find('\n').unwrap_or(behind.len());
     // Within brackets commas are between numbers.
@@ -54,18 +55,18 @@ pub fn unknown_key(name: &str, known: &[&str]) -> String {
     with_hint(&format!("{UNKNOWN}{name}`, expected one of {}", known.join(", ")))
 }
 
-fn explained(text: &str, error: &toml::de::Error) -> Option<String> {
+fn explained(text: &str, wrong: &Wrong) -> Option<String> {
     // The name of a table is its value's place too.
-    if error.message().starts_with(UNKNOWN) {
+    if wrong.message.starts_with(UNKNOWN) {
         return None;
     }
-    let span = error.span()?;
+    let span = wrong.place.clone()?;
     let tables = DeTable::parse(text).ok()?;
     let key = key_in(tables.get_ref(), &span)?;
-    let allowed = allowed(error.message(), &key)?;
+    let allowed = allowed(&wrong.message, &key)?;
     let value = text.get(span)?;
     // Where an entry of a list is not allowed, the place is the list's.
-    let each = if value.starts_with('[') && error.message().starts_with("invalid value") { "each " } else { "" };
+    let each = if value.starts_with('[') && wrong.message.starts_with("invalid value") { "each " } else { "" };
     Some(format!("{key} is {}; allowed: {each}{allowed}", shortened(value)))
 }
 
@@ -91,9 +92,6 @@ fn key_of(key: &str, value: &Spanned<DeValue>, span: &Range<usize>) -> Option<St
 
 /// The expected value that a message names, in words instead of Rust's types.
 fn allowed(message: &str, key: &str) -> Option<String> {
-    if message == "wanted string or table" {
-        return Some("a word in quotes".to_string());
-    }
     let (found, expected) = message.split_once("expected ")?;
     let length = expected.strip_prefix("an array of length ").map(|length| format!("a list of {length} numbers"));
     let words = match expected {

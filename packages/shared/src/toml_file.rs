@@ -7,13 +7,14 @@ use std::sync::OnceLock;
 use serde::de::{DeserializeOwned, Error as _};
 use serde::{Deserialize, Deserializer};
 use toml::Spanned;
-use toml::de::{DeTable, DeValue, ValueDeserializer};
+use toml::de::{DeTable, DeValue};
 
 use super::checked::{Checked, value};
 use super::error::Error;
 use super::field_names::field_names;
 use super::file_names::collide;
 use super::toml_error;
+use super::toml_value::{Value, Wrong};
 
 /// The text and its name, for messages.
 pub struct Source<'a> {
@@ -27,7 +28,9 @@ pub type Unused = Option<(Range<usize>, String)>;
 impl<'t> Source<'t> {
     /// The file's tables as data, in which every value keeps its place.
     pub fn tables(&self) -> Result<Spanned<DeValue<'t>>, Error> {
-        let tables = DeTable::parse(self.text).map_err(|error| self.parse_error(&error))?;
+        let tables = DeTable::parse(self.text).map_err(|error| {
+            self.parse_error(&Wrong { place: error.span(), message: error.message().trim_end().to_string() })
+        })?;
         Ok(Spanned::new(tables.span(), DeValue::Table(tables.into_inner())))
     }
 }
@@ -41,12 +44,12 @@ impl Source<'_> {
 
     /// The file's tables.
     pub fn parse<F: DeserializeOwned>(&self) -> Result<F, Error> {
-        toml::from_str(self.text).map_err(|error| self.parse_error(&error))
+        self.read(&self.tables()?)
     }
 
     /// A table of the file's data.
     pub fn read<F: DeserializeOwned>(&self, table: &Spanned<DeValue>) -> Result<F, Error> {
-        F::deserialize(ValueDeserializer::from(table.clone())).map_err(|error| self.parse_error(&error))
+        F::deserialize(Value(table)).map_err(|wrong| self.parse_error(&wrong))
     }
 
     /// A table whose keys are those of two structs, neither of which refuses the other's.
@@ -62,8 +65,8 @@ impl Source<'_> {
         }
     }
 
-    fn parse_error(&self, error: &toml::de::Error) -> Error {
-        self.error(error.span().unwrap_or(0..0), &toml_error::message(self.text, error))
+    fn parse_error(&self, wrong: &Wrong) -> Error {
+        self.error(wrong.place.clone().unwrap_or(0..0), &toml_error::message(self.text, wrong))
     }
 
     /// The name of a case, or of another of several `what`, out of which its files' names are made; `taken` are the

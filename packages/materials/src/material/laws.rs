@@ -150,8 +150,9 @@ pub struct LawText(pub String);
 impl<'de> Deserialize<'de> for LawText {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         use serde::de::Error as _;
-        // As the parser says it of a word out of a list.
-        String::deserialize(deserializer).map(LawText).map_err(|_| D::Error::custom("wanted string or table"))
+        // As it is said of a word out of a list.
+        let wrong = |_| D::Error::custom("wrong type, expected a word in quotes");
+        String::deserialize(deserializer).map(LawText).map_err(wrong)
     }
 }
 

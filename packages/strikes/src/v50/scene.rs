@@ -94,14 +94,14 @@ impl Scene {
     /// As for [`Scene::read`].
     pub fn parse(name: &str, text: &str, case: Option<&str>) -> Result<Scene, Error> {
         let source = Source { name, text };
-        let tables: toml::Table = source.parse()?;
+        let tables = source.tables()?;
         let wanted = "allowed: a table [shots] with number and speeds at least";
         let shots = |shots: Option<Shots>| {
             shots.ok_or_else(|| {
                 Error::Input(format!("{name}: no shots; {wanted} (`toron init v50` writes a scene with them)"))
             })
         };
-        let scene = if OF_PANELS.iter().any(|table| tables.contains_key(*table)) {
+        let scene = if OF_PANELS.iter().any(|table| tables.get_ref().get(*table).is_some()) {
             let scene = fabric::scene::Scene::parse(name, text)?;
             let case = one(name, scene.cases, case, |case| &case.name)?;
             let (title, units) = (scene.title, scene.units);
