@@ -522,9 +522,9 @@ fn the_guides_have_the_keys_that_the_program_reads() {
         ("run", "guides/load-paths.md", &["", "[material]", "[[point]]", "[[step]]", "[plot]"]),
         ("fit", "reference/fit-files.md", &["", "[yarn]", "[fibre]", "[[data]]", "[[strength]]"]),
         ("cell", "guides/cell.md", &["", "[fibre]", "[cell]", "[cell.box]", "[loads]", "[yarn]"]),
-        ("impact", "guides/impact.md", &["", "[scene]", "[[case]]"]),
+        ("impact", "reference/impact-files.md", &["", "[scene]", "[[case]]"]),
         ("v50", "reference/v50-files.md", &["[shots]"]),
-        ("fibres", "guides/fibres.md", &["", "[scene]", "[scene.fibre]", "[[case]]"]),
+        ("fibres", "reference/fibre-files.md", &["", "[scene]", "[scene.fibre]", "[[case]]"]),
         ("weave", FABRIC, &["", "[weave]", "[weave.warp]", "[weave.weft]", "[weave.panel]", "[mesh]"]),
         ("fabric", FABRIC, &["", "[scene]", "[[case]]", "[scene.strength]", "[scene.strength.warp]"]),
     ];

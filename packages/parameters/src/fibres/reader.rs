@@ -1,4 +1,4 @@
-//! A scene from its TOML file. The format is described in `docs/guides/fibres.md`.
+//! A scene from its TOML file. The format is described in `docs/reference/fibre-files.md`.
 
 use std::ops::Range;
 use std::path::Path;

@@ -1,5 +1,5 @@
 //! Whether a strike can be believed: the finished run is held against bounds, and each verdict says what to change.
-//! `docs/reference/fabric-files.md` has the bounds and why they are where they are.
+//! `docs/reference/fabric-files.md` has the bounds.
 //!
 //! A run is judged up to the first failure, and what follows by itself: torn shreds whip about then, which carry
 //! nothing.

@@ -1,5 +1,5 @@
-//! What is wrong with a run, as far as the yarn's scenes have it, and what to change; `docs/guides/impact.md` has the
-//! bounds.
+//! What is wrong with a run, as far as the yarn's scenes have it, and what to change;
+//! `docs/reference/impact-files.md` has the bounds.
 
 use super::outcome::{End, Outcome};
 use super::scene::{Case, Striker};

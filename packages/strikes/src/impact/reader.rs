@@ -1,4 +1,4 @@
-//! A scene from its TOML file. The format is described in `docs/guides/impact.md`.
+//! A scene from its TOML file. The format is described in `docs/reference/impact-files.md`.
 
 use std::path::Path;
 
