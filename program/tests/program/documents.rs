@@ -346,7 +346,7 @@ fn generated_parts_are_current() {
         assert!(read(name) == text, "docs/{name} is not current: cargo xtask update documents");
         count += parts;
     }
-    assert_eq!(count, 24, "a part has got lost");
+    assert_eq!(count, 21, "a part has got lost");
 }
 
 /// The fenced blocks of a document in their order: language and text.
@@ -388,7 +388,7 @@ fn programs_print_what_is_shown() {
         let output = run(&mut Command::new(program), "");
         assert_eq!(String::from_utf8_lossy(&output.stdout), *shown, "{code}");
     }
-    assert_eq!(programs, 4, "a program has got lost");
+    assert_eq!(programs, 3, "a program has got lost");
 }
 
 /// Every document with links to others.
