@@ -205,7 +205,8 @@ impl<'de> SeqAccess<'de> for Entries<'_, '_> {
 
     fn next_element_seed<S: DeserializeSeed<'de>>(&mut self, seed: S) -> Result<Option<S::Value>, Wrong> {
         let Some(entry) = self.0.next() else { return Ok(None) };
-        seed.deserialize(Value(entry)).map(Some).map_err(|wrong| wrong.at(entry.span()))
+        // What is wrong with a value of the right type is the list's: `half is [1, 0]; allowed: each a number > 0`.
+        seed.deserialize(Value(entry)).map(Some)
     }
 
     fn size_hint(&self) -> Option<usize> {
