@@ -130,8 +130,7 @@ impl<T: Scalar, const COUNT: usize> Copies<T> for Apart<T, COUNT> {
         room
     }
 
-    // Not inlined: it is called for a dozen arrays, of every law.
-    #[inline(never)]
+    #[inline(always)]
     unsafe fn read(&self, from: impl Columns<*const T>, stride: usize, components: usize, to: *mut T) {
         let offsets = self.offsets(stride);
         for c in 0..components {
@@ -143,7 +142,7 @@ impl<T: Scalar, const COUNT: usize> Copies<T> for Apart<T, COUNT> {
     }
 
     /// Lanes without a point of their own store the last point's value again.
-    #[inline(never)]
+    #[inline(always)]
     unsafe fn write(&self, from: *const T, to: impl Columns<*mut T>, stride: usize, components: usize) {
         let offsets = self.offsets(stride);
         for c in 0..components {

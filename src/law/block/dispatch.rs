@@ -13,7 +13,7 @@ use super::one::One;
 use super::points::Points;
 use super::request::{ALIGNED, ANY, FRICTION};
 #[cfg(target_arch = "x86_64")]
-use super::request::{SHEAR, STATE, STRESS};
+use super::request::{EXPLICIT, SHEAR, STATE, STRESS};
 use super::run::{FRICTIONAL_ROWS, HYPERELASTIC_ROWS, LINEAR_ROWS};
 use crate::law::frictional::{Friction, Frictional};
 use crate::law::hyperelastic::Hyperelastic;
@@ -135,21 +135,26 @@ unsafe fn run<T: Registers, I: Instructions>(law: &Hyperelastic<T>, block: &Poin
     let remembers = !block.state_old[FAILURE].is_null() || !block.active.is_null();
     let stress_alone = usual && nothing_else && !remembers && !law.shears;
     let aligned = law.aligned && block.fibre[0].is_null();
+    let explicit = wave_modulus || !block.limits(FAILURE).is_null();
     let none = &Friction::none();
     const STRESS_ALIGNED: u8 = STRESS + ALIGNED;
     const STATE_ALIGNED: u8 = STATE + ALIGNED;
+    const EXPLICIT_STATE: u8 = EXPLICIT + STATE;
+    const EXPLICIT_STATE_ALIGNED: u8 = EXPLICIT + STATE_ALIGNED;
     const SHEAR_STATE: u8 = SHEAR + STATE;
     const SHEAR_STATE_ALIGNED: u8 = SHEAR + STATE_ALIGNED;
     // SAFETY: the block fills a register, and has the arrays of the request that each kernel is compiled for: that is
     // what `state` and `stress_alone` tell.
     unsafe {
-        match (aligned, law.shears) {
-            (true, false) if state => I::run::<T, STATE_ALIGNED>(law, none, block),
-            (true, true) if state && !wave_modulus => I::run::<T, SHEAR_STATE_ALIGNED>(law, none, block),
+        match (law.shears, aligned) {
+            (false, true) if state && explicit => I::run::<T, EXPLICIT_STATE_ALIGNED>(law, none, block),
+            (false, false) if state && explicit => I::run::<T, EXPLICIT_STATE>(law, none, block),
+            (false, true) if state => I::run::<T, STATE_ALIGNED>(law, none, block),
             (false, false) if state => I::run::<T, STATE>(law, none, block),
-            (false, true) if state && !wave_modulus => I::run::<T, SHEAR_STATE>(law, none, block),
-            (true, _) if stress_alone => I::run::<T, STRESS_ALIGNED>(law, none, block),
-            (false, _) if stress_alone => I::run::<T, STRESS>(law, none, block),
+            (true, true) if state && !wave_modulus => I::run::<T, SHEAR_STATE_ALIGNED>(law, none, block),
+            (true, false) if state && !wave_modulus => I::run::<T, SHEAR_STATE>(law, none, block),
+            (_, true) if stress_alone => I::run::<T, STRESS_ALIGNED>(law, none, block),
+            (_, false) if stress_alone => I::run::<T, STRESS>(law, none, block),
             _ => run_any::<T, I>(law, block),
         }
     }
@@ -202,16 +207,21 @@ unsafe fn dispatch_frictional<T: Precision>(level: Level, law: &Frictional<T>, b
 #[cfg(target_arch = "x86_64")]
 unsafe fn run_frictional<T: Registers, I: Instructions>(law: &Frictional<T>, block: &Points<T>) -> i32 {
     let Frictional { elastic, friction } = law;
-    let Request { stress, energies, invariants, failure, .. } = block.request();
+    let Request { stress, energies, invariants, failure, wave_modulus, .. } = block.request();
     let state = stress && energies && invariants && failure && block.are_usual() && !elastic.shears;
+    let explicit = wave_modulus || !block.limits(FAILURE).is_null();
     let aligned = elastic.aligned && block.fibre[0].is_null();
-    const SLIP_STATE: u8 = FRICTION + STATE;
-    const SLIP_STATE_ALIGNED: u8 = SLIP_STATE + ALIGNED;
+    const SLIP: u8 = FRICTION + STATE;
+    const SLIP_ALIGNED: u8 = SLIP + ALIGNED;
+    const EXPLICIT_SLIP: u8 = EXPLICIT + SLIP;
+    const EXPLICIT_SLIP_ALIGNED: u8 = EXPLICIT + SLIP_ALIGNED;
     // SAFETY: as for `run`.
     unsafe {
-        match (state, aligned) {
-            (true, true) => I::run::<T, SLIP_STATE_ALIGNED>(elastic, friction, block),
-            (true, false) => I::run::<T, SLIP_STATE>(elastic, friction, block),
+        match (explicit, aligned) {
+            (true, true) if state => I::run::<T, EXPLICIT_SLIP_ALIGNED>(elastic, friction, block),
+            (true, false) if state => I::run::<T, EXPLICIT_SLIP>(elastic, friction, block),
+            (false, true) if state => I::run::<T, SLIP_ALIGNED>(elastic, friction, block),
+            (false, false) if state => I::run::<T, SLIP>(elastic, friction, block),
             _ => run_any_frictional::<T, I>(law, block),
         }
     }

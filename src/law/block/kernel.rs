@@ -3,8 +3,8 @@
 use core::mem::MaybeUninit;
 
 use super::outputs::{
-    Evaluated, Outcome, Remembered, add_to_check, clear_tangent, frame, gradient, prefetch, remembered, reset_invalid,
-    respond, status_code, store_state,
+    Evaluated, Outcome, Remembered, add_to_check, clear_tangent, gradient, own_frame, prefetch, remembered,
+    reset_invalid, respond, status_code, store_state,
 };
 use super::points::Points;
 use super::request::{ALIGNED, ANY, FRICTION, STATE, wants_tangent};
@@ -147,8 +147,12 @@ unsafe fn evaluate_group<T: Scalar, R: Lanes<T>, const WANT: u8>(
         } else {
             let mut axes = Stage::new();
             let own = !block.fibre[0].is_null();
-            for k in 0..if own { count } else { 1 } {
-                axes.put(k, frame::<T, R>(law.elastic, block, *places.get(k)));
+            if own {
+                for k in 0..count {
+                    axes.put(k, own_frame::<T, R>(block, *places.get(k)));
+                }
+            } else {
+                axes.put(0, (law.elastic.frame, R::splat(0.0).le(R::splat(0.0))));
             }
             let axes = Frames { axes: &axes, own };
             staged::<T, R, _, WANT>(&Group { law, block, i, count, places, axes }, worst);

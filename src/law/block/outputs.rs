@@ -1,7 +1,9 @@
 //! What the kernel reads of a register's points besides F, and what it stores: results, new states, status codes.
 
 use super::points::Points;
-use super::request::{ANY, FRICTION, I_TE, LOST, SLIP, STATE, index_row, request, shears, wants_tangent};
+use super::request::{
+    ANY, EXPLICIT, FRICTION, I_TE, LOST, SHEAR, SLIP, STATE, index_row, request, shears, wants_tangent,
+};
 use crate::law::axes::FibreFrame;
 use crate::law::frictional::Slip;
 use crate::law::hyperelastic::{Deformed, Hyperelastic, Kirchhoff};
@@ -59,11 +61,21 @@ pub(super) unsafe fn frame<T, R: Lanes<T>>(
     block: &Points<T>,
     i: usize,
 ) -> (FibreFrame<R>, R::Mask) {
-    let m = &block.fibre;
-    if m[0].is_null() {
+    if block.fibre[0].is_null() {
         let zero = R::splat(0.0);
         return (law.frame, zero.le(zero));
     }
+    // SAFETY: there are fibre directions.
+    unsafe { own_frame(block, i) }
+}
+
+/// The material frame of points that have fibre directions of their own, and where it is usable.
+///
+/// # Safety
+/// As for [`sweep`](super::kernel::sweep), for the lanes from i on.
+#[inline(always)]
+pub(super) unsafe fn own_frame<T, R: Lanes<T>>(block: &Points<T>, i: usize) -> (FibreFrame<R>, R::Mask) {
+    let m = &block.fibre;
     // SAFETY: the pointers are not null: n ≥ i + COUNT values for each component.
     let direction = unsafe { [R::load(m[0].add(i)), R::load(m[1].add(i)), R::load(m[2].add(i))] };
     FibreFrame::new(direction)
@@ -151,7 +163,7 @@ pub(super) unsafe fn latch<T, R: Lanes<T>, const WANT: u8>(block: &Points<T>, i:
 /// As for [`sweep`](super::kernel::sweep), for the lanes from i on.
 #[inline(always)]
 pub(super) unsafe fn own<T, R: Lanes<T>, const WANT: u8>(block: &Points<T>, i: usize) -> OwnNumbers<R> {
-    if WANT & (STATE | ANY) == 0 {
+    if WANT & (EXPLICIT | SHEAR | ANY) == 0 {
         return OwnNumbers::NONE;
     }
     // SAFETY: the same points, and i + COUNT ≤ n.

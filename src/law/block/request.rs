@@ -8,7 +8,7 @@ use crate::law::response::Request;
 /// The stress alone; the other flags are added to this.
 #[cfg_attr(not(target_arch = "x86_64"), allow(dead_code))]
 pub(super) const STRESS: u8 = 0;
-/// Energies, invariants, failure and the latch as well, and without [`SHEAR`] the wave speed, where it is requested.
+/// Energies, invariants, failure and the latch as well.
 pub(super) const STATE: u8 = 1;
 /// The fibre direction of the properties is the first axis, and no point has a direction of its own.
 pub(super) const ALIGNED: u8 = 2;
@@ -18,6 +18,9 @@ pub(super) const ANY: u8 = 4;
 /// Longitudinal shear, compiled with the state alone: it is rarely used.
 #[cfg_attr(not(target_arch = "x86_64"), allow(dead_code))]
 pub(super) const SHEAR: u8 = 8;
+/// What explicit solvers ask beside the state, where the block has it: the wave speed, and failure limits of the points.
+#[cfg_attr(not(target_arch = "x86_64"), allow(dead_code))]
+pub(super) const EXPLICIT: u8 = 32;
 /// The law with friction between the fibres. The last part of its state begins with four variables of its own.
 pub(super) const FRICTION: u8 = 16;
 pub(super) const LOST: usize = 0;
@@ -47,7 +50,7 @@ pub(super) fn request<T, const WANT: u8>(block: &Points<T>) -> Request {
         energies: state,
         invariants: state,
         failure: state,
-        wave_modulus: state && WANT & SHEAR == 0 && !block.wave_speed.is_null(),
+        wave_modulus: WANT & EXPLICIT != 0 && !block.wave_speed.is_null(),
         ..Request::NOTHING
     }
 }
