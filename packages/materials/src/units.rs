@@ -1,11 +1,11 @@
 //! What the units of a system are called, for axes and summaries: MPa in mm-tonne-s, GPa in mm-kg-ms, psi in
 //! in-slinch-s.
 
-use toml::Spanned;
 use toron::host::units::UnitSystem;
 use toron::law::parameters::{DENSITY, Dimension, ENERGY_DENSITY, NUMBER, STRESS};
 use toron_shared::error::Error;
 use toron_shared::numbers::number;
+use toron_shared::spanned::Spanned;
 use toron_shared::toml_file::Source;
 
 /// Joule, for work and energies.

@@ -1,9 +1,11 @@
 //! Values that their types check: a key of such a type is refused where it is read, with its value and what is allowed.
 
 use std::marker::PhantomData;
+use std::ops::Bound::{Excluded, Included};
+use std::ops::{self, RangeBounds};
 
+use super::spanned::Spanned;
 use serde::de::{Deserialize, Deserializer, Error, Unexpected};
-use toml::Spanned;
 
 /// A value that a type has checked.
 pub trait Checked {
@@ -32,11 +34,18 @@ impl<T: Checked> Checked for Spanned<T> {
     }
 }
 
+/// From where to where numbers are allowed.
+pub type Limits = (ops::Bound<f64>, ops::Bound<f64>);
+
 /// Which numbers are allowed.
 pub trait Bound {
     const ALLOWED: &'static str;
+    /// An infinite end is excluded, since files may have `inf`.
+    const LIMITS: Limits;
 
-    fn allows(number: f64) -> bool;
+    fn allows(number: f64) -> bool {
+        Self::LIMITS.contains(&number)
+    }
 }
 
 /// A number within a bound.
@@ -52,10 +61,7 @@ pub enum AboveZero {}
 
 impl Bound for AboveZero {
     const ALLOWED: &'static str = "a finite number > 0";
-
-    fn allows(number: f64) -> bool {
-        number.is_finite() && number > 0.0
-    }
+    const LIMITS: Limits = (Excluded(0.0), Excluded(f64::INFINITY));
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -63,10 +69,7 @@ pub enum FromZero {}
 
 impl Bound for FromZero {
     const ALLOWED: &'static str = "a finite number >= 0";
-
-    fn allows(number: f64) -> bool {
-        number.is_finite() && number >= 0.0
-    }
+    const LIMITS: Limits = (Included(0.0), Excluded(f64::INFINITY));
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -74,10 +77,7 @@ pub enum UpToOne {}
 
 impl Bound for UpToOne {
     const ALLOWED: &'static str = "a number > 0, up to 1";
-
-    fn allows(number: f64) -> bool {
-        number > 0.0 && number <= 1.0
-    }
+    const LIMITS: Limits = (Excluded(0.0), Included(1.0));
 }
 
 impl<B: Bound> Checked for Number<B> {

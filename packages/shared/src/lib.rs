@@ -4,7 +4,8 @@
 //!   [`short_number`], [`nearest`] names;
 //! - arguments and the end of a program: [`command_line`];
 //! - files in TOML, with the places of what stands in them: [`toml_file`], [`toml_error`], tables over others in
-//!   [`layers`], a struct's [`field_names`], [`checked`] values; keyword files of solvers: [`keyword_file`];
+//!   [`layers`], a struct's [`field_names`], [`checked`] values, [`spanned`] ones, their `schema`; keyword files of
+//!   solvers: [`keyword_file`];
 //! - where a program writes: [`run_directory`], [`kept_file`], [`file_names`], [`folder`];
 //! - which program it is: the [`mod@build`]; how long it has computed: [`processor_time`]; what runs beside it:
 //!   [`interrupt`], [`bound_child`], the [`shell`]'s words.
@@ -27,8 +28,11 @@ pub mod numbers;
 pub mod processor_time;
 pub mod progress;
 pub mod run_directory;
+#[cfg(feature = "schema")]
+pub mod schema;
 pub mod shell;
 pub mod short_number;
+pub mod spanned;
 pub mod text_table;
 pub mod toml_error;
 pub mod toml_file;

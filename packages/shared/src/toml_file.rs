@@ -4,9 +4,9 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
+use super::spanned::Spanned;
 use serde::de::{DeserializeOwned, Error as _};
 use serde::{Deserialize, Deserializer};
-use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::checked::{Checked, value};
@@ -27,11 +27,11 @@ pub type Unused = Option<(Range<usize>, String)>;
 
 impl<'t> Source<'t> {
     /// The file's tables as data, in which every value keeps its place.
-    pub fn tables(&self) -> Result<Spanned<DeValue<'t>>, Error> {
+    pub fn tables(&self) -> Result<toml::Spanned<DeValue<'t>>, Error> {
         let tables = DeTable::parse(self.text).map_err(|error| {
             self.parse_error(&Wrong { place: error.span(), message: error.message().trim_end().to_string() })
         })?;
-        Ok(Spanned::new(tables.span(), DeValue::Table(tables.into_inner())))
+        Ok(toml::Spanned::new(tables.span(), DeValue::Table(tables.into_inner())))
     }
 }
 
@@ -48,14 +48,14 @@ impl Source<'_> {
     }
 
     /// A table of the file's data.
-    pub fn read<F: DeserializeOwned>(&self, table: &Spanned<DeValue>) -> Result<F, Error> {
+    pub fn read<F: DeserializeOwned>(&self, table: &toml::Spanned<DeValue>) -> Result<F, Error> {
         F::deserialize(Value(table)).map_err(|wrong| self.parse_error(&wrong))
     }
 
     /// A table whose keys are those of two structs, neither of which refuses the other's.
     pub fn read_both<F: DeserializeOwned, G: DeserializeOwned>(
         &self,
-        table: &Spanned<DeValue>,
+        table: &toml::Spanned<DeValue>,
     ) -> Result<(F, G), Error> {
         let known = [field_names::<F>(), field_names::<G>()].concat();
         let keys = table.get_ref().as_table().into_iter().flat_map(DeTable::keys);
@@ -104,7 +104,7 @@ impl Source<'_> {
     pub fn place(&self, table: &str, key: &str) -> Range<usize> {
         let tables = self.tables().ok();
         let value = tables.as_ref().and_then(|tables| tables.get_ref().get(table)?.get_ref().get(key));
-        value.map_or(0..0, Spanned::span)
+        value.map_or(0..0, toml::Spanned::span)
     }
 
     pub fn error(&self, span: Range<usize>, message: &str) -> Error {

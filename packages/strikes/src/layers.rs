@@ -43,7 +43,7 @@ pub trait CaseTable: Sized {
     /// A key or a value that the table cannot have.
     fn read(source: &Source, table: &Spanned<DeValue>) -> Result<Self, Error>;
 
-    fn name(&self) -> Option<&Spanned<String>>;
+    fn name(&self) -> Option<&toron_shared::spanned::Spanned<String>>;
 
     /// A key of this table that none of these cases reads.
     fn unused(&self, cases: &[&Self]) -> Unused;

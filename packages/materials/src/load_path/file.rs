@@ -7,7 +7,6 @@ use std::path::Path;
 
 use nalgebra::{Unit, Vector3};
 use serde::Deserialize;
-use toml::Spanned;
 use toml::de::DeValue;
 
 use super::columns;
@@ -21,6 +20,7 @@ use toron::host::units::UnitSystem;
 use toron_shared::checked::{Checked, Positive, value};
 use toron_shared::error::Error;
 use toron_shared::layers::{entries, layered};
+use toron_shared::spanned::Spanned;
 use toron_shared::toml_file::{self, Numbers, Source};
 
 /// Most increments that a path may have, all cycles counted: a point's history is kept in memory until it is written.
@@ -167,12 +167,12 @@ fn abscissa(source: &Source<'_>, plot: &PlotFile, points: &[Point]) -> Result<St
 fn points(source: &Source<'_>, laws: Laws, file: &PathFile, units: &UnitSystem) -> Result<Vec<Point>, Error> {
     let tables = source.tables()?;
     let base = tables.get_ref().get("material");
-    let read = |table: Option<Spanned<DeValue>>, span| {
+    let read = |table: Option<toml::Spanned<DeValue>>, span| {
         let file = table.map_or(Ok(MaterialFile::default()), |table| source.read(&table))?;
         read_material(source, laws, &file, units, span)
     };
     if file.point.is_empty() {
-        let material = read(base.cloned(), base.map_or(0..0, Spanned::span))?;
+        let material = read(base.cloned(), base.map_or(0..0, toml::Spanned::span))?;
         return Ok(vec![Point { name: material.label.clone(), material }]);
     }
     let mut points: Vec<Point> = Vec::new();

@@ -5,7 +5,6 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 
 use serde::Deserialize;
-use toml::Spanned;
 
 use super::laws::{LawName, LawText, Laws};
 use super::model::{Law, Material, Origin};
@@ -20,6 +19,7 @@ use toron_shared::checked::{Positive, value};
 use toron_shared::error::Error;
 use toron_shared::layers::Drops;
 use toron_shared::numbers::plain;
+use toron_shared::spanned::Spanned;
 use toron_shared::toml_file::{Numbers, Source};
 
 /// The tables of a material.
@@ -33,19 +33,31 @@ pub const DROPS: [Drops; 2] = [
 
 /// A table that describes a material.
 #[derive(Clone, Default, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(transform = toron_shared::schema::ordered::<Self>))]
 #[serde(deny_unknown_fields)]
 pub struct MaterialFile {
+    /// A yarn by name (`toron params` lists them), or [a file of your own](guides/load-paths.md#a-preset-of-your-own),
+    /// `"my-yarn.toml"`. Default: none; then `law` is needed.
     preset: Option<Spanned<String>>,
+    /// `"hyperelastic"`, `"linear-elastic"` or `"frictional"`. Default: the preset's.
+    #[cfg_attr(feature = "schema", schemars(with = "Option<String>"))]
     law: Option<Spanned<LawText>>,
+    /// Direction in the reference placement, of any length. Default: `m_1`, `m_2`, `m_3` of the properties.
     fibre: Option<Spanned<Numbers<3>>>,
+    /// For the wave speeds. Default: the preset's, or none.
     density: Option<Positive>,
+    /// Of the linear elastic law, that rotates with the material. Default: `fibre`.
     frame: Option<Spanned<FrameName>>,
+    /// Of the linear elastic law, the stress compared with `sigma_lim`. Default: `largest-principal`.
     criterion: Option<Spanned<CriterionName>>,
+    /// Values by name, in the file's units, in place of the preset's. Default: the preset's value, else the property's
+    /// default.
     #[serde(default)]
     properties: BTreeMap<Spanned<String>, Spanned<f64>>,
 }
 
 #[derive(Clone, Copy, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case")]
 enum FrameName {
     Fibre,
@@ -54,6 +66,7 @@ enum FrameName {
 }
 
 #[derive(Clone, Copy, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case")]
 enum CriterionName {
     LargestPrincipal,

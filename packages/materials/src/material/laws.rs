@@ -3,7 +3,6 @@
 use std::sync::LazyLock;
 
 use serde::{Deserialize, Deserializer};
-use toml::Spanned;
 use toron::host::laws::{LAWS, LibraryLaw};
 use toron::law::description::Description;
 use toron::law::parameters::{self, PRESETS, Property};
@@ -11,6 +10,7 @@ use toron::law::parameters::{self, PRESETS, Property};
 use super::own_law::OwnLaw;
 use toron_c::{TORON_HYPERELASTIC, TORON_LINEAR_ELASTIC};
 use toron_shared::error::Error;
+use toron_shared::spanned::Spanned;
 use toron_shared::toml_error::shortened;
 use toron_shared::toml_file::Source;
 

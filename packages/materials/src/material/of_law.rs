@@ -3,7 +3,6 @@
 use std::ops::Range;
 
 use serde::Deserialize;
-use toml::Spanned;
 
 use super::file::MaterialFile;
 use super::laws::Laws;
@@ -14,6 +13,7 @@ use toron::Rotation;
 use toron::host::units::UnitSystem;
 use toron::law::parameters::{ALPHA, BETA, EPS_LIM, SIGMA_LIM};
 use toron_shared::error::Error;
+use toron_shared::spanned::Spanned;
 use toron_shared::toml_file::{Source, Unused};
 
 /// Numbers closer than this part of themselves are the same.
@@ -30,6 +30,7 @@ pub const MATERIAL: &str = "material";
 pub type Tables<T> = [(&'static str, T); 4];
 
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case")]
 pub enum LawName {
     Hyperelastic,
@@ -61,6 +62,7 @@ impl LawName {
 }
 
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case")]
 pub enum FailureName {
     None,

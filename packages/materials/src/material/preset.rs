@@ -6,7 +6,6 @@ use std::fmt::Write;
 use std::path::Path;
 
 use serde::Deserialize;
-use toml::Spanned;
 
 use super::laws::{LawName, LawText, Laws};
 use crate::material::laws::law;
@@ -18,6 +17,7 @@ use toron_shared::checked::{Positive, value};
 use toron_shared::error::Error;
 use toron_shared::nearest;
 use toron_shared::numbers::plain;
+use toron_shared::spanned::Spanned;
 use toron_shared::text_table::grouped;
 use toron_shared::toml_error::shortened;
 use toron_shared::toml_file::Source;

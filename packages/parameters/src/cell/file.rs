@@ -1,10 +1,12 @@
 //! The tables of a section's TOML file.
 
+use std::ops::Bound::{Excluded, Included};
+
 use serde::Deserialize;
-use toml::Spanned;
 
 use super::scene::Load;
-use toron_shared::checked::{Bound, Fraction, Number, Positive, Whole};
+use toron_shared::checked::{Bound, Fraction, Limits, Number, Positive, Whole};
+use toron_shared::spanned::Spanned;
 
 pub const MOST_FIBRES: usize = 1000;
 
@@ -13,20 +15,14 @@ pub enum Invariant {}
 
 impl Bound for Invariant {
     const ALLOWED: &'static str = "a number > 0, up to 0.2";
-
-    fn allows(number: f64) -> bool {
-        number > 0.0 && number <= 0.2
-    }
+    const LIMITS: Limits = (Excluded(0.0), Included(0.2));
 }
 
 pub enum Friction {}
 
 impl Bound for Friction {
     const ALLOWED: &'static str = "a number from 0 to 2";
-
-    fn allows(number: f64) -> bool {
-        (0.0..=2.0).contains(&number)
-    }
+    const LIMITS: Limits = (Included(0.0), Included(2.0));
 }
 
 #[derive(Deserialize)]

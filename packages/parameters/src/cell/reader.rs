@@ -3,13 +3,12 @@
 use std::ops::Range;
 use std::path::Path;
 
-use toml::Spanned;
-
 use super::file::{BoxFile, CellFile, FibreFile, HostName, LoadsFile, MOST_FIBRES, PackingName, SceneFile, YarnFile};
 use super::scene::{Arrangement, BoxOf, Fibre, Load, Packing, Scene, YarnName};
 use toron_materials::units;
 use toron_shared::checked::{Checked, value};
 use toron_shared::error::Error;
+use toron_shared::spanned::Spanned;
 use toron_shared::toml_file::{self, Source};
 
 /// Defaults of the keys: those of the thesis, but for the mesh and the increments.

@@ -1,15 +1,16 @@
 //! The tables of a scene's TOML file: the scene's own and its cases', and which of their keys nothing reads.
 
+use std::ops::Bound::Excluded;
 use std::ops::Range;
 
 use serde::Deserialize;
 use serde::de::IgnoredAny;
-use toml::Spanned;
 use toml::de::DeValue;
 
 use super::scene::Walls;
-use toron_shared::checked::{Bound, Fraction, NotNegative, Number, Positive, Whole};
+use toron_shared::checked::{Bound, Fraction, Limits, NotNegative, Number, Positive, Whole};
 use toron_shared::error::Error;
+use toron_shared::spanned::Spanned;
 use toron_shared::toml_file::{Source, Unused};
 use toron_strikes::layers::CaseTable;
 
@@ -52,10 +53,7 @@ pub enum Share {}
 
 impl Bound for Share {
     const ALLOWED: &'static str = "a number > 0 and < 1";
-
-    fn allows(number: f64) -> bool {
-        number > 0.0 && number < 1.0
-    }
+    const LIMITS: Limits = (Excluded(0.0), Excluded(1.0));
 }
 
 #[derive(Deserialize)]
@@ -126,7 +124,7 @@ impl CaseFile {
 }
 
 impl CaseTable for CaseFile {
-    fn read(source: &Source, table: &Spanned<DeValue>) -> Result<CaseFile, Error> {
+    fn read(source: &Source, table: &toml::Spanned<DeValue>) -> Result<CaseFile, Error> {
         source.read(table)
     }
 

@@ -3,8 +3,6 @@
 use std::ops::Range;
 use std::path::Path;
 
-use toml::Spanned;
-
 use super::file::{CaseFile, FibreFile, PackingName, SceneFile, SectionName, StrikerName};
 use super::scene::{Case, Contact, Fibre, Outline, Packing, Scene, SectionLaw, Striker, Walls};
 use toron::host::units::UnitSystem;
@@ -13,6 +11,7 @@ use toron_materials::material::preset::Preset;
 use toron_materials::units::{self, SPEED};
 use toron_shared::checked::{Checked, value};
 use toron_shared::error::Error;
+use toron_shared::spanned::Spanned;
 use toron_shared::toml_file::{self, Source};
 use toron_strikes::layers::{self, Case as CaseTables};
 

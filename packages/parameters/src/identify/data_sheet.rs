@@ -3,7 +3,6 @@
 use std::cell::RefCell;
 
 use serde::Deserialize;
-use toml::Spanned;
 
 use super::equivalence::{Constant, Fibre};
 use super::report::digits;
@@ -13,6 +12,7 @@ use toron_materials::unit_expression::{self, Unit};
 use toron_materials::units::{LENGTH, unit};
 use toron_shared::checked::{Checked, Positive, value};
 use toron_shared::error::Error;
+use toron_shared::spanned::Spanned;
 use toron_shared::toml_file::Source;
 
 const LINEAR_DENSITY: Dimension = Dimension { mass: 1, length: -1, time: 0, name: "linear density" };

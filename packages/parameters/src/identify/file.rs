@@ -7,7 +7,6 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
-use toml::Spanned;
 
 use super::data::{DataSet, Loading};
 use super::data_sheet::{DataSheet, DataSheetFile};
@@ -28,6 +27,7 @@ use toron_materials::units;
 use toron_shared::checked::{Checked, Fraction, Positive, value};
 use toron_shared::error::Error;
 use toron_shared::nearest;
+use toron_shared::spanned::Spanned;
 use toron_shared::toml_file::{self, Numbers, Source};
 
 /// Two densities of a yarn are the same within this, which is more than rounding and less than a slip.

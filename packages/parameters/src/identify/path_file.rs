@@ -1,8 +1,6 @@
 //! Data along a load path: which column of the data drives which component of the path's last step, and what the law
 //! predicts.
 
-use toml::Spanned;
-
 use super::data::{DataSet, Loading};
 use super::file::DataFile;
 use super::path_response::PathResponse;
@@ -17,6 +15,7 @@ use toron_materials::material::laws::Laws;
 use toron_materials::material::model::Law;
 use toron_materials::units::{ENERGY, FORCE, LENGTH};
 use toron_shared::error::Error;
+use toron_shared::spanned::Spanned;
 
 /// Data at the very ends of a step may be off by this, as a part of it.
 const ROUNDING: f64 = 1e-9;

@@ -5,7 +5,6 @@ use std::cell::RefCell;
 use std::ops::RangeInclusive;
 
 use nalgebra::Matrix3;
-use toml::Spanned;
 
 use super::checks::{self, Flaw};
 use super::data::{Axis, DataSet, Loading, Toe};
@@ -21,6 +20,7 @@ use toron_materials::data_table::DataTable;
 use toron_materials::units::unit;
 use toron_shared::checked::{AboveZero, Bound, Checked, Positive};
 use toron_shared::error::Error;
+use toron_shared::spanned::Spanned;
 use toron_shared::toml_file::Source;
 
 /// Weights beyond these leave nothing of the other sets, or of this one.

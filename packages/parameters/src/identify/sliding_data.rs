@@ -1,14 +1,13 @@
 //! Tests in which a section slides, from their files: a biaxial test, whose sides keep a pressure, or plates without
 //! sides.
 
-use toml::Spanned;
-
 use super::file::{DataFile, LoadingName};
 use super::friction::Sliding;
 use super::reader::{Reader, plain_name, wrong};
 use super::sliding::{Line, blocks, first_beyond};
 use toron::law::parameters::{NUMBER, STRESS};
 use toron_shared::error::Error;
+use toron_shared::spanned::Spanned;
 
 /// The last part of I_td's rise that counts where no range is given, and the parts of that whose scatter says how sure
 /// the mean is.

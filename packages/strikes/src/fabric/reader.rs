@@ -4,8 +4,6 @@ use std::f64::consts::PI;
 use std::path::Path;
 use std::sync::Arc;
 
-use toml::Spanned;
-
 use super::file::{PanelKeys, Rim, SceneFile, ShapeName};
 use super::scene::{Case, Scene, StrikerDensity};
 use crate::layers::{self, Case as CaseTables};
@@ -30,6 +28,7 @@ use toron_shared::checked::{Checked, Positive, value};
 use toron_shared::error::Error;
 use toron_shared::layers::entries;
 use toron_shared::numbers::number;
+use toron_shared::spanned::Spanned;
 use toron_shared::toml_file::{self, Numbers, Source};
 
 /// Samples of a history where the file does not say otherwise.

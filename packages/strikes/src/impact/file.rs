@@ -2,19 +2,20 @@
 
 use serde::Deserialize;
 use serde::de::IgnoredAny;
-use toml::Spanned;
 
 use super::scene::{Abscissa, Outputs};
 use crate::scene_keys::keys::{Keys, Table, Target};
 use crate::scene_keys::shots::ShotsFile;
 use toron_materials::material::of_law::LawName;
 use toron_shared::checked::{Checked, Positive, Whole};
+use toron_shared::spanned::Spanned;
 use toron_shared::toml_file::Unused;
 
 /// An element takes some 700 bytes: more do not fit most memories.
 pub const MOST_ELEMENTS: usize = 10_000_000;
 
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case")]
 pub enum SectionName {
     Ellipse,
@@ -22,6 +23,7 @@ pub enum SectionName {
 }
 
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case")]
 pub enum StrikerName {
     Cylinder,
@@ -29,33 +31,55 @@ pub enum StrikerName {
 }
 
 #[derive(Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(transform = toron_shared::schema::ordered::<Self>))]
 #[serde(deny_unknown_fields)]
 pub struct SceneFile {
+    /// For the pictures. Default: the file's name.
     pub title: Option<String>,
+    /// Of all values of the file, such as `mm-tonne-s`; [others](guides/load-paths.md#at-the-top).
     pub units: Spanned<String>,
+    /// The quantity over which the cases' residual speeds are plotted. Default: no such plot.
     pub abscissa: Option<Spanned<Abscissa>>,
     // Scene and cases are read in layers.
+    /// The [strike](reference/impact-files.md#scene).
+    #[cfg_attr(feature = "schema", schemars(with = "toron_shared::schema::Both<Keys, YarnKeys>", transform = toron_shared::schema::without(&["name"])))]
     #[serde(rename = "scene")]
     _scene: IgnoredAny,
+    /// A [series of shots](reference/v50-files.md#shots), which [`toron v50`](guides/v50.md) alone reads.
     pub shots: Option<ShotsFile>,
+    /// A case: its `name`, and the keys of `[scene]` in which it differs. Default: one, `scene`.
+    #[cfg_attr(feature = "schema", schemars(with = "Option<Vec<toron_shared::schema::Both<Keys, YarnKeys>>>", transform = toron_shared::schema::named))]
     #[serde(rename = "case")]
     _case: Option<Vec<IgnoredAny>>,
 }
 
 /// The keys of a yarn and of what strikes it.
 #[derive(Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(transform = toron_shared::schema::ordered::<Self>))]
 #[serde(rename_all = "kebab-case")]
 pub struct YarnKeys {
+    /// Of a `hybrid` yarn, which needs it: it is hyperelastic up to this distance from mid-span, in whole layers.
     pub hyperelastic_length: Option<Spanned<Positive>>,
+    /// Of the yarn. Default: `ellipse`.
     pub section: Option<SectionName>,
+    /// Half of the yarn between its clamps. Required.
     pub half_length: Option<Positive>,
+    /// Of the section, along the blow. Required.
     pub height: Option<Positive>,
+    /// Of the section, across the blow. Required.
     pub width: Option<Positive>,
+    /// Elements along half the yarn. Required.
     pub layers: Option<Whole<1, MOST_ELEMENTS>>,
+    /// Elements over the height. Required.
     pub rows: Option<Whole<1, MOST_ELEMENTS>>,
+    /// Elements across the width, two at least of an ellipse. Required.
     pub columns: Option<Spanned<Whole<1, MOST_ELEMENTS>>>,
+    /// Of `driven` the section at mid-span is moved at `speed`, and there is no `mass`, `radius`, `held`,
+    /// `contact-stiffness` and `friction`. Default: `cylinder`.
     striker: Option<StrikerName>,
+    /// `true` keeps the projectile's speed, and then no mass is needed. Default: `false`.
     pub held: Option<Spanned<bool>>,
+    /// With `stress`, energies and invariants are computed for the history only. Default: `full`.
     pub outputs: Option<Outputs>,
 }
 

@@ -2,8 +2,6 @@
 
 use std::path::Path;
 
-use toml::Spanned;
-
 use super::file::{MOST_ELEMENTS, SceneFile, SectionName, StrikerName, YarnKeys};
 use super::scene::{Abscissa, Case, Outputs, Scene, Striker};
 use crate::layers;
@@ -16,6 +14,7 @@ use toron_materials::material::laws::Laws;
 use toron_materials::units;
 use toron_shared::checked::{Checked, Whole, value};
 use toron_shared::error::Error;
+use toron_shared::spanned::Spanned;
 use toron_shared::toml_file::{self, Source};
 
 /// The files that cases have in common, by their names without the ending.

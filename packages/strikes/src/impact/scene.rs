@@ -28,6 +28,7 @@ pub struct Scene {
 
 /// A quantity in which cases differ.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case")]
 pub enum Abscissa {
     Elements,
@@ -62,6 +63,7 @@ pub enum Striker {
 
 /// The outputs of the law in every step.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case")]
 pub enum Outputs {
     /// Stress, energies, invariants.

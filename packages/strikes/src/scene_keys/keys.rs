@@ -4,7 +4,6 @@ use std::ops::Range;
 
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
-use toml::Spanned;
 use toml::de::DeValue;
 
 use super::zones::Zones;
@@ -24,6 +23,7 @@ use toron_materials::material::of_law::{
 use toron_materials::material::smith::strike_speed;
 use toron_shared::checked::{Checked, NotNegative, Positive, Whole, value};
 use toron_shared::error::Error;
+use toron_shared::spanned::Spanned;
 use toron_shared::toml_file::{Numbers, Source, Unused};
 
 /// Files for ParaView are numbered by four digits.
@@ -31,6 +31,7 @@ const MOST_FILES: usize = 9999;
 
 /// What ends a run before its time is over.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case")]
 pub enum Until {
     /// What strikes has stopped, or gone through.
@@ -42,6 +43,7 @@ pub enum Until {
 }
 
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case")]
 pub enum Precision {
     F64,
@@ -50,29 +52,64 @@ pub enum Precision {
 
 /// The common keys of a scene's table, or of a case's.
 #[derive(Clone, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(transform = toron_shared::schema::ordered::<Self>))]
 #[serde(rename_all = "kebab-case")]
 pub struct Keys {
+    /// In `[[case]]` alone: of the case and its files. Required.
     pub name: Option<Spanned<String>>,
+    /// `hybrid` is hyperelastic near the blow: up to `hyperelastic-length` from a yarn's mid-span, or
+    /// `hyperelastic-radius` from a panel's centre, and linear elastic elsewhere.
+    /// [`frictional`](guides/hosts.md#the-law-with-friction-between-the-fibres) has fibres that rub. Default:
+    /// `hyperelastic`.
     pub law: Option<LawName>,
+    /// `uniaxial` has α = β = 0. The linear law fails by its σ_lim with either. The limits and weights of the material
+    /// must be those that the failure uses. Default: `none`.
     pub failure: Option<Spanned<FailureName>>,
+    /// [Strength that scatters](reference/fabric-files.md#strength-that-scatters). Of a yarn it has no `warp` and
+    /// `weft`, and the yarn's other half has the mirrored strengths. Default: the material's.
     pub strength: Option<Spanned<StrengthFile>>,
+    /// The [material](guides/load-paths.md#material) of the hyperelastic law, with the fibre `[1, 0, 0]`: what differs
+    /// from the default yarn. A table that names a `preset` or a `law` inherits nothing. A case completes or overrides
+    /// the scene's table. Where any table of the scene names another yarn, all must name theirs. A material that no
+    /// case's law uses is refused. Default: `kevlar-km2-600`.
     pub hyperelastic: Option<Spanned<MaterialFile>>,
+    /// The same of the linear elastic law. Default: `kevlar-km2-600-linear`.
     pub linear_elastic: Option<Spanned<MaterialFile>>,
+    /// The same of the law with friction between the fibres. Default: `kevlar-km2-600-frictional`.
     pub frictional: Option<Spanned<MaterialFile>>,
+    /// The same of [a law of your own](guides/own-law.md#struck), in its program alone.
     pub material: Option<Spanned<MaterialFile>>,
+    /// Of what strikes; down along z on a panel. A speed that by Smith's theory stretches a yarn by more than 0.5 is
+    /// refused. Required.
     pub speed: Option<Spanned<Positive>>,
+    /// Of the whole projectile or striker. Required.
     pub mass: Option<Spanned<Positive>>,
+    /// Of the projectile or striker. Required.
     pub radius: Option<Spanned<Positive>>,
+    /// Coulomb friction coefficient, of what strikes and the yarns. Default: 0 on a yarn, 0.23 on a panel.
     pub friction: Option<Spanned<NotNegative>>,
+    /// Pressure per depth of penetration, of all contact; for Kevlar 10⁵ MPa/mm or more. Required.
     pub contact_stiffness: Option<Spanned<Positive>>,
+    /// Coefficient of hourglass control. Default: 0.1.
     pub hourglass: Option<NotNegative>,
+    /// Coefficients of viscosity: linear, quadratic, and for the section's shape. Default: `[0.06, 1.5, 0.2]`.
     pub viscosity: Option<Numbers<3, NotNegative>>,
+    /// Latest time at which the run ends. Required.
     pub end: Option<Positive>,
+    /// What ends the run before `end`. A run on a panel ends always when the striker has gone through; with `stopped`
+    /// and `decided` also when it turns back, and with `decided` also [as soon as it is
+    /// certain](design/explicit-host.md#a-fate-that-is-decided) that it goes through. One on a yarn ends with `stopped`
+    /// when the projectile turns back. Default: `stopped`.
     pub until: Option<Until>,
+    /// Time between two lines of the history, up to `end`. Default: `end`/600 of a yarn, `end`/400 of a panel.
     pub sample: Option<Spanned<Positive>>,
+    /// Times at which the yarn or the panel is drawn. Default: none.
     pub pictures: Option<Spanned<Vec<f64>>>,
+    /// Number of VTU files, for ParaView, up to `end`; a panel has one of the start too. Default: none.
     pub frames: Option<Whole<0, MOST_FILES>>,
+    /// How many checkpoints are written, at equal intervals, and one more if the run ends before. Default: 0.
     pub checkpoints: Option<Whole<0, MOST_FILES>>,
+    /// Of the computation. Default: `f64`.
     pub precision: Option<Precision>,
 }
 
@@ -89,7 +126,7 @@ pub trait Target: DeserializeOwned {
 }
 
 impl<T: Target> CaseTable for Table<T> {
-    fn read(source: &Source, table: &Spanned<DeValue>) -> Result<Table<T>, Error> {
+    fn read(source: &Source, table: &toml::Spanned<DeValue>) -> Result<Table<T>, Error> {
         let mut table = table.clone();
         if let DeValue::Table(keys) = table.get_mut()
             && let Some(strength) = keys.get_mut("strength")

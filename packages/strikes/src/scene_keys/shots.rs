@@ -2,13 +2,13 @@
 //! `docs/guides/v50.md` has the keys; `toron v50` fires them.
 
 use serde::Deserialize;
-use toml::Spanned;
 
 use crate::v50::designs::OF_RANGE;
 use toron::host::units::UnitSystem;
 use toron_materials::material::model::Material;
 use toron_shared::checked::{Checked, NotNegative, Positive, value};
 use toron_shared::error::Error;
+use toron_shared::spanned::Spanned;
 use toron_shared::toml_file::{Numbers, Source};
 
 /// Shots of a series, at most: files number them.
@@ -27,23 +27,42 @@ const TOLERANCE: f64 = 0.02;
 const LEAST_TOLERANCE: f64 = 1e-9;
 
 #[derive(Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(transform = toron_shared::schema::ordered::<Self>))]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct ShotsFile {
+    /// Of shots, 2 or more.
     number: Spanned<i64>,
+    /// The slowest and the fastest: the range, in which V50 should be.
     speeds: Spanned<Numbers<2>>,
+    /// How the speeds are [chosen](guides/v50.md#designs). Default: `langlie`.
     design: Option<DesignName>,
+    /// Speed, of `up-and-down`; up to the whole range. Default: a tenth of the range.
     step: Option<Spanned<Positive>>,
+    /// First guess of the limit speed's standard deviation, for `d-optimal` and `3pod`, there up to a sixth of the
+    /// range. Default: an eighth of the range.
     deviation: Option<Spanned<Positive>>,
+    /// Standard deviation of a shot's speed, up to half of the range. No shot is slower than a tenth of what it was to
+    /// be. Default: 0.
     scatter: Option<Spanned<NotNegative>>,
+    /// `fixed` is where the scene aims. `cell` is anywhere in one repeat of the pattern about that place (of a `[mesh]`
+    /// two pitches each way), all places alike; its corners must lie within the panel. A quarter is struck in its
+    /// middle alone. Default: `fixed`.
     aim: Option<AimName>,
+    /// Of all that is chance. Default: 1.
     seed: Option<u64>,
+    /// How many times the scene's `end` a shot may take, 1 to 100. Default: 2.
     extension: Option<Spanned<Positive>>,
+    /// Width of the bracket of `--limit`, a speed: 10⁻⁹ of the fastest one or more, and less than the range. Default: a
+    /// fiftieth of the range.
     tolerance: Option<Spanned<Positive>>,
+    /// Range of speeds within which the mean of [test houses](guides/v50.md#what-test-houses-print) is taken. Default:
+    /// none.
     spread: Option<Positive>,
 }
 
 /// How the speeds are chosen.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case")]
 pub enum DesignName {
     Even,
@@ -57,6 +76,7 @@ pub enum DesignName {
 
 /// Where shots meet the panel.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case")]
 pub enum AimName {
     /// Where the scene aims.

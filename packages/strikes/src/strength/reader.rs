@@ -2,8 +2,6 @@
 
 use std::ops::Range;
 
-use toml::Spanned;
-
 use super::field::Field;
 use super::file::{LawFile, StrengthFile};
 use super::scatter::Strength;
@@ -13,6 +11,7 @@ use toron_materials::material::of_law::LawName;
 use toron_shared::checked::{Checked, Positive, value};
 use toron_shared::error::Error;
 use toron_shared::numbers::number;
+use toron_shared::spanned::Spanned;
 
 /// The seed where the file gives none.
 const SEED: u64 = 1;

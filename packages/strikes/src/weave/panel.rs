@@ -14,6 +14,7 @@ pub enum Outline {
 }
 
 #[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Eq)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case")]
 pub enum Part {
     #[default]
@@ -24,6 +25,7 @@ pub enum Part {
 
 /// What lies at the origin.
 #[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Eq)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case")]
 pub enum Centre {
     /// Of the first warp and the first weft yarn of the pattern.

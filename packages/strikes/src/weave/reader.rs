@@ -3,8 +3,6 @@
 use std::ops::Range;
 use std::path::Path;
 
-use toml::Spanned;
-
 use super::cloth::Cloth;
 use super::coarse::{Coarse, ROWS as COARSE_ROWS};
 use super::file::{PanelFile, PatternFile, PlyTables, SceneFile, ShapeName, ThreadFile, WeaveFile};
@@ -23,6 +21,7 @@ use toron_materials::material::model::Material;
 use toron_materials::units::{self, LENGTH};
 use toron_shared::checked::{Checked, Positive, value};
 use toron_shared::error::Error;
+use toron_shared::spanned::Spanned;
 use toron_shared::toml_file::{self, Source};
 
 /// A panel whose weave is solved, ready to be meshed.

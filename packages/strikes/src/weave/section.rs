@@ -6,6 +6,7 @@ use serde::Deserialize;
 
 /// The outline of a section.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case")]
 pub enum Section {
     Ellipse,

@@ -5,7 +5,6 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
-use toml::Spanned;
 
 use crate::identify::reader::plain_name;
 use toron::law::parameters::{Dimension, NUMBER, Property};
@@ -17,6 +16,7 @@ use toron_materials::units::{self, TIME};
 use toron_shared::checked::{Checked, Positive};
 use toron_shared::error::Error;
 use toron_shared::nearest;
+use toron_shared::spanned::Spanned;
 use toron_shared::toml_file::{self, Numbers, Source};
 use toron_strikes::impact::outcome::OfYarn;
 use toron_strikes::impact::scene::{Case, Scene, Zones};

@@ -5,7 +5,6 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
-use toml::Spanned;
 
 use crate::identify::file::FitFile;
 use crate::identify::reader::plain_name;
@@ -16,6 +15,7 @@ use toron_materials::units::{self, LENGTH};
 use toron_shared::checked::{Positive, value};
 use toron_shared::error::Error;
 use toron_shared::nearest::nearest;
+use toron_shared::spanned::Spanned;
 use toron_shared::toml_file::{self, Source};
 use toron_strikes::strength::fit::{self, Fit, Test};
 use toron_strikes::strength::scales::{self, ScaleFit};

@@ -2,8 +2,6 @@
 
 use std::fmt;
 
-use toml::Spanned;
-
 use super::checks::Checks;
 use super::crimp::Paths;
 use super::file::MeshFile;
@@ -20,6 +18,7 @@ use toron_shared::checked::value;
 use toron_shared::error::Error;
 use toron_shared::keyword_file::files::text;
 use toron_shared::numbers::number;
+use toron_shared::spanned::Spanned;
 use toron_shared::toml_file::Source;
 
 /// Volume over area of woven fabrics in m: ten times less and more than the thinnest and the thickest ones.
