@@ -19,7 +19,7 @@ use super::toml_file::Numbers;
 pub const ORDER: &str = "x-order";
 
 /// Gives the schema of this struct the order of its fields.
-pub fn ordered<T: DeserializeOwned>(schema: &mut Schema) {
+pub fn order<T: DeserializeOwned>(schema: &mut Schema) {
     schema.insert(ORDER.to_string(), field_names::<T>().into());
 }
 

@@ -1,7 +1,7 @@
 //! The known answers of an input file, `[[expect]]`.
 
 use serde::Deserialize;
-use toml::Spanned;
+use toron_shared::spanned::Spanned;
 
 use super::expect::Expected;
 use toron_shared::checked::{Positive, value};

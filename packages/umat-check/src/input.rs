@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
-use toml::Spanned;
+use toron_shared::spanned::Spanned;
 
 use super::expect::Expected;
 use super::finding::Question;

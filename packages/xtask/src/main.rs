@@ -11,7 +11,7 @@ use std::process::{Command, ExitCode};
 type Tests = (&'static str, &'static str, &'static str);
 
 /// What the files are, which ones, and the tests that write them, each after those that it reads from.
-const KINDS: [(&str, &str, &[Tests]); 8] = [
+const KINDS: [(&str, &str, &[Tests]); 9] = [
     (
         "answers",
         "what every entry answers, bit for bit: c/tests/c/answers.txt, packages/materials/tests/materials/answers/",
@@ -36,6 +36,11 @@ const KINDS: [(&str, &str, &[Tests]); 8] = [
         "headers",
         "include/toron.h, include/toron.f90, examples/own_law/reinforced.h",
         &[("toron-c", "c", "header::"), ("toron-c", "c", "fortran_module::"), ("toron-c", "c", "own_law::")],
+    ),
+    (
+        "keys",
+        "schemas of files, program/assets/schema/, and tables of keys in docs/",
+        &[("toron-keys", "keys", "_are_current")],
     ),
     ("licences", "THIRD-PARTY.md", &[("toron-program", "program", "licences::")]),
     (

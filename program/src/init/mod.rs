@@ -13,23 +13,35 @@ use toron_shared::error::Error;
 use toron_shared::text_table::plain_table;
 use toron_shared::{folder, kept_file, nearest, shell};
 
-/// A scene and the command that runs it.
+/// A scene, the command that runs it, and the schema of such files.
 struct Start {
     name: &'static str,
     command: &'static str,
     text: &'static str,
+    schema: &'static str,
+}
+
+macro_rules! start {
+    ($name:literal, $command:literal, $schema:literal) => {
+        Start {
+            name: $name,
+            command: $command,
+            text: include_str!(concat!("../../assets/init/", $name, ".toml")),
+            schema: include_str!(concat!("../../assets/schema/", $schema, ".json")),
+        }
+    };
 }
 
 /// In the order of the commands.
 static STARTS: [Start; 8] = [
-    Start { name: "data-sheet", command: "fit", text: include_str!("../../assets/init/data-sheet.toml") },
-    Start { name: "path", command: "run", text: include_str!("../../assets/init/path.toml") },
-    Start { name: "weave", command: "weave", text: include_str!("../../assets/init/weave.toml") },
-    Start { name: "fabric", command: "fabric", text: include_str!("../../assets/init/fabric.toml") },
-    Start { name: "yarn", command: "impact", text: include_str!("../../assets/init/yarn.toml") },
-    Start { name: "v50", command: "v50", text: include_str!("../../assets/init/v50.toml") },
-    Start { name: "fibres", command: "fibres", text: include_str!("../../assets/init/fibres.toml") },
-    Start { name: "cell", command: "cell", text: include_str!("../../assets/init/cell.toml") },
+    start!("data-sheet", "fit", "fit"),
+    start!("path", "run", "run"),
+    start!("weave", "weave", "weave"),
+    start!("fabric", "fabric", "fabric"),
+    start!("yarn", "impact", "impact"),
+    start!("v50", "v50", "fabric"),
+    start!("fibres", "fibres", "fibres"),
+    start!("cell", "cell", "cell"),
 ];
 
 /// The yarn that scenes are of, and the built-in one that it is a copy of.
@@ -45,13 +57,16 @@ pub struct Arguments {
     /// Where the files go; without it, the current folder.
     #[arg(short, long)]
     output: Option<PathBuf>,
+    /// Write its schema beside it, by which editors complete, explain and check keys.
+    #[arg(long, requires = "name")]
+    schema: bool,
 }
 
 /// Lists the scenes, or writes one, with its yarn.
 ///
 /// # Errors
 /// There is no such scene, or a file cannot be written.
-pub fn run(Arguments { name, output }: &Arguments) -> Result<(), Error> {
+pub fn run(Arguments { name, output, schema }: &Arguments) -> Result<(), Error> {
     let Some(name) = name else {
         print(&list());
         return Ok(());
@@ -62,11 +77,18 @@ pub fn run(Arguments { name, output }: &Arguments) -> Result<(), Error> {
         Error::Input(format!("init {name}{hint}; allowed: {}", names.join(", ")))
     })?;
     output.as_deref().map_or(Ok(()), folder::create)?;
-    let place = |name: &str| output.as_deref().unwrap_or(Path::new("")).join(format!("{name}.toml"));
-    let scene = place(start.name);
-    kept_file::write(&scene, |file| file.write_all(start.text.as_bytes()))?;
+    let place = |name: &str| output.as_deref().unwrap_or(Path::new("")).join(name);
+    let scene = place(&format!("{}.toml", start.name));
     let mut written = vec![scene.clone()];
-    let yarn = place(YARN);
+    let mut text = start.text.to_string();
+    if *schema {
+        let name = format!("{}.schema.json", start.name);
+        text.insert_str(0, &format!("#:schema ./{name}\n"));
+        kept_file::write(&place(&name), |file| file.write_all(start.schema.as_bytes()))?;
+        written.push(place(&name));
+    }
+    kept_file::write(&scene, |file| file.write_all(text.as_bytes()))?;
+    let yarn = place(&format!("{YARN}.toml"));
     if start.text.contains(&format!("\"{YARN}.toml\"")) {
         // A yarn of the user's own stays.
         if !yarn.exists() {

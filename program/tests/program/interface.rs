@@ -118,6 +118,21 @@ fn a_scene_comes_with_its_yarn() {
     assert!(unknown.contains("init fabrik, did you mean fabric?; allowed: data-sheet, path, "), "{unknown}");
 }
 
+/// An editor finds the schema by the scene's first line, without a network; toron takes the line for a comment.
+#[test]
+fn a_scene_comes_with_its_schema_if_that_is_asked_for() {
+    let folder = folder("schema");
+    let [out, _] = said(&folder, &["init", "weave", "--schema"]);
+    assert!(out.starts_with("weave.toml, weave.schema.json, my-yarn.toml\n"), "{out}");
+    let scene = std::fs::read_to_string(folder.join("weave.toml")).expect("the scene");
+    assert_eq!(scene.lines().next(), Some("#:schema ./weave.schema.json"));
+    let schema = std::fs::read_to_string(folder.join("weave.schema.json")).expect("the schema");
+    let schema: Value = serde_json::from_str(&schema).expect("JSON");
+    assert!(schema["properties"]["weave"].is_object() && schema["additionalProperties"] == false, "{schema}");
+    said(&folder, &["weave", "weave.toml", "-o", "out"]);
+    assert!(refused(&folder, &["init", "--schema"]).contains("<NAME>"));
+}
+
 /// One structure for all commands: tables of headings and rows, and the other lines.
 #[test]
 fn tables_are_printed_as_json() {

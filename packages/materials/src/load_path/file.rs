@@ -27,53 +27,79 @@ use toron_shared::toml_file::{self, Numbers, Source};
 const MOST_INCREMENTS: usize = 1_000_000;
 
 #[derive(Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(transform = toron_shared::schema::order::<Self>))]
 #[serde(deny_unknown_fields)]
-struct PathFile {
+pub struct PathFile {
+    /// Heading of summary and plot. Default: the file's name.
     title: Option<String>,
+    /// Of all input and output: `si`, `mm-tonne-s`, `mm-kg-ms`, `cm-g-us`, `in-slinch-s`, or any length (m cm mm um in
+    /// ft), mass (kg g mg t (tonne) slug slinch) and time (s ms us ns), joined by `-`.
     units: Spanned<String>,
+    /// Edge lengths. Default: `[1, 1, 1]`.
     element: Option<Numbers<3, Positive>>,
+    /// For a law of your own that reads it, and then needs it.
     temperature: Option<Spanned<f64>>,
+    /// The [material](guides/load-paths.md#material) of the points.
     #[serde(rename = "material")]
     _material: Option<MaterialFile>,
+    /// [Points](guides/load-paths.md#point) that run the path side by side. Default: one.
     #[serde(default)]
     point: Vec<Spanned<PointFile>>,
+    /// The [steps](guides/load-paths.md#step) of the path.
     #[serde(default)]
     step: Vec<Spanned<StepFile>>,
+    /// What is [plotted](guides/load-paths.md#plot).
     #[serde(default)]
     plot: PlotFile,
 }
 
 #[derive(Default, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(transform = toron_shared::schema::order::<Self>))]
 #[serde(deny_unknown_fields)]
 struct PlotFile {
+    /// The column on the horizontal axis. Default: `time`.
     abscissa: Option<Spanned<String>>,
 }
 
 #[derive(Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(transform = toron_shared::schema::order::<Self>))]
 #[serde(deny_unknown_fields)]
 struct PointFile {
+    /// Of the point and its files.
     name: Spanned<String>,
+    /// What completes or overrides `[material]`. A table with its own `preset` or `law` takes nothing from
+    /// `[material]`.
     #[serde(rename = "material")]
     _material: Option<MaterialFile>,
 }
 
 #[derive(Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(transform = toron_shared::schema::order::<Self>))]
 #[serde(deny_unknown_fields)]
 struct StepFile {
+    /// For messages. Default: none.
     name: Option<String>,
+    /// Equal parts of the step, each a line of the table. Default: 1.
     increments: Option<Spanned<usize>>,
+    /// Time of the step, for a law of your own that reads it. Default: 1.
     duration: Option<Positive>,
+    /// Components of F at the end of the step, by `11` … `33`; `"hold"` keeps the value.
     #[serde(default, rename = "F")]
     gradient: BTreeMap<Spanned<String>, Spanned<TargetFile>>,
+    /// Components of P at the end of the step.
     #[serde(default, rename = "P")]
     stress: BTreeMap<Spanned<String>, Spanned<f64>>,
+    /// Turns the element in space, on top of F, about an axis `[x, y, z]` by an angle in degrees. Default: none.
     rotation: Option<Spanned<RotationFile>>,
+    /// Of a group: how often its steps are repeated.
     cycles: Option<Spanned<usize>>,
+    /// Of a group: its steps, which may be groups again.
     #[serde(default)]
     step: Vec<Spanned<StepFile>>,
 }
 
 #[derive(Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(untagged, expecting = "expected a number or \"hold\"")]
 enum TargetFile {
     Number(f64),
@@ -81,16 +107,19 @@ enum TargetFile {
 }
 
 #[derive(Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
 enum Word {
     Hold,
 }
 
 #[derive(Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(transform = toron_shared::schema::order::<Self>))]
 #[serde(deny_unknown_fields)]
 struct RotationFile {
+    /// Of any length.
     axis: Numbers<3>,
-    /// Degrees.
+    /// In degrees.
     angle: f64,
 }
 

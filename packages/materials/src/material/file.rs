@@ -33,7 +33,7 @@ pub const DROPS: [Drops; 2] = [
 
 /// A table that describes a material.
 #[derive(Clone, Default, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(transform = toron_shared::schema::ordered::<Self>))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(transform = toron_shared::schema::order::<Self>))]
 #[serde(deny_unknown_fields)]
 pub struct MaterialFile {
     /// A yarn by name (`toron params` lists them), or [a file of your own](guides/load-paths.md#a-preset-of-your-own),

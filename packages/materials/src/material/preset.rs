@@ -91,15 +91,26 @@ fn spread<X: Copy>(places: &[usize], from: &[Option<X>], law: LawName) -> Vec<Op
 }
 
 #[derive(Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(transform = toron_shared::schema::order::<Self>))]
 #[serde(deny_unknown_fields)]
-struct PresetFile {
+pub struct PresetFile {
+    /// Up to 80 letters, digits and `-` `_` `.`, and not the name of a built-in preset. Default: the file's name
+    /// without `.toml`.
     name: Option<Spanned<String>>,
+    /// Where the values come from, in one line; decks have it as a comment. Default: the name.
     source: Option<Spanned<String>>,
+    /// Of `density` and `[properties]`, such as `mm-tonne-s`; [others](guides/load-paths.md#at-the-top).
     units: Spanned<String>,
+    /// As in [`[material]`](guides/load-paths.md#material). Default: `hyperelastic`.
+    #[cfg_attr(feature = "schema", schemars(with = "Option<String>"))]
     law: Option<Spanned<LawText>>,
+    /// Reference density. Default: the material's table may give it.
     density: Option<Positive>,
+    /// Values by name. Default: the material's table may give them; else the property's default.
     #[serde(default)]
     properties: BTreeMap<Spanned<String>, Spanned<f64>>,
+    /// Values that nobody has measured on this yarn, each with where it comes from, `k_td = "half of Kevlar's"`; cards
+    /// and decks name them. Default: none.
     #[serde(default)]
     guesses: BTreeMap<Spanned<String>, Spanned<String>>,
 }

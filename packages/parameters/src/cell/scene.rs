@@ -58,6 +58,7 @@ impl Arrangement {
 
 /// What the section is taken through; x is along the rows, y across them.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case")]
 pub enum Load {
     /// F = diag(1, λ, λ): I_tc = ln λ.

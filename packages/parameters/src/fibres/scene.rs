@@ -139,6 +139,7 @@ impl SectionLaw {
 
 /// The walls of a box around the section, and which of them close.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case")]
 pub enum Walls {
     /// All four.

@@ -58,18 +58,28 @@ fn diameter(solid: f64, filaments: u32) -> f64 {
 }
 
 #[derive(Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(transform = toron_shared::schema::order::<Self>))]
 #[serde(deny_unknown_fields)]
 pub(super) struct DataSheetFile {
+    /// `"1.44 g/cm³"`, of the fibre; times the volume fraction it is the yarn's.
     density: Spanned<String>,
+    /// `"720 cN/dtex"`, `"885 g/den"`, `"112 GPa"`.
     modulus: Spanned<String>,
+    /// Standard deviation of the modulus, `"6 N/tex"`. Default: exact.
     modulus_deviation: Option<Spanned<String>>,
+    /// `"2.4 %"`.
     elongation_at_break: Spanned<String>,
+    /// `"208 cN/tex"`, `"23.6 g/den"`, `"3.6 GPa"`: compared with modulus and elongation. Default: not compared.
     tenacity: Option<Spanned<String>>,
+    /// `"1270 dtex"`, `"1140 den"`: for the sections in the summary.
     linear_density: Option<Spanned<String>>,
+    /// `768`: for the filaments' diameter in the summary.
     filaments: Option<Spanned<u32>>,
+    /// Of the fibres in the yarn, `0.9`; this or `area` is needed.
     volume_fraction: Option<Spanned<Positive>>,
+    /// Standard deviation of the volume fraction, `0.03`. Default: exact.
     volume_fraction_deviation: Option<Positive>,
-    /// Of the yarn's section, voids included.
+    /// Of the yarn's section with its voids, `"0.098 mm²"`, beside `linear_density`.
     area: Option<Spanned<String>>,
 }
 

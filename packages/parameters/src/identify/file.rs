@@ -34,18 +34,27 @@ use toron_shared::toml_file::{self, Numbers, Source};
 const SAME_DENSITY: f64 = 0.005;
 
 #[derive(Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(transform = toron_shared::schema::order::<Self>))]
 #[serde(deny_unknown_fields)]
-pub(super) struct FitFile {
+pub struct FitFile {
+    /// Heading of summary and plot. Default: the yarn's name.
     pub title: Option<String>,
+    /// Of all numbers in this file and of the preset, such as `mm-tonne-s`; [others](guides/load-paths.md#at-the-top).
     pub units: Spanned<String>,
+    /// How [intervals](reference/fit-files.md#intervals) are found; `linearised` is faster. Default: `profile`.
     #[serde(default)]
     intervals: Intervals,
+    /// The [yarn](reference/fit-files.md#yarn).
     #[serde(default)]
     yarn: YarnFile,
+    /// The [fibre](reference/fit-files.md#fibre), for k_el by energetic equivalence and ε_lim.
     fibre: Option<Spanned<FibreFile>>,
+    /// The fibre's [data sheet](reference/fit-files.md#data_sheet), in place of `[fibre]`.
     data_sheet: Option<Spanned<DataSheetFile>>,
+    /// [Data](reference/fit-files.md#data).
     #[serde(default)]
     data: Vec<Spanned<DataFile>>,
+    /// [Strengths](reference/fit-files.md#strength), in a file of their own with `title` and `units`.
     #[serde(default)]
     pub strength: Vec<Spanned<SetFile>>,
 }
@@ -63,6 +72,7 @@ impl FitFile {
 
 /// How the intervals of the law's properties are found.
 #[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Eq)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case")]
 pub enum Intervals {
     #[default]
@@ -72,48 +82,78 @@ pub enum Intervals {
 
 /// The yarn: what the preset that comes out says of it, and the values that are known.
 #[derive(Default, Deserialize, PartialEq)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(transform = toron_shared::schema::order::<Self>))]
 #[serde(deny_unknown_fields)]
 struct YarnFile {
+    /// Of the preset and its file. Default: `my-yarn`.
     name: Option<Spanned<String>>,
+    /// Where the values come from, kept in the preset. Default: the title.
     source: Option<Spanned<String>>,
+    /// Of the yarn; refused beside a data sheet's if it is not the same. Default: the base preset's, or none.
     density: Option<Spanned<Positive>>,
+    /// A base preset. Its values are guesses for what neither data nor `properties` tell. One with friction keeps its
+    /// law, `mu` and `cohesion`. Default: such properties stay open.
     preset: Option<Spanned<String>>,
+    /// Values that are known, by name: they are not fitted.
     #[serde(default)]
     properties: BTreeMap<Spanned<String>, Spanned<f64>>,
 }
 
 #[derive(Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(transform = toron_shared::schema::order::<Self>))]
 #[serde(deny_unknown_fields)]
 struct FibreFile {
+    /// Along the fibre.
     modulus: Positive,
+    /// Of fibres in the yarn.
     volume_fraction: Fraction,
+    /// Of the fibre.
     strain_at_failure: Fraction,
+    /// Standard deviation of the modulus, for the interval of k_el. Default: exact.
     modulus_deviation: Option<Positive>,
+    /// Standard deviation of the volume fraction, for the interval of k_el. Default: exact.
     volume_fraction_deviation: Option<Positive>,
+    /// Standard deviation of the strain at failure, for the interval of ε_lim. Default: exact.
     strain_at_failure_deviation: Option<Positive>,
 }
 
 /// A data set.
 #[derive(Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(transform = toron_shared::schema::order::<Self>))]
 #[serde(deny_unknown_fields)]
 pub(super) struct DataFile {
+    /// Of the set: letters, digits and `- _ .`. Default: `data-1`, ….
     pub name: Option<Spanned<String>>,
+    /// A CSV file, relative to this one.
     pub file: Spanned<String>,
+    /// See below. Default: `path`.
     pub loading: Option<Spanned<LoadingName>>,
+    /// The load path of `toron run` of the data. Default: `loading`.
     pub path: Option<Spanned<String>>,
+    /// The quantity, see below. Default: the first known one among the columns.
     pub abscissa: Option<Spanned<String>>,
+    /// The quantity, see below. Default: the first known one among the columns.
     pub ordinate: Option<Spanned<String>>,
+    /// `{ strain = "Extensometer" }`: the column of a quantity. Default: the quantity's name.
     #[serde(default)]
     pub columns: BTreeMap<Spanned<String>, Spanned<String>>,
+    /// Of the specimen at rest along the displacement (its height, where it is pressed); needed for `displacement`
+    /// only.
     pub length: Option<Spanned<Positive>>,
+    /// On which a force acts, at rest: the section, or the pressed face; needed for `force` only.
     pub area: Option<Spanned<Positive>>,
-    /// Where on the abscissa the specimen is at rest: the slack that a test begins with.
+    /// The abscissa at rest; `range` counts from there. Default: 0; of a tensile test, where it begins beyond its toe.
     pub zero: Option<Spanned<f64>>,
+    /// `[from, to]` of the abscissa. Default: all.
     pub range: Option<Spanned<Numbers<2>>>,
+    /// Standard deviation of the ordinates: a number or a column's name. Default: estimated from the residuals.
     pub deviation: Option<Spanned<DeviationFile>>,
+    /// Multiplies the squares of this set, 10⁻⁶ to 10⁶. Default: 1.
     pub weight: Option<Spanned<f64>>,
+    /// The parameters fitted to this set. `["k_tc", "p", "k_td"]` fits compression together with compaction. Default:
+    /// [by the loading](guides/identification.md#from-curves).
     pub fits: Option<Vec<Spanned<String>>>,
-    /// Why the whole set is left out.
+    /// Why the whole set is left out; the summary repeats it. Default: the set counts.
     excluded: Option<Spanned<String>>,
 }
 
@@ -125,6 +165,7 @@ impl DataFile {
 }
 
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case")]
 pub(super) enum LoadingName {
     Elongation,
@@ -138,6 +179,7 @@ pub(super) enum LoadingName {
 
 /// A standard deviation of all ordinates, or the column that has one for each.
 #[derive(Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(untagged, expecting = "expected a number or the name of a column")]
 pub(super) enum DeviationFile {
     Number(f64),

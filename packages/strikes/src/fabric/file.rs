@@ -13,7 +13,7 @@ use toron_shared::spanned::Spanned;
 use toron_shared::toml_file::{Numbers, Unused};
 
 #[derive(Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(transform = toron_shared::schema::ordered::<Self>))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(transform = toron_shared::schema::order::<Self>))]
 #[serde(deny_unknown_fields)]
 pub struct SceneFile {
     /// For the pictures. Default: the file's name.
@@ -41,14 +41,17 @@ pub struct SceneFile {
     pub shots: Option<ShotsFile>,
     /// A case: its `name`, and the keys of `[scene]`, `[weave]`, `[[ply]]` and `[mesh]` in which it differs. Default:
     /// one, `scene`.
-    #[cfg_attr(feature = "schema", schemars(with = "Option<Vec<toron_shared::schema::Both<Keys, PanelKeys>>>", transform = toron_shared::schema::named))]
+    #[cfg_attr(feature = "schema", schemars(
+        with = "Option<Vec<toron_shared::schema::Both<Keys, PanelKeys>>>",
+        transform = toron_shared::schema::named
+    ))]
     #[serde(rename = "case")]
     _case: Option<Vec<IgnoredAny>>,
 }
 
 /// The keys of a panel and of what strikes it.
 #[derive(Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(transform = toron_shared::schema::ordered::<Self>))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(transform = toron_shared::schema::order::<Self>))]
 #[serde(rename_all = "kebab-case")]
 pub struct PanelKeys {
     /// In `[[case]]` alone: keys of [`[weave]`](reference/fabric-files.md#weave) in which the case differs. With a

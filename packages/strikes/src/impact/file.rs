@@ -31,7 +31,7 @@ pub enum StrikerName {
 }
 
 #[derive(Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(transform = toron_shared::schema::ordered::<Self>))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(transform = toron_shared::schema::order::<Self>))]
 #[serde(deny_unknown_fields)]
 pub struct SceneFile {
     /// For the pictures. Default: the file's name.
@@ -42,20 +42,26 @@ pub struct SceneFile {
     pub abscissa: Option<Spanned<Abscissa>>,
     // Scene and cases are read in layers.
     /// The [strike](reference/impact-files.md#scene).
-    #[cfg_attr(feature = "schema", schemars(with = "toron_shared::schema::Both<Keys, YarnKeys>", transform = toron_shared::schema::without(&["name"])))]
+    #[cfg_attr(feature = "schema", schemars(
+        with = "toron_shared::schema::Both<Keys, YarnKeys>",
+        transform = toron_shared::schema::without(&["name"])
+    ))]
     #[serde(rename = "scene")]
     _scene: IgnoredAny,
     /// A [series of shots](reference/v50-files.md#shots), which [`toron v50`](guides/v50.md) alone reads.
     pub shots: Option<ShotsFile>,
     /// A case: its `name`, and the keys of `[scene]` in which it differs. Default: one, `scene`.
-    #[cfg_attr(feature = "schema", schemars(with = "Option<Vec<toron_shared::schema::Both<Keys, YarnKeys>>>", transform = toron_shared::schema::named))]
+    #[cfg_attr(feature = "schema", schemars(
+        with = "Option<Vec<toron_shared::schema::Both<Keys, YarnKeys>>>",
+        transform = toron_shared::schema::named
+    ))]
     #[serde(rename = "case")]
     _case: Option<Vec<IgnoredAny>>,
 }
 
 /// The keys of a yarn and of what strikes it.
 #[derive(Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(transform = toron_shared::schema::ordered::<Self>))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(transform = toron_shared::schema::order::<Self>))]
 #[serde(rename_all = "kebab-case")]
 pub struct YarnKeys {
     /// Of a `hybrid` yarn, which needs it: it is hyperelastic up to this distance from mid-span, in whole layers.

@@ -52,7 +52,7 @@ pub enum Precision {
 
 /// The common keys of a scene's table, or of a case's.
 #[derive(Clone, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(transform = toron_shared::schema::ordered::<Self>))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(transform = toron_shared::schema::order::<Self>))]
 #[serde(rename_all = "kebab-case")]
 pub struct Keys {
     /// In `[[case]]` alone: of the case and its files. Required.
@@ -68,10 +68,10 @@ pub struct Keys {
     /// [Strength that scatters](reference/fabric-files.md#strength-that-scatters). Of a yarn it has no `warp` and
     /// `weft`, and the yarn's other half has the mirrored strengths. Default: the material's.
     pub strength: Option<Spanned<StrengthFile>>,
-    /// The [material](guides/load-paths.md#material) of the hyperelastic law, with the fibre `[1, 0, 0]`: what differs
-    /// from the default yarn. A table that names a `preset` or a `law` inherits nothing. A case completes or overrides
-    /// the scene's table. Where any table of the scene names another yarn, all must name theirs. A material that no
-    /// case's law uses is refused. Default: `kevlar-km2-600`.
+    /// The [material](guides/load-paths.md#material) of the hyperelastic law: what differs from the default yarn. The
+    /// fibre of a struck yarn is `[1, 0, 0]`. A table that names a `preset` or a `law` inherits nothing. A case
+    /// completes or overrides the scene's table. Where any table of the scene names another yarn, all must name theirs.
+    /// A material that no case's law uses is refused. Default: `kevlar-km2-600`.
     pub hyperelastic: Option<Spanned<MaterialFile>>,
     /// The same of the linear elastic law. Default: `kevlar-km2-600-linear`.
     pub linear_elastic: Option<Spanned<MaterialFile>>,
@@ -98,14 +98,14 @@ pub struct Keys {
     pub end: Option<Positive>,
     /// What ends the run before `end`. A run on a panel ends always when the striker has gone through; with `stopped`
     /// and `decided` also when it turns back, and with `decided` also [as soon as it is
-    /// certain](design/explicit-host.md#a-fate-that-is-decided) that it goes through. One on a yarn ends with `stopped`
-    /// when the projectile turns back. Default: `stopped`.
+    /// certain](design/explicit-host.md#a-fate-that-is-decided) that it goes through. One on a yarn has `stopped`,
+    /// until the projectile turns back, or `end`. Default: `stopped`.
     pub until: Option<Until>,
     /// Time between two lines of the history, up to `end`. Default: `end`/600 of a yarn, `end`/400 of a panel.
     pub sample: Option<Spanned<Positive>>,
     /// Times at which the yarn or the panel is drawn. Default: none.
     pub pictures: Option<Spanned<Vec<f64>>>,
-    /// Number of VTU files, for ParaView, up to `end`; a panel has one of the start too. Default: none.
+    /// Number of VTU files, for ParaView, after the one of the start. Default: none.
     pub frames: Option<Whole<0, MOST_FILES>>,
     /// How many checkpoints are written, at equal intervals, and one more if the run ends before. Default: 0.
     pub checkpoints: Option<Whole<0, MOST_FILES>>,

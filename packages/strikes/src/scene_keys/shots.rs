@@ -27,7 +27,7 @@ const TOLERANCE: f64 = 0.02;
 const LEAST_TOLERANCE: f64 = 1e-9;
 
 #[derive(Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(transform = toron_shared::schema::ordered::<Self>))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(transform = toron_shared::schema::order::<Self>))]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct ShotsFile {
     /// Of shots, 2 or more.

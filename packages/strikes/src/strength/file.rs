@@ -9,7 +9,7 @@ use toron_shared::field_names::field_names;
 use toron_shared::spanned::Spanned;
 
 #[derive(Clone, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(transform = toron_shared::schema::ordered::<Self>))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(transform = toron_shared::schema::order::<Self>))]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct StrengthFile {
     /// Each is another panel. All moduli and scales use the same chances. Default: 1.
@@ -34,7 +34,7 @@ pub struct StrengthFile {
 
 /// Weibull's law.
 #[derive(Clone, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(transform = toron_shared::schema::ordered::<Self>))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(transform = toron_shared::schema::order::<Self>))]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct LawFile {
     /// L₀, the gauge length of the tests that gave the scale.

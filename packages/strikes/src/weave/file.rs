@@ -19,7 +19,7 @@ use toron_shared::spanned::Spanned;
 use toron_shared::toml_file::{Numbers, Source};
 
 #[derive(Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(transform = toron_shared::schema::ordered::<Self>))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(transform = toron_shared::schema::order::<Self>))]
 #[serde(deny_unknown_fields)]
 pub struct SceneFile {
     /// For the picture. Default: the file's name.
@@ -54,7 +54,7 @@ pub struct SceneFile {
 
 /// The table `[weave]`.
 #[derive(Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(transform = toron_shared::schema::ordered::<Self>))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(transform = toron_shared::schema::order::<Self>))]
 #[serde(deny_unknown_fields)]
 pub struct WeaveFile {
     /// `kevlar-s706`: plain, 34 by 34 yarns an inch, elliptic sections of 0.5337 by 0.115 mm. Other keys override it.
@@ -81,7 +81,7 @@ pub struct WeaveFile {
 
 /// A table `[[ply]]`.
 #[derive(Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(transform = toron_shared::schema::ordered::<Self>))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(transform = toron_shared::schema::order::<Self>))]
 #[serde(deny_unknown_fields)]
 pub struct PlyFile {
     /// Keys that differ from `[weave]`, such as `weave.warp.pitch`; of the panel its `centre` alone. Default: none.
@@ -155,7 +155,7 @@ fn check_panel_of_ply(source: &Source, weave: Option<&toml::Spanned<DeValue>>) -
 }
 
 #[derive(Default, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(transform = toron_shared::schema::ordered::<Self>))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(transform = toron_shared::schema::order::<Self>))]
 #[serde(deny_unknown_fields)]
 pub struct ThreadFile {
     /// From one yarn of the family to the next. Default: the preset's.
@@ -180,7 +180,7 @@ pub enum ShapeName {
 }
 
 #[derive(Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(transform = toron_shared::schema::ordered::<Self>))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(transform = toron_shared::schema::order::<Self>))]
 #[serde(deny_unknown_fields)]
 pub struct PanelFile {
     /// `circle` has `radius`, `rectangle` has `half`. Required.

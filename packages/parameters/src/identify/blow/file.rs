@@ -26,34 +26,48 @@ use toron_strikes::impact::summary;
 const BLOW: &str = "blow";
 
 #[derive(Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(transform = toron_shared::schema::order::<Self>))]
 #[serde(deny_unknown_fields)]
-struct BlowFile {
+pub struct BlowFile {
+    /// Heading of summary and plot. Default: the yarn's name.
     title: Option<String>,
+    /// Of the file, those of the scene.
     units: Spanned<String>,
+    /// The preset that comes out. It has the scene's values for what was not fitted.
     #[serde(default)]
     yarn: YarnFile,
+    /// The [blow](reference/fit-files.md#blow).
     blow: Spanned<BlowTable>,
 }
 
 #[derive(Default, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(transform = toron_shared::schema::order::<Self>))]
 #[serde(deny_unknown_fields)]
 struct YarnFile {
+    /// Of the preset and its file. Default: `my-yarn`.
     name: Option<Spanned<String>>,
+    /// Where the values come from, kept in the preset. Default: the title.
     source: Option<String>,
 }
 
 #[derive(Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(transform = toron_shared::schema::order::<Self>))]
 #[serde(deny_unknown_fields)]
 struct BlowTable {
+    /// A scene of `toron impact`, in the same `units`; its properties are the start.
     scene: Spanned<String>,
+    /// The case of the scene. Default: its only one.
     case: Option<Spanned<String>>,
+    /// A CSV file with `time` and what is followed; titles have the units.
     history: Spanned<String>,
-    /// What the history calls a column of the scene's, where it is called otherwise.
+    /// `{ width_1 = "spread_1" }`: what the history calls a column. Default: the same name.
     #[serde(default)]
     columns: BTreeMap<Spanned<String>, Spanned<String>>,
+    /// `[from, to]` of the time; the scene ends with it. Default: all.
     range: Option<Spanned<Numbers<2>>>,
-    /// The standard deviation of each column that is to be followed.
+    /// [Columns of a history](reference/impact-files.md#namecsv), each with its standard deviation.
     follows: Spanned<BTreeMap<Spanned<String>, Spanned<Positive>>>,
+    /// Names of properties of the scene's law.
     fits: Spanned<Vec<Spanned<String>>>,
 }
 

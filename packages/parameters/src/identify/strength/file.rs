@@ -22,13 +22,19 @@ use toron_strikes::strength::scales::{self, ScaleFit};
 
 /// A table `[[strength]]`.
 #[derive(Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(transform = toron_shared::schema::order::<Self>))]
 #[serde(deny_unknown_fields)]
 pub struct SetFile {
+    /// Of the set and its file. Default: `strength-1`, ….
     name: Option<Spanned<String>>,
+    /// A CSV file, as for `[[data]]`.
     file: Spanned<String>,
+    /// `{ strength = "Peak" }`: the column of a quantity. Default: the quantity's name.
     #[serde(default)]
     columns: BTreeMap<Spanned<String>, Spanned<String>>,
+    /// Gauge length of all tests. Default: the column `length`.
     length: Option<Spanned<Positive>>,
+    /// The length that the scale is of. Default: the shortest length.
     reference_length: Option<Positive>,
 }
 

@@ -8,7 +8,7 @@ use toron_shared::spanned::Spanned;
 use toron_shared::toml_file::Numbers;
 
 #[derive(Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(transform = toron_shared::schema::ordered::<Self>))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(transform = toron_shared::schema::order::<Self>))]
 #[serde(deny_unknown_fields)]
 pub struct MeshFile {
     /// `.inp`, `.k` or `.key`, `.vtu`, relative to the scene's folder. Required.
