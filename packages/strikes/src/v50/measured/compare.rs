@@ -108,9 +108,9 @@ mod tests {
     fn refused_and_least(design: Design, shots: usize, apart: f64, pairs: u64) -> [f64; 2] {
         let experiment = Experiment { design, shots, range: [60.0, 140.0], scatter: 1.0 };
         let one = |number: u64| {
-            let [first, second] = [100.0, 100.0 + apart].map(|v50| {
+            let [first, second] = [(100.0, 1), (100.0 + apart, 2)].map(|(v50, seed)| {
                 let truth = Truth { link: Link::Probit, v50, deviation: DEVIATION };
-                Analysis::of(experiment.fates(&truth, v50.to_bits(), number), &Asked::default())
+                Analysis::of(experiment.fates(&truth, seed, number), &Asked::default())
             });
             Difference::of(&first, &second, Link::Probit)
         };
