@@ -48,7 +48,7 @@ pub fn same<T: Functions>(case: &Case, a: Of<T>, b: Of<T>) -> Checked {
 
 /// Whether a point is one whose answers may be compared to some digits: nothing is extreme, no kink is near that
 /// magnifies roundings.
-fn is_moderate(case: &Case, point: usize, i_tc: f64) -> bool {
+pub fn is_moderate(case: &Case, point: usize, i_tc: f64) -> bool {
     let f = &case.points[point].f;
     let determinant = nalgebra::Matrix3::from_column_slice(f).determinant();
     let usual = |k: f64| k == 0.0 || (1e-4..1e4).contains(&k);

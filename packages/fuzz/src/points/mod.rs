@@ -17,4 +17,5 @@ mod run;
 
 pub use case::{Case, Law};
 pub use faults::{FAULTS, Fault};
+pub use literal::ONE_IN;
 pub use run::{Found, Totals, replay, run, smallest};
