@@ -131,7 +131,7 @@ fn friction<T: Number>(case: &Case, point: usize, state: &[f64], old: &[f64]) ->
 
 /// How far F is from being singular: the axes of the linear elastic law, made orthogonal to one another, are so to as
 /// many roundings.
-fn condition(f: &[f64; 9]) -> f64 {
+pub fn condition(f: &[f64; 9]) -> f64 {
     let f = nalgebra::Matrix3::from_column_slice(f);
     f.try_inverse().map_or(f64::INFINITY, |inverse| f.norm() * inverse.norm())
 }
