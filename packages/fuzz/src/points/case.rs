@@ -71,7 +71,7 @@ impl Host {
     }
 
     /// Whether the state of the new step is in the place of the old one.
-    fn is_in_place(self) -> bool {
+    pub fn is_in_place(self) -> bool {
         matches!(self, Host::Umat | Host::LsDyna | Host::OpenRadioss)
     }
 

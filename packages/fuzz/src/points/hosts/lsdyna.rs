@@ -10,6 +10,8 @@ use crate::points::checks::{POINT_CODES, has_failed};
 use crate::points::entries::{Inputs, NO_STATUS, Outcome};
 use crate::points::functions::{Functions, Message};
 
+const IDENTITY: [f64; 9] = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
+
 /// Whether a case goes through the routines of one element.
 pub fn is_scalar(case: &Case) -> bool {
     case.points.len() == 1 && case.seed.is_multiple_of(2)
@@ -28,7 +30,10 @@ pub fn elements<T: Functions>(
     let nlq = (n + placing.gap) as i32;
     let mut history = Array::<T>::new(nhv + 9, n, placing, n);
     for (i, point) in case.points.iter().enumerate() {
-        let kept = &point.f_old[..case.law.kept()];
+        // Before its first step an element has zeros.
+        let is_new = point.state.iter().all(|&x| x == 0.0) && point.f_old == IDENTITY;
+        let kept = if is_new { &[0.0; 9] } else { &point.f_old };
+        let kept = &kept[..case.law.kept()];
         for (c, &value) in point.state.iter().chain(kept).chain(&point.f).enumerate() {
             history.set(c, i, T::splat(value));
         }
@@ -79,7 +84,8 @@ pub fn elements<T: Functions>(
             strange |= history.get(nhv as usize + c, i).bits() != new;
             if case.law.kept() > 0 {
                 let kept = history.get(states + c, i).bits();
-                strange |= kept != new && kept != before.get(states + c, i).bits();
+                let old = [before.get(states + c, i), T::splat(case.points[i].f_old[c])];
+                strange |= kept != new && old.iter().all(|old| old.bits() != kept);
             }
         }
         let flag = failed[placing.offset + i];
