@@ -95,6 +95,14 @@ pub fn rows() -> Result<Vec<Fortran>, String> {
     ROUTINES.iter().filter(|routine| runs(routine.flags)).map(load).collect()
 }
 
+/// The first of them, which evaluates one point.
+///
+/// # Errors
+/// What the compiler or the loader says.
+pub fn scalar() -> Result<Fortran, String> {
+    load(&ROUTINES[0])
+}
+
 #[cfg(target_arch = "x86_64")]
 fn runs(flags: &[&str]) -> bool {
     let has_v3 = is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma");
