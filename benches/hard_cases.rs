@@ -47,7 +47,7 @@ fn short(x: f64) -> String {
 
 #[test]
 fn errors_by_family() {
-    let fortran = fortran::scalar().expect("gfortran");
+    let fortran = fortran::rows().next().expect("a row").expect("gfortran compiles it");
     let mut families = BTreeMap::<String, Worst>::new();
     for case in cases().into_iter().chain(far_cases()) {
         let f = case.deformation_gradient();
