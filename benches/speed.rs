@@ -80,7 +80,8 @@ fn implementations(has_fortran: bool) -> Vec<Implementation> {
         scalar("Rust eigenvalues, scalar", Family::Eigen, eigen::point),
     ];
     if has_fortran {
-        for routine in fortran::rows().expect("the Fortran baselines compile") {
+        for routine in fortran::rows() {
+            let routine = routine.expect("the Fortran baselines compile");
             rows.push(Implementation {
                 name: routine.name.clone(),
                 family: if routine.name.contains("spatial") { Family::Spatial } else { Family::Literal },

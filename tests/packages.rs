@@ -62,6 +62,7 @@ const ARROWS: [Arrows; 27] = [
         &[
             "toron",
             "toron-c-functions",
+            "toron-explicit-host",
             "toron-materials",
             "toron-parameters",
             "toron-shared",

@@ -87,12 +87,10 @@ pub fn compiler() -> Option<String> {
     Some(String::from_utf8_lossy(&output.stdout).lines().next()?.to_string())
 }
 
-/// The rows that this processor can run.
-///
-/// # Errors
-/// What the compiler or the loader says.
-pub fn rows() -> Result<Vec<Fortran>, String> {
-    ROUTINES.iter().filter(|routine| runs(routine.flags)).map(load).collect()
+/// The rows that this processor can run, each compiled when it is asked for, or what the compiler or the loader says;
+/// the first one evaluates a point.
+pub fn rows() -> impl Iterator<Item = Result<Fortran, String>> {
+    ROUTINES.iter().filter(|routine| runs(routine.flags)).map(load)
 }
 
 #[cfg(target_arch = "x86_64")]

@@ -1,4 +1,4 @@
-//! The C programs of `ffi-tests/c` under what looks for faults that show in no result: reads and writes where nothing
+//! The programs of `ffi-tests` in C, C++ and Fortran under what looks for faults that show in no result: reads and writes where nothing
 //! is, values that nobody has written, leaks, undefined behaviour, races.
 #![cfg(all(target_arch = "x86_64", target_os = "linux"))]
 
@@ -6,7 +6,8 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use crate::c_programs::{CASES, PRECISIONS, compile};
-use toron_test_support::library::{LIBRARY, run};
+use crate::ffi::{LSDYNA, MODULES_OF_OPENRADIOSS, fortran_program, shim};
+use toron_test_support::library::{LIBRARY, ROOT, SYSTEM, folder, run};
 
 /// A program of `ffi-tests/c`, for one precision, and its arguments.
 struct Program {
@@ -56,6 +57,35 @@ fn sanitizers() {
     {
         check_found(&mut Command::new(&faults), fault, words);
     }
+}
+
+/// The module and the shims, as far as they are compiled by the user: what they pass to the library and take from it.
+#[test]
+fn sanitizers_in_fortran() {
+    let sanitized = |name: &str, options: &[&str], sources: &[PathBuf]| {
+        fortran_program(name, &[&SANITIZERS, options].concat(), sources);
+    };
+    sanitized("module.f90", &[], &[Path::new(ROOT).join("include/toron.f90")]);
+    sanitized("umat.f90", &[], &[shim("abaqus_umat.f")]);
+    sanitized("vumat.F90", &[], &[shim("abaqus_vumat_dp.f")]);
+    sanitized("vumat.F90", &["-DSINGLE"], &[shim("abaqus_vumat_sp.f")]);
+    sanitized("lsdyna.f90", &[], &LSDYNA.map(shim));
+    sanitized("lsdyna_frictional.f90", &["-DTORON_FRICTIONAL", "-DTORON_MT=44"], &LSDYNA.map(shim));
+    let sources = [MODULES_OF_OPENRADIOSS.into(), shim("openradioss_lecmuser.f"), shim("openradioss_luser.f")];
+    for precision in PRECISIONS {
+        sanitized("openradioss.F90", precision, &sources);
+    }
+}
+
+/// The classes of `toron.hpp`, which are compiled by the user.
+#[test]
+fn sanitizers_in_cpp() {
+    let program = folder("cpp-sanitizers").join("program");
+    let mut gpp = Command::new("g++");
+    gpp.args(["-std=c++20", "-Wall", "-Wextra", "-Werror", "-O1", "-g", "-I"]).arg(Path::new(ROOT).join("include"));
+    gpp.args(SANITIZERS).arg(Path::new(ROOT).join("ffi-tests/installed/cpp/block.cpp"));
+    run(gpp.arg(LIBRARY.join("libtoron.a")).args(SYSTEM).arg("-o").arg(&program), "g++");
+    run(&mut Command::new(program), "");
 }
 
 /// Valgrind with a tool; its exit code tells that the tool has found something. It knows no AVX-512: the library runs

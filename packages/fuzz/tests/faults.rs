@@ -1,4 +1,4 @@
-//! What the fuzzer would find: twelve faults planted in the answers that it sees.
+//! What the fuzzer would find: sixteen faults planted in the answers that it sees.
 
 use toron_fuzz::points::{FAULTS, Fault, replay, run, smallest};
 use toron_fuzz::seed;

@@ -1,6 +1,6 @@
 //! The fuzzer of the numerical entries.
 
-use toron_fuzz::points::{Case, FAULTS, replay, run, smallest};
+use toron_fuzz::points::{Case, FAULTS, ONE_IN, replay, run, smallest};
 use toron_fuzz::{seed, setting};
 
 /// What was once found, and the case of `TORON_FUZZ_CASE`.
@@ -32,8 +32,9 @@ fn points() {
     println!("seed {seed}: {totals:?}");
     // Nothing that is to be checked has dropped out.
     if count >= 100_000 && found.is_none() {
-        assert!(totals.literal > count / 10_000 && totals.differences > count / 10_000, "{totals:?}");
+        assert!(totals.literal > count / (1500 * *ONE_IN) && totals.differences > count / 10_000, "{totals:?}");
         assert!(totals.refused < count / 2 && totals.hosts.iter().all(|points| *points > count / 1000), "{totals:?}");
+        assert!(totals.tangents > count / 1000, "{totals:?}");
     }
     if let Some(found) = found {
         println!("{}\n{}", found.why, found.case);

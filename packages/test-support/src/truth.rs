@@ -178,6 +178,12 @@ impl Case {
         let (error, size) = (distance(&self.sigma, stress), magnitude(&self.sigma));
         [ratio(error, size + self.sensitivity.value()), if size > 0.0 { error / size } else { 0.0 }]
     }
+
+    /// How many times a relative change of F is in σ, |K|/|σ|; `None` without stress.
+    pub fn condition(&self) -> Option<f64> {
+        let size = magnitude(&self.sigma);
+        (size > 0.0).then(|| self.sensitivity.value() / size)
+    }
 }
 
 /// Every case of the table of 320 points.

@@ -29,6 +29,11 @@ impl Law {
         self.state() - 2
     }
 
+    /// How many entries of F a host keeps for it behind its state.
+    pub fn kept(self) -> usize {
+        if self.is_linear() { 9 } else { 0 }
+    }
+
     /// The place of the fibre direction in the properties.
     pub fn fibre(self) -> usize {
         [8, 8, 4][self as usize]
@@ -46,9 +51,35 @@ pub enum Host {
     Umat,
     Vumat,
     Mgis,
+    LsDyna,
+    OpenRadioss,
+    CalculiX,
 }
 
-pub const HOSTS: [Host; 4] = [Host::None, Host::Umat, Host::Vumat, Host::Mgis];
+pub const HOSTS: [Host; 7] =
+    [Host::None, Host::Umat, Host::Vumat, Host::Mgis, Host::LsDyna, Host::OpenRadioss, Host::CalculiX];
+
+impl Host {
+    /// Whether it has an entry for one point.
+    pub fn has_points(self) -> bool {
+        matches!(self, Host::Umat | Host::Mgis | Host::LsDyna | Host::CalculiX)
+    }
+
+    /// Whether it has an entry for a block; such a host takes elements out whose points are refused.
+    pub fn has_blocks(self) -> bool {
+        matches!(self, Host::Vumat | Host::LsDyna | Host::OpenRadioss)
+    }
+
+    /// Whether the state of the new step is in the place of the old one.
+    pub fn is_in_place(self) -> bool {
+        matches!(self, Host::Umat | Host::LsDyna | Host::OpenRadioss)
+    }
+
+    /// Whether it keeps F of the last step among its variables: 0 there is a point at rest.
+    fn keeps_gradient(self) -> bool {
+        matches!(self, Host::LsDyna | Host::OpenRadioss | Host::CalculiX)
+    }
+}
 
 /// Where the old state stands: in an array of its own, in that of the new one, or nowhere.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -132,10 +163,16 @@ pub struct Input {
 }
 
 impl Input {
-    /// Makes stretches of the gradients, as a host of stretches has them: symmetric, whatever they are.
-    pub fn make_symmetric(&mut self) {
-        for f in [&mut self.f, &mut self.f_old] {
-            (f[1], f[2], f[5]) = (f[3], f[6], f[7]);
+    /// Makes of the gradients what this host has: stretches, symmetric, whatever they are; no old one that is 0.
+    pub fn fit_host(&mut self, host: Host) {
+        if host == Host::Vumat {
+            for f in [&mut self.f, &mut self.f_old] {
+                (f[1], f[2], f[5]) = (f[3], f[6], f[7]);
+            }
+        }
+        // As single precision reads it.
+        if host.keeps_gradient() && self.f_old[..3].iter().all(|&x| x as f32 == 0.0) {
+            self.f_old = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
         }
     }
 }
@@ -184,8 +221,8 @@ impl Case {
     pub fn random(seed: u64) -> Case {
         let rng = &mut Rng::with_seed(seed);
         let law = LAWS[rng.usize(..3)];
-        let host = if one_in(rng, 3) { HOSTS[rng.usize(1..4)] } else { Host::None };
-        let single = rng.bool() && (host == Host::None || host == Host::Vumat);
+        let host = if one_in(rng, 2) { HOSTS[rng.usize(1..HOSTS.len())] } else { Host::None };
+        let single = rng.bool() && (host == Host::None || host.has_blocks());
         let properties = properties(rng, law, single);
         let n = match rng.u8(0..20) {
             0 => 0,
@@ -234,12 +271,28 @@ impl Case {
         if self.host == Host::None {
             return;
         }
-        let tangent = if self.host != Host::Vumat && rng.bool() { with::TANGENT } else { 0 };
-        let limit = if self.host == Host::Mgis { 0 } else { self.with & with::LIMIT };
-        self.with = with::STRESS | with::STATE | with::STATUS | tangent | limit;
-        (self.level, self.rotation, self.criterion) = (0, 0, 0);
-        self.measure = if self.host == Host::Mgis { 0 } else { 2 };
-        self.old = if self.host == Host::Umat { Old::InPlace } else { Old::Apart };
+        // The tangents of LS-DYNA are others.
+        let has_tangent = self.host.has_points() && !self.host.has_blocks();
+        // Without its tangent a point that is singular but for roundings may be refused or not: CalculiX has both always.
+        let is_asked = rng.bool() || self.host == Host::CalculiX;
+        let tangent = if has_tangent && is_asked { with::TANGENT } else { 0 };
+        let own = match self.host {
+            Host::Mgis | Host::LsDyna => 0,
+            Host::OpenRadioss => self.with & (with::LIMIT | with::FIBRE) | with::WAVE_SPEED,
+            _ => self.with & with::LIMIT,
+        };
+        self.with = with::STRESS | with::STATE | with::STATUS | tangent | own;
+        self.level = 0;
+        if self.host == Host::OpenRadioss {
+            self.rotation = self.rotation.min(1);
+        } else {
+            (self.rotation, self.criterion) = (0, 0);
+        }
+        self.measure = match self.host {
+            Host::Mgis | Host::CalculiX => 0,
+            _ => 2,
+        };
+        self.old = if self.host.is_in_place() { Old::InPlace } else { Old::Apart };
     }
 }
 
@@ -314,9 +367,7 @@ fn input(rng: &mut Rng, case: &Case) -> Input {
     let by_columns = |f: Matrix3<f64>| f.as_slice().try_into().expect("nine");
     let mut input =
         Input { f: by_columns(f), f_old: by_columns(f_old), fibre, second_axis, limit, axes: by_columns(axes), state };
-    if case.host == Host::Vumat {
-        input.make_symmetric();
-    }
+    input.fit_host(case.host);
     input
 }
 

@@ -12,7 +12,7 @@ use super::laws;
 pub type Checked = Result<(), String>;
 
 /// The codes that a point may have.
-const POINT_CODES: std::ops::RangeInclusive<i32> = status::SMALLER_STEP..=status::INVERTED;
+pub const POINT_CODES: std::ops::RangeInclusive<i32> = status::SMALLER_STEP..=status::INVERTED;
 
 /// Whether a latch says that the point has failed before: one that is NaN does.
 pub fn has_failed(latch: f64) -> bool {
@@ -38,6 +38,9 @@ pub fn old_state<T: Functions>(case: &Case, entry: Entry, point: usize) -> Vec<f
 pub fn outcome<T: Functions>(case: &Case, outcome: &Outcome<T>, codes: &[Option<i32>]) -> Checked {
     let entry = outcome.entry;
     untouched(case, outcome).map_err(|text| format!("{entry:?}: {text}"))?;
+    if stopped(case, outcome).is_some() {
+        return Ok(());
+    }
     let is_silent = outcome.message.is_empty();
     holds(is_silent == (outcome.code == 0), || {
         format!("{entry:?}: code {} with message `{}`", outcome.code, outcome.message)
@@ -59,6 +62,14 @@ pub fn outcome<T: Functions>(case: &Case, outcome: &Outcome<T>, codes: &[Option<
         finite(case, outcome, i).map_err(|text| format!("{entry:?}, point {i} of code {code:?}: {text}"))?;
     }
     Ok(())
+}
+
+/// The code with which OpenRadioss ends the run, at a point whose fibre or limit is wrong: nothing is promised then.
+pub fn stopped<T>(case: &Case, outcome: &Outcome<T>) -> Option<i32> {
+    let codes = [status::FIBRE_DIRECTION, status::LIMIT];
+    let of_engine = outcome.entry == Entry::Host && case.host == Host::OpenRadioss;
+    let code = outcome.beside.first().filter(|_| of_engine)?;
+    codes.into_iter().find(|&stop| f64::from(stop) == *code)
 }
 
 /// The outputs with what asks for them, but for the state.
@@ -136,11 +147,11 @@ fn point<T: Functions>(case: &Case, outcome: &Outcome<T>, i: usize, code: i32) -
     if umat && code != 0 {
         return refused_umat(case, outcome);
     }
-    let vumat = outcome.entry == Entry::Host && case.host == Host::Vumat;
+    let deletes = outcome.entry == Entry::Host && case.host.has_blocks();
     let failed_before = has_failed(old[case.law.failed()]);
     if code != 0 || failed_before {
         nothing_carried(case, outcome, i)?;
-        kept(case, outcome, i, &old, vumat && code != 0)?;
+        kept(case, outcome, i, &old, deletes && code != 0)?;
     }
     if case.asks(with::FAILURE) && asks_component(case, outcome.entry, case.law.failed()) {
         let row = outcome.state.row(i);
@@ -172,7 +183,7 @@ fn nothing_carried<T: Functions>(case: &Case, outcome: &Outcome<T>, i: usize) ->
     Ok(())
 }
 
-/// The state of such a point: as it was, what was not finite 0, and the flags. A VUMAT deletes a refused point.
+/// The state of such a point: as it was, what was not finite 0, and the flags. A host with blocks deletes a refused point.
 fn kept<T: Functions>(case: &Case, outcome: &Outcome<T>, i: usize, old: &[f64], deleted: bool) -> Checked {
     let (row, failed) = (outcome.state.row(i), case.law.failed());
     let latch = if deleted || has_failed(old[failed]) { 1.0 } else { 0.0 };

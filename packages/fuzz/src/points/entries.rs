@@ -6,7 +6,7 @@ use std::ptr::null_mut;
 use toron_c::{Block, LinearBlock, LinearPoint, Point, TORON_MESSAGE_CAPACITY};
 
 use super::arrays::Array;
-use super::case::{Case, Form, Host, Old, Placing, group, with};
+use super::case::{Case, Form, Old, Placing, group, with};
 use super::faults::Fault;
 use super::functions::{Arguments, Functions, Message};
 use super::hosts;
@@ -22,7 +22,7 @@ pub enum Entry {
     BlockOfOne,
     Point,
     PointWithProperties,
-    /// Through the case's host; of a UMAT and of MGIS for the only point.
+    /// Through the case's host; of one that has an entry for one point for the only point.
     Host,
 }
 
@@ -44,6 +44,7 @@ pub struct Inputs<T> {
 }
 
 /// What a call leaves behind.
+#[derive(Clone)]
 pub struct Outcome<T> {
     pub entry: Entry,
     pub code: i32,
@@ -59,7 +60,9 @@ pub struct Outcome<T> {
     pub axes: Array<T>,
     pub axes_before: Array<T>,
     pub status: Vec<i32>,
-    /// What a host has beside: SSE, PNEWDT, SPD; energies per mass; rdt.
+    /// The code and the tangents of LS-DYNA, which are of a further step.
+    pub further: Option<(i32, Array<T>)>,
+    /// What a host has beside: SSE, PNEWDT, SPD; energies per mass; rdt; the code of a stopped run.
     pub beside: Vec<f64>,
     /// Whether an input has been written to.
     pub input_written: bool,
@@ -133,9 +136,23 @@ impl<T: Functions> Outcome<T> {
             axes_before: axes.clone(),
             axes,
             status: vec![NO_STATUS; n + 2 * AROUND],
+            further: None,
             beside: Vec::new(),
             input_written: false,
         }
+    }
+
+    /// With the symmetric parts of the tangents, which are 6 × 6.
+    pub fn symmetric(mut self) -> Self {
+        let before = self.tangent.clone();
+        for i in 0..before.points {
+            for c in 0..36 {
+                // Halved first, as the library does it: the sum might overflow.
+                let [half, mirrored] = [c, 6 * (c % 6) + c / 6].map(|place| before.get(place, i) * T::splat(0.5));
+                self.tangent.set(c, i, half + mirrored);
+            }
+        }
+        self
     }
 
     /// The status of a point, by its array or, of one point, by the code that is returned.
@@ -171,12 +188,7 @@ pub fn call<T: Functions>(entry: Entry, case: &Case, fault: Option<Fault>) -> Ou
     let before = Inputs::<T>::new(called, entry);
     let mut message: Message = [0; TORON_MESSAGE_CAPACITY];
     if entry == Entry::Host {
-        outcome.code = match case.host {
-            Host::Vumat => hosts::vumat(called, &mut inputs, &mut outcome, &mut message),
-            Host::Umat => hosts::umat(called, &mut inputs, &mut outcome, &mut message),
-            Host::Mgis => hosts::mgis(called, &mut inputs, &mut outcome, &mut message),
-            Host::None => 0,
-        };
+        outcome.code = hosts::call(called, &mut inputs, &mut outcome, &mut message);
     } else {
         outcome.code = call_c(entry, called, &mut inputs, &mut outcome, &mut message);
     }

@@ -1,4 +1,4 @@
-//! Twelve faults that a numerical library might have, planted in the answers that the fuzzer sees: a test asserts that it
+//! Sixteen faults that a numerical library might have, planted in the answers that the fuzzer sees: a test asserts that it
 //! finds them. Nothing of the library is changed.
 
 use super::case::{Case, Host, Law, group, with};
@@ -31,9 +31,17 @@ pub enum Fault {
     UmatOverflows,
     /// MGIS refuses a point that it can evaluate.
     MgisRefuses,
+    /// LS-DYNA leaves out the last element of a block.
+    LastElementLeftOut,
+    /// The tangent of LS-DYNA is not divided by J.
+    TangentOfKirchhoff,
+    /// OpenRadioss gets half the wave speed.
+    HalfWaveSpeed,
+    /// CalculiX gets the shear stresses 13 and 23 in the order of the law.
+    ShearsSwapped,
 }
 
-pub const FAULTS: [Fault; 12] = [
+pub const FAULTS: [Fault; 16] = [
     Fault::WrongSign,
     Fault::StatusDropped,
     Fault::LossesFall,
@@ -46,6 +54,10 @@ pub const FAULTS: [Fault; 12] = [
     Fault::FailedCarries,
     Fault::UmatOverflows,
     Fault::MgisRefuses,
+    Fault::LastElementLeftOut,
+    Fault::TangentOfKirchhoff,
+    Fault::HalfWaveSpeed,
+    Fault::ShearsSwapped,
 ];
 
 impl Fault {
@@ -68,6 +80,7 @@ impl Fault {
         let is_block = matches!(outcome.entry, Entry::Block | Entry::BlockWithProperties | Entry::BlockOfOne);
         let evaluated: Vec<usize> = (0..n).filter(|&i| outcome.status(case, i) == Some(0)).collect();
         let frictional = law == Law::Frictional && case.asks_state();
+        let is_of = |host: Host| outcome.entry == Entry::Host && case.host == host;
         let slides = |outcome: &Outcome<T>, i: usize| {
             let before = if outcome.entry == Entry::Host { case.points[i].state[8] } else { lost_before(case, i) };
             frictional && outcome.state.get(8, i).into() > before
@@ -128,11 +141,35 @@ impl Fault {
                     }
                 }
             }
-            Fault::UmatOverflows if outcome.entry == Entry::Host && case.host == Host::Umat && outcome.code == 0 => {
+            Fault::UmatOverflows if is_of(Host::Umat) && outcome.code == 0 => {
                 outcome.code = toron::status::OVERFLOW;
             }
-            Fault::MgisRefuses if outcome.entry == Entry::Host && case.host == Host::Mgis && outcome.code == 0 => {
+            Fault::MgisRefuses if is_of(Host::Mgis) && outcome.code == 0 => {
                 outcome.code = -1;
+            }
+            Fault::LastElementLeftOut if is_of(Host::LsDyna) && n > 1 => {
+                for c in 0..6 {
+                    outcome.stress.set(c, n - 1, T::splat(0.0));
+                }
+            }
+            Fault::TangentOfKirchhoff if is_of(Host::LsDyna) => {
+                let Some((_, tangents)) = &mut outcome.further else { return };
+                for (i, point) in case.points.iter().enumerate() {
+                    let volume = nalgebra::Matrix3::from_column_slice(&point.f).determinant();
+                    for c in 0..36 {
+                        tangents.set(c, i, tangents.get(c, i) * T::splat(volume));
+                    }
+                }
+            }
+            Fault::HalfWaveSpeed if is_of(Host::OpenRadioss) => {
+                for i in evaluated {
+                    outcome.wave_speed.set(0, i, outcome.wave_speed.get(0, i) * T::splat(0.5));
+                }
+            }
+            Fault::ShearsSwapped if is_of(Host::CalculiX) => {
+                let [s23, s31] = [4, 5].map(|c| outcome.stress.get(c, 0));
+                outcome.stress.set(4, 0, s31);
+                outcome.stress.set(5, 0, s23);
             }
             _ => (),
         }

@@ -3,6 +3,8 @@
 use std::ffi::c_char;
 
 use toron::host::abaqus::Vumat;
+use toron::host::lsdyna::{Umat, UmatVector, Utan, UtanVector};
+use toron::host::openradioss::{Group, MaterialCard};
 use toron_c::*;
 use toron_test_support::block::Number;
 
@@ -39,11 +41,48 @@ pub trait Functions: Number {
     /// # Safety
     /// The arrays are those that the structure promises.
     unsafe fn vumat(law: Law, block: &Vumat<Self>, message: &mut Message) -> i32;
+
+    /// LS-DYNA's material of one element.
+    ///
+    /// # Safety
+    /// The arrays are those that the structure promises.
+    unsafe fn umat(law: Law, call: &Umat<Self>, message: &mut Message) -> i32;
+
+    /// That of a block of elements.
+    ///
+    /// # Safety
+    /// The arrays are those that the structure promises.
+    unsafe fn umat_vector(law: Law, call: &UmatVector<Self>, message: &mut Message) -> i32;
+
+    /// Its tangent of one element.
+    ///
+    /// # Safety
+    /// The arrays are those that the structure promises.
+    unsafe fn utan(law: Law, call: &Utan<Self>, message: &mut Message) -> i32;
+
+    /// That of a block of elements.
+    ///
+    /// # Safety
+    /// The arrays are those that the structure promises.
+    unsafe fn utan_vector(law: Law, call: &UtanVector<Self>, message: &mut Message) -> i32;
+
+    /// The starter's routine of OpenRadioss.
+    ///
+    /// # Safety
+    /// The arrays are those that the structure promises.
+    unsafe fn lecm(card: &MaterialCard<Self>, message: &mut Message) -> i32;
+
+    /// The engine's routine of OpenRadioss.
+    ///
+    /// # Safety
+    /// The arrays are those that the structure promises.
+    unsafe fn luser(group: &Group<Self>, message: &mut Message) -> i32;
 }
 
 macro_rules! functions {
     ($t:ty, [$($prepare:ident)*], [$($point:ident)*], [$($block:ident)*], [$($point_with:ident)*],
-        [$($block_with:ident)*], [$($vumat:ident)*]) => {
+        [$($block_with:ident)*], [$($vumat:ident)*], [$($umat:ident)*], [$($umat_vector:ident)*], [$($utan:ident)*],
+        [$($utan_vector:ident)*], $lecm:ident, $luser:ident) => {
         impl Functions for $t {
             fn prepare(law: Law, to: &mut Prepared, properties: &[$t], message: &mut Message) -> i32 {
                 let (to, size, values, n) = (to.as_mut_ptr(), size_of_val(to), properties.as_ptr(), properties.len());
@@ -85,6 +124,67 @@ macro_rules! functions {
                 // SAFETY: the caller's arguments.
                 unsafe { functions!(law, [$($vumat)*], |f| f(block, message, capacity)) }
             }
+
+            unsafe fn umat(law: Law, call: &Umat<$t>, message: &mut Message) -> i32 {
+                let (message, capacity) = (message.as_mut_ptr(), message.len());
+                let Umat { cm, sig, hsv, nhv, failel } = *call;
+                // SAFETY: the caller's arguments.
+                unsafe { functions!(law, [$($umat)*], |f| f(cm, sig, hsv, nhv, failel, message, capacity)) }
+            }
+
+            unsafe fn umat_vector(law: Law, call: &UmatVector<$t>, message: &mut Message) -> i32 {
+                let (message, capacity) = (message.as_mut_ptr(), message.len());
+                let UmatVector { cm, sig: [s1, s2, s3, s4, s5, s6], hsvs, nhv, lft, llt, nlq, failels } = *call;
+                // SAFETY: the caller's arguments.
+                unsafe {
+                    functions!(law, [$($umat_vector)*], |f| {
+                        f(cm, s1, s2, s3, s4, s5, s6, hsvs, nhv, lft, llt, nlq, failels, message, capacity)
+                    })
+                }
+            }
+
+            unsafe fn utan(law: Law, call: &Utan<$t>, message: &mut Message) -> i32 {
+                let (message, capacity) = (message.as_mut_ptr(), message.len());
+                let Utan { cm, hsv, nhv, es } = *call;
+                // SAFETY: the caller's arguments.
+                unsafe { functions!(law, [$($utan)*], |f| f(cm, hsv, nhv, es, message, capacity)) }
+            }
+
+            unsafe fn utan_vector(law: Law, call: &UtanVector<$t>, message: &mut Message) -> i32 {
+                let (message, capacity) = (message.as_mut_ptr(), message.len());
+                let UtanVector { cm, hsvs, nhv, lft, llt, nlq, dsave } = *call;
+                // SAFETY: the caller's arguments.
+                unsafe {
+                    functions!(law, [$($utan_vector)*], |f| f(cm, hsvs, nhv, lft, llt, nlq, dsave, message, capacity))
+                }
+            }
+
+            unsafe fn lecm(card: &MaterialCard<$t>, message: &mut Message) -> i32 {
+                let (message, capacity) = (message.as_mut_ptr(), message.len());
+                let MaterialCard { number, values, count, uparam, maxuparam, nuparam, nuvar, parmat } = *card;
+                // SAFETY: the caller's arguments.
+                unsafe { $lecm(number, values, count, uparam, maxuparam, nuparam, nuvar, parmat, message, capacity) }
+            }
+
+            #[rustfmt::skip] // a line for each of the structure's fields
+            unsafe fn luser(group: &Group<$t>, message: &mut Message) -> i32 {
+                let (message, capacity) = (message.as_mut_ptr(), message.len());
+                let Group { elements, parameters, variables, time, uparam, numbers, density, .. } = *group;
+                let [xx, yy, zz, xy, yz, zx, yx, zy, xz] = group.deformation_gradient;
+                let [s1, s2, s3, s4, s5, s6] = group.stress;
+                let [v1, v2, v3, v4, v5, v6] = group.viscous;
+                let Group { sound_speed, viscosity, uvar, off, nodes, .. } = *group;
+                // SAFETY: the caller's arguments.
+                unsafe {
+                    $luser(
+                        elements, parameters, variables, time, uparam, numbers, density,
+                        xx, yy, zz, xy, yz, zx, yx, zy, xz,
+                        s1, s2, s3, s4, s5, s6,
+                        v1, v2, v3, v4, v5, v6,
+                        sound_speed, viscosity, uvar, off, nodes, message, capacity,
+                    )
+                }
+            }
         }
     };
     ($law:expr, [$hyperelastic:ident $frictional:ident $linear:ident], |$f:ident, $size:ident| $call:expr) => {
@@ -123,7 +223,13 @@ functions!(
         toron_linear_elastic_point_with_properties_f64],
     [toron_hyperelastic_block_with_properties_f64 toron_frictional_block_with_properties_f64
         toron_linear_elastic_block_with_properties_f64],
-    [toron_abaqus_vumat_f64 toron_abaqus_frictional_vumat_f64 toron_abaqus_linear_vumat_f64]
+    [toron_abaqus_vumat_f64 toron_abaqus_frictional_vumat_f64 toron_abaqus_linear_vumat_f64],
+    [toron_lsdyna_umat_f64 toron_lsdyna_frictional_umat_f64 toron_lsdyna_linear_umat_f64],
+    [toron_lsdyna_umat_vector_f64 toron_lsdyna_frictional_umat_vector_f64 toron_lsdyna_linear_umat_vector_f64],
+    [toron_lsdyna_utan_f64 toron_lsdyna_frictional_utan_f64 toron_lsdyna_linear_utan_f64],
+    [toron_lsdyna_utan_vector_f64 toron_lsdyna_frictional_utan_vector_f64 toron_lsdyna_linear_utan_vector_f64],
+    toron_openradioss_lecm_f64,
+    toron_openradioss_luser_f64
 );
 functions!(
     f32,
@@ -134,5 +240,11 @@ functions!(
         toron_linear_elastic_point_with_properties_f32],
     [toron_hyperelastic_block_with_properties_f32 toron_frictional_block_with_properties_f32
         toron_linear_elastic_block_with_properties_f32],
-    [toron_abaqus_vumat_f32 toron_abaqus_frictional_vumat_f32 toron_abaqus_linear_vumat_f32]
+    [toron_abaqus_vumat_f32 toron_abaqus_frictional_vumat_f32 toron_abaqus_linear_vumat_f32],
+    [toron_lsdyna_umat_f32 toron_lsdyna_frictional_umat_f32 toron_lsdyna_linear_umat_f32],
+    [toron_lsdyna_umat_vector_f32 toron_lsdyna_frictional_umat_vector_f32 toron_lsdyna_linear_umat_vector_f32],
+    [toron_lsdyna_utan_f32 toron_lsdyna_frictional_utan_f32 toron_lsdyna_linear_utan_f32],
+    [toron_lsdyna_utan_vector_f32 toron_lsdyna_frictional_utan_vector_f32 toron_lsdyna_linear_utan_vector_f32],
+    toron_openradioss_lecm_f32,
+    toron_openradioss_luser_f32
 );

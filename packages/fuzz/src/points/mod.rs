@@ -15,6 +15,8 @@ mod literal;
 mod random;
 mod run;
 
-pub use case::{Case, Law};
+pub use case::{Case, Host, Input, LAWS, Law, Old, with};
+pub use entries::{Entry, Outcome, call};
 pub use faults::{FAULTS, Fault};
+pub use literal::ONE_IN;
 pub use run::{Found, Totals, replay, run, smallest};

@@ -5,14 +5,15 @@ use std::panic::{self, AssertUnwindSafe};
 use std::sync::Once;
 
 use fastrand::Rng;
+use toron::status;
 
-use super::case::{Case, Form, Host, Input, Law, Old, with};
+use super::case::{Case, Form, HOSTS, Host, Input, Law, Old, with};
 use super::checks::{self, Checked, holds};
-use super::compare::{Of, close, same};
+use super::compare::{Of, close, is_moderate, same};
 use super::entries::{Entry, Outcome, call};
 use super::faults::Fault;
 use super::functions::Functions;
-use super::{difference, literal};
+use super::{difference, hosts, literal};
 
 /// What a run has done.
 #[derive(Clone, Copy, Debug, Default)]
@@ -28,8 +29,10 @@ pub struct Totals {
     pub worst: [f64; 2],
     /// Tangents held against differences of the stress.
     pub differences: u64,
-    /// Points that UMATs, VUMATs and MGIS have evaluated, as the block has.
-    pub hosts: [u64; 3],
+    /// Points that hosts have evaluated, as the block has: UMAT, VUMAT, MGIS, LS-DYNA, OpenRadioss, CalculiX.
+    pub hosts: [u64; HOSTS.len() - 1],
+    /// Tangents of LS-DYNA that are those of the block.
+    pub tangents: u64,
 }
 
 /// A case that fails.
@@ -147,21 +150,70 @@ fn through_entries<T: Functions>(case: &Case, fault: Option<Fault>, totals: &mut
             totals.literal += u64::from(literal::check::<T>(case, i, &reference, seed, &mut totals.worst)?);
             totals.differences += u64::from(difference::check::<T>(&alone, fault, seed)?);
         }
-        if matches!(case.host, Host::Umat | Host::Mgis) {
+        let code = if is_refused { Some(reference.code) } else { reference.status(case, i) };
+        let goes_on = case.host != Host::CalculiX || code.is_some_and(|code| hosts::goes_on(case, i, code));
+        if case.host.has_points() && goes_on {
             let outcome = one::<T>(Entry::Host, &alone, fault, totals, None)?;
             let evaluated = through_host(case, &reference, i, &outcome, 0)?;
-            totals.hosts[if case.host == Host::Umat { 0 } else { 2 }] += u64::from(evaluated);
+            totals.hosts[case.host as usize - 1] += u64::from(evaluated);
+            tangents_of_elements(&alone, &outcome, fault, totals)?;
         }
     }
-    if case.host == Host::Vumat {
+    if case.host.has_blocks() {
         let codes: Vec<_> = (0..n).map(|i| reference.status(case, i)).collect();
         let codes = if is_refused { None } else { Some(&codes[..]) };
         let outcome = one::<T>(Entry::Host, case, fault, totals, codes)?;
         for i in 0..n {
-            totals.hosts[1] += u64::from(through_host(case, &reference, i, &outcome, i)?);
+            totals.hosts[case.host as usize - 1] += u64::from(through_host(case, &reference, i, &outcome, i)?);
         }
+        tangents_of_elements(case, &outcome, fault, totals)?;
     }
     Ok(())
+}
+
+/// The tangents of LS-DYNA: the symmetric part of those of a further step to the same F, from the state written.
+fn tangents_of_elements<T: Functions>(
+    case: &Case,
+    outcome: &Outcome<T>,
+    fault: Option<Fault>,
+    totals: &mut Totals,
+) -> Checked {
+    let Some((code, tangents)) = &outcome.further else { return Ok(()) };
+    if *code == status::NO_DEFORMATION_GRADIENT && lacks_gradient(case, 0) {
+        return Ok(());
+    }
+    let asked = with::TANGENT | with::STATUS | with::STATE;
+    let mut further = Case { host: Host::None, with: asked, old: Old::Apart, measure: 1, ..case.clone() };
+    for (i, point) in further.points.iter_mut().enumerate() {
+        (point.state, point.f_old) = (outcome.state.row(i), point.f);
+    }
+    let block = call::<T>(Entry::BlockWithProperties, &further, fault);
+    // Those of the hyperelastic law are symmetric.
+    let block = if case.law == Law::Hyperelastic { block } else { block.symmetric() };
+    holds(*code == block.code, || format!("utan returned {code}, the block {}", block.code))?;
+    let exact = case.law != Law::Hyperelastic || !hosts::is_scalar(case);
+    for i in 0..case.points.len() {
+        let [found, expected] = [tangents, &block.tangent].map(|array| array.row(i));
+        let size = expected.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+        let near = |(a, b): (&f64, &f64)| a == b || (!exact && (a - b).abs() <= 1e6 * T::ROUNDING * size);
+        let moderate = exact || is_moderate(case, i, outcome.state.get(5, i).into());
+        holds(!moderate || found.iter().zip(&expected).all(near), || {
+            format!("utan, point {i}: {found:?}, the block {expected:?}")
+        })?;
+        totals.tangents += u64::from(moderate);
+    }
+    Ok(())
+}
+
+/// Whether the first element of a call, this one of the case, may be one of which LS-DYNA and OpenRadioss say that it has no F: its state is
+/// that before a first call or none at all, or F has a row or column of zeros.
+fn lacks_gradient(case: &Case, first: usize) -> bool {
+    let Some(point) = case.points.get(first) else { return false };
+    let failed = case.law.failed();
+    let flags = &point.state[failed..failed + 2];
+    let is_state = flags.iter().all(|&x| x == 0.0 || x == 1.0) && flags[0] + flags[1] > 0.0;
+    let zeros = |first: usize, stride: usize| (0..3).all(|i| point.f[first + stride * i] as f32 == 0.0);
+    !is_state || (0..3).any(|k| zeros(3 * k, 1) || zeros(k, 3))
 }
 
 fn of<T>(outcome: &Outcome<T>, point: usize) -> Of<'_, T> {
@@ -210,34 +262,75 @@ fn through_host<T: Functions>(
     let code =
         if reference.code < -300 || reference.code == 0 { reference.status(case, i) } else { Some(reference.code) };
     let Some(code) = code else { return Ok(false) };
+    if let Some(stop) = checks::stopped(case, outcome) {
+        let has_length = |m: &[f64; 3]| (1e-30..1e30).contains(&m.iter().map(|x| x.abs()).sum::<f64>());
+        let mut points = (0..case.points.len()).map(|i| (&case.points[i].fibre, reference.status(case, i)));
+        let is_due = points.any(|(fibre, code)| {
+            // In the first cycle all directions are looked at, also those of points that have failed.
+            let first = stop == status::FIBRE_DIRECTION && hosts::is_first_cycle(case) && !has_length(fibre);
+            first || code == Some(stop)
+        });
+        holds(is_due, || format!("OpenRadioss is stopped with {stop}"))?;
+        return Ok(false);
+    }
+    let is_whole = |code: i32| code != 0 && !POINT.contains(&code);
     let refused = match case.host {
-        Host::Vumat => reference.code != 0 && !POINT.contains(&reference.code),
+        Host::Vumat => is_whole(reference.code),
+        _ if case.host.has_blocks() => is_whole(reference.code) || is_whole(outcome.code),
         _ => outcome.code != 0,
     };
     if refused || code != 0 {
         let expected = match case.host {
             // A host has more to compute: energies per mass, another stress.
-            Host::Umat | Host::Mgis if code == 0 => is_extreme(case, i),
+            Host::Umat | Host::Mgis | Host::CalculiX if code == 0 => is_extreme(case, i),
             // Which of several wrong arguments is named is a host's choice.
             _ if (-300..=-100).contains(&code) => (-300..=-100).contains(&outcome.code) || outcome.code == -1,
-            Host::Vumat => true, // checked by the codes of all points
+            Host::LsDyna | Host::OpenRadioss if outcome.code == status::NO_DEFORMATION_GRADIENT => {
+                lacks_gradient(case, i - j)
+            }
+            // From a law without stiffness the starter has no time step.
+            Host::OpenRadioss if outcome.code == status::BAD_ARGUMENT => case.properties[0] < 1e-30,
+            Host::LsDyna | Host::OpenRadioss if is_whole(outcome.code) => false,
+            // Checked by the codes of all points.
+            _ if case.host.has_blocks() => true,
             // A limit that is none is an argument of a UMAT, looked at before F; an energy per volume may overflow.
-            Host::Umat if outcome.code == toron::status::BAD_ARGUMENT => is_no_limit(case.points[i].limit),
-            Host::Umat => outcome.code == code || outcome.code == toron::status::OVERFLOW,
+            Host::Umat if outcome.code == status::BAD_ARGUMENT => is_no_limit(case.points[i].limit),
+            Host::Umat => outcome.code == code || outcome.code == status::OVERFLOW,
+            Host::CalculiX => outcome.beside[0] <= 0.25,
             _ => outcome.code == -1 && (!POINT.contains(&code) || outcome.beside[1] <= 0.25),
         };
-        holds(expected, || format!("host returned {}, the block {code}, {:?}", outcome.code, outcome.beside))?;
+        holds(expected, || {
+            format!("host returned {}, {}, the block {code}, {:?}", outcome.code, outcome.message, outcome.beside)
+        })?;
         return Ok(false);
     }
+    // A matrix of which CalculiX has a triangle.
+    let symmetric = case.host == Host::CalculiX;
+    let reference = if symmetric { &reference.clone().symmetric() } else { reference };
     let (a, b) = (of(reference, i), of(outcome, j));
-    let exact = case.host != Host::Mgis && (case.law != Law::Hyperelastic || case.host == Host::Vumat);
+    let exact = match case.host {
+        // Other stress measures.
+        Host::Mgis | Host::CalculiX => false,
+        Host::LsDyna => case.law != Law::Hyperelastic || !of_one_element(case, outcome),
+        _ => case.law != Law::Hyperelastic || case.host.has_blocks(),
+    };
     if exact { same(case, a, b) } else { close(case, a, b) }?;
     Ok(true)
 }
 
+/// Whether an outcome is that of the routine of LS-DYNA for one element.
+fn of_one_element<T: Functions>(case: &Case, outcome: &Outcome<T>) -> bool {
+    case.host == Host::LsDyna && outcome.stress.points == 1 && hosts::is_scalar(&case.of_point(0))
+}
+
 /// Whether a product of a point's numbers may be beyond the format.
 fn is_extreme(case: &Case, i: usize) -> bool {
-    let most = if case.single { 1e8 } else { 1e80 };
+    // The second Piola–Kirchhoff stress has products of four entries of F.
+    let most = match case.host {
+        Host::CalculiX => 1e30,
+        _ if case.single => 1e8,
+        _ => 1e80,
+    };
     let numbers = case.points[i].f.iter().chain(&case.properties).chain([&case.density]);
     numbers.into_iter().any(|x| *x != 0.0 && !(1.0 / most..most).contains(&x.abs()))
 }
@@ -285,9 +378,8 @@ fn smaller(case: &Case) -> Vec<Case> {
     let mut add = |change: &dyn Fn(&mut Case)| {
         let mut changed = case.clone();
         change(&mut changed);
-        if changed.host == Host::Vumat {
-            changed.points.iter_mut().for_each(Input::make_symmetric);
-        }
+        let host = changed.host;
+        changed.points.iter_mut().for_each(|point| point.fit_host(host));
         // As text: NaN is not equal to itself.
         if changed.to_string() != before {
             cases.push(changed);

@@ -1,4 +1,4 @@
-//! Changed files, each for its reader, in bounded time and memory.
+//! Changed files, each for its reader, in bounded time and memory: both are measured, and the system bounds the memory.
 
 use std::fs;
 use std::panic::{self, AssertUnwindSafe};
@@ -13,12 +13,16 @@ use toron_shared::error::Error;
 use toron_shared::processor_time::thread_time;
 use toron_test_support::library::{ROOT, folder};
 
+use super::checkpoints;
 use super::mutate::mutated;
-use super::targets::{TARGETS, Target, files};
+use super::targets::{Target, files};
 
 /// The most that a reader may take for a changed file: processor time, whatever else runs, and bytes.
 const TIME: Duration = Duration::from_secs(10);
 const MEMORY: u64 = 1 << 30;
+/// The address space of the process that reads changed files: what a reader may take, and as much for the rest.
+#[cfg(target_os = "linux")]
+const ADDRESS_SPACE: u64 = 2 * MEMORY;
 /// After so long nothing is waited for.
 const HANGS: Duration = Duration::from_secs(300);
 
@@ -54,6 +58,22 @@ fn watch() -> Sender<()> {
     alive
 }
 
+/// Bounds the memory of this process: what asks for more ends it.
+#[cfg(target_os = "linux")]
+fn bound_memory() {
+    let bound = libc::rlimit { rlim_cur: ADDRESS_SPACE, rlim_max: ADDRESS_SPACE };
+    // SAFETY: a structure of the type that the function reads.
+    assert_eq!(unsafe { libc::setrlimit(libc::RLIMIT_AS, &bound) }, 0, "the bound of the address space");
+}
+
+#[cfg(not(target_os = "linux"))]
+fn bound_memory() {}
+
+/// Where the name of the file that is read stands, for the one whose reader ends the process.
+pub fn current() -> PathBuf {
+    folder("fuzzed-files").join("current")
+}
+
 /// Copies the folders that readers look into, so that a changed file has its neighbours.
 fn copies() -> PathBuf {
     let copies = folder("fuzzed-files");
@@ -75,22 +95,30 @@ fn copy(from: &Path, to: &Path) {
     }
 }
 
-/// Reads so many changed files from this seed on.
+/// Reads so many changed files of these targets from this seed on. The memory of the process is bounded from then on.
 ///
 /// # Errors
 /// What a reader did wrong; the changed file is kept, and named.
-pub fn run(seed: u64, count: u64) -> Result<Totals, String> {
+pub fn run(targets: &[Target], seed: u64, count: u64) -> Result<Totals, String> {
     let (copies, alive) = (copies(), watch());
-    let all: Vec<Vec<PathBuf>> = TARGETS.iter().map(files).collect();
+    let all: Vec<Vec<PathBuf>> = targets.iter().map(files).collect();
+    bound_memory();
     let (mut totals, mut seeds) = (Totals::default(), Rng::with_seed(seed));
     for k in 0..count {
         let rng = &mut Rng::with_seed(seeds.u64(..));
-        let (target, files) = (&TARGETS[k as usize % TARGETS.len()], &all[k as usize % TARGETS.len()]);
+        let (target, files) = (&targets[k as usize % targets.len()], &all[k as usize % targets.len()]);
         assert!(!files.is_empty(), "{}: no files", target.name);
         let [file, other] = [0; 2].map(|_| &files[rng.usize(..files.len())]);
         let [original, other] = [file, other].map(|file| fs::read(file).expect("a file of the repository"));
-        let changed = copies.join(file.strip_prefix(ROOT).expect("a file of the repository"));
-        fs::write(&changed, mutated(rng, &original, &other)).expect("a changed file");
+        let is_checkpoint = target.end == checkpoints::ENDING;
+        let name = if is_checkpoint { file.file_name().map(Path::new) } else { file.strip_prefix(ROOT).ok() };
+        let changed = copies.join(name.expect("a file of the repository"));
+        let bytes = match is_checkpoint && rng.bool() {
+            true => checkpoints::of_another(&original, |identity| mutated(rng, identity, &other)),
+            false => mutated(rng, &original, &other),
+        };
+        fs::write(&changed, bytes).expect("a changed file");
+        fs::write(current(), format!("{} of {}", changed.display(), target.name)).expect("a file");
         let start = thread_time();
         let read = one(target, &changed, &mut totals);
         let time = thread_time().saturating_sub(start);

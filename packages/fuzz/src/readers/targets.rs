@@ -18,10 +18,12 @@ use toron_strikes::weave::foreign;
 use toron_strikes::{fabric, impact, v50, weave};
 use toron_test_support::library::ROOT;
 
+use super::checkpoints;
+
 /// A reader, and where its files are.
 pub struct Target {
     pub name: &'static str,
-    /// Folders or files below the repository.
+    /// Folders or files below the repository; of checkpoints none, since runs write them.
     pub places: &'static [&'static str],
     /// How the names of the files end.
     pub end: &'static str,
@@ -147,6 +149,18 @@ pub const TARGETS: &[Target] = &[
             foreign::vtu::read(&path.display().to_string(), &bytes).map(drop)
         },
     },
+    Target {
+        name: "checkpoint of toron impact",
+        places: &[],
+        end: checkpoints::ENDING,
+        read: checkpoints::read_impact,
+    },
+    Target {
+        name: "checkpoint of toron fabric",
+        places: &[],
+        end: checkpoints::ENDING,
+        read: checkpoints::read_fabric,
+    },
     #[cfg(target_os = "linux")]
     Target {
         name: "material of toron check",
@@ -176,6 +190,9 @@ pub const TARGETS: &[Target] = &[
 
 /// The files of a target, in the order of their names.
 pub fn files(target: &Target) -> Vec<PathBuf> {
+    if target.end == checkpoints::ENDING {
+        return checkpoints::files();
+    }
     let mut files = Vec::new();
     for place in target.places {
         let place = Path::new(ROOT).join(place);

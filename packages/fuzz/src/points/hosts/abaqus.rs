@@ -1,52 +1,21 @@
-//! The entries of hosts: a UMAT and MGIS for one point, a VUMAT for a block. Their results come back in the order of
-//! the law.
+//! A UMAT and a VUMAT.
 
-use std::ptr::{null, null_mut};
+use std::ptr::null_mut;
 
 use toron::host::abaqus::Vumat;
-use toron::host::mgis::{BehaviourDataView, MgisLaw, StateView};
-use toron::{Frictional, Hyperelastic, LinearElastic};
 use toron_c::{toron_abaqus_frictional_umat_f64, toron_abaqus_linear_umat_f64, toron_abaqus_umat_tangent_f64};
 
-use super::arrays::{Array, guard};
-use super::case::{Case, Law, with};
-use super::entries::{Inputs, Outcome};
-use super::functions::{Functions, Message};
-
-/// State variables behind those of the law: the limit, and one that is nobody's.
-const OTHERS: usize = 2;
-const NOBODYS: f64 = 7.25;
+use super::{NOBODYS, OTHERS, back, card, doubles, put};
+use crate::points::arrays::{Array, guard};
+use crate::points::case::{Case, Law, with};
+use crate::points::entries::{Inputs, Outcome};
+use crate::points::functions::{Functions, Message};
 
 /// Where Abaqus has the law's components 11 22 33 12 23 31.
 const IN_ABAQUS: [usize; 6] = [0, 1, 2, 3, 5, 4];
 
 /// The components of U, 11 22 33 12 23 31, among F by columns.
 const OF_STRETCH: [usize; 6] = [0, 4, 8, 3, 7, 6];
-
-/// The card: the properties, and the number of the variable with the limit.
-fn card<T: Functions>(case: &Case, inputs: &Inputs<T>) -> Vec<T> {
-    let mut card = inputs.properties.clone();
-    if case.asks(with::LIMIT) {
-        card.push(T::splat((case.law.state() + 1) as f64));
-    }
-    card
-}
-
-/// As double precision, bit by bit: the entries for one point are of that.
-fn doubles<T: Functions>(values: impl IntoIterator<Item = T>) -> Vec<f64> {
-    values.into_iter().map(|x| f64::from_bits(x.bits())).collect()
-}
-
-fn back<T: Functions>(x: f64) -> T {
-    T::from_bits(x.to_bits())
-}
-
-/// Writes the components of the only point.
-fn put<T: Functions>(array: &mut Array<T>, values: &[f64]) {
-    for (c, &x) in values.iter().enumerate() {
-        array.set(c, 0, back(x));
-    }
-}
 
 pub fn umat<T: Functions>(case: &Case, inputs: &mut Inputs<T>, outcome: &mut Outcome<T>, message: &mut Message) -> i32 {
     let (point, states) = (&case.points[0], case.law.state());
@@ -185,67 +154,4 @@ pub fn vumat<T: Functions>(
     }
     outcome.input_written = strange;
     code
-}
-
-/// Where MFront has F and the law's symmetric components; shears there are √2 times as large.
-const GRADIENT_IN_MFRONT: [usize; 9] = [0, 4, 8, 3, 1, 6, 2, 7, 5];
-const IN_MFRONT: [usize; 6] = [0, 1, 2, 3, 5, 4];
-
-pub fn mgis<T: Functions>(case: &Case, inputs: &mut Inputs<T>, outcome: &mut Outcome<T>, message: &mut Message) -> i32 {
-    let point = &case.points[0];
-    let properties = doubles(inputs.properties.iter().copied());
-    let gradients = [point.f_old, point.f].map(|f| GRADIENT_IN_MFRONT.map(|place| f[place]));
-    let (mut old, mut new) = (point.state.clone(), vec![guard::<f64>(); case.law.state()]);
-    let (mut stress, mut k) = ([guard::<f64>(); 6], [guard::<f64>(); 36]);
-    (k[0], k[1], k[2]) = (if case.asks(with::TANGENT) { 4.0 } else { 0.0 }, 0.0, 1.0);
-    let request = k.map(f64::to_bits);
-    let [mut stored, mut dissipated, mut rdt] = [guard::<f64>(), guard(), 1.0];
-    let nothing = null_mut::<f64>();
-    let state = |gradients: &[f64; 9], forces, variables, stored, dissipated| StateView {
-        gradients: gradients.as_ptr(),
-        thermodynamic_forces: forces,
-        mass_density: null(),
-        material_properties: properties.as_ptr(),
-        internal_state_variables: variables,
-        stored_energy: stored,
-        dissipated_energy: dissipated,
-        external_state_variables: null(),
-    };
-    let (sigma, isv): (*mut f64, *mut f64) = (stress.as_mut_ptr(), new.as_mut_ptr());
-    let mut view = BehaviourDataView {
-        error_message: message.as_mut_ptr(),
-        dt: 0.0,
-        k: k.as_mut_ptr(),
-        rdt: &mut rdt,
-        speed_of_sound: nothing,
-        s0: state(&gradients[0], nothing, old.as_mut_ptr(), nothing, nothing),
-        s1: state(&gradients[1], sigma, isv, &mut stored, &mut dissipated),
-    };
-    // SAFETY: the arrays have the sizes of the hypothesis and of the tables.
-    let answer = unsafe {
-        match case.law {
-            Law::Hyperelastic => <Hyperelastic>::integrate(&mut view),
-            Law::Frictional => <Frictional>::integrate(&mut view),
-            Law::Linear => <LinearElastic>::integrate(&mut view),
-        }
-    };
-    let root = |c: usize| if c < 3 { 1.0 } else { std::f64::consts::SQRT_2 };
-    let integrated = answer == 1;
-    if k.map(f64::to_bits) == request {
-        k = [guard(); 36];
-    }
-    for (c, place) in IN_MFRONT.into_iter().enumerate() {
-        let value = if integrated { stress[place] / root(c) } else { stress[place] };
-        outcome.stress.set(c, 0, back(value));
-        for (d, other) in IN_MFRONT.into_iter().enumerate() {
-            let value = k[6 * place + other];
-            let value = if value.is_nan() { value } else { value / (root(c) * root(d)) };
-            outcome.tangent.set(6 * c + d, 0, back(value));
-        }
-    }
-    put(&mut outcome.state, &new);
-    outcome.beside = vec![stored, rdt, dissipated];
-    outcome.input_written = old.iter().zip(&point.state).any(|(a, b)| a.to_bits() != b.to_bits());
-    // The status is not told: any refusal is a −1.
-    if integrated { 0 } else { -1 }
 }
