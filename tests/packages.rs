@@ -12,7 +12,7 @@ use serde_json::Value;
 type Arrows = (&'static str, &'static [&'static str], &'static [&'static str]);
 
 /// From the ground up.
-const ARROWS: [Arrows; 27] = [
+const ARROWS: [Arrows; 28] = [
     ("toron", &[], &["reinforced-solid", "toron-test-support"]),
     ("toron-test-support", &["toron"], &[]),
     ("toron-shared", &[], &[]),
@@ -72,6 +72,7 @@ const ARROWS: [Arrows; 27] = [
         ],
         &[],
     ),
+    ("toron-keys", &["toron-materials", "toron-parameters", "toron-shared", "toron-strikes"], &["toron-test-support"]),
     ("toron-benches", &[], &["toron", "toron-materials", "toron-pictures", "toron-test-support"]),
     ("xtask", &[], &[]),
     // `examples/own_law`.

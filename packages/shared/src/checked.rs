@@ -150,9 +150,10 @@ mod tests {
 
     #[test]
     fn what_is_allowed_is_read() {
-        let keys = read("half-length = 3\nfriction = 0.0\npart = 1\nrows = 40\nseed = 0").expect("all are allowed");
+        let keys = read("half-length = 3\nfriction = 0.0\npart = 1\nrows = 40\nseed = 0x8000000000000000")
+            .expect("all are allowed");
         assert_eq!((value(&keys.half_length), value(&keys.friction)), (Some(3.0), Some(0.0)));
-        assert_eq!((value(&keys.part), value(&keys.rows), keys.seed), (Some(1.0), Some(40), Some(0)));
+        assert_eq!((value(&keys.part), value(&keys.rows), keys.seed), (Some(1.0), Some(40), Some(1 << 63)));
         let none = read("").expect("no key");
         assert!(value(&none.rows).is_none() && none.half.is_none());
     }
@@ -172,6 +173,8 @@ mod tests {
             ("rows = 41", "rows is 41; allowed: a whole number from 2 to 40"),
             ("rows = 2.5", "rows is 2.5; allowed: a whole number"),
             ("seed = -1", "seed is -1; allowed: a whole number >= 0"),
+            ("seed = 99999999999999999999", "seed is 99999999999999999999; allowed: a whole number >= 0"),
+            ("friction = 1e400", "friction is 1e400; allowed: a number"),
         ] {
             let error = read(&format!("\n{text}\n")).map(|_| ()).expect_err(text);
             assert_eq!(error, format!("x.toml:2: {message}"));

@@ -55,7 +55,10 @@ impl Value<'_, '_> {
                 Some(number) => Unexpected::Signed(number),
                 None => Unexpected::Other("an integer of more than 64 bits"),
             },
-            DeValue::Float(number) => Unexpected::Float(float(number).unwrap_or(f64::NAN)),
+            DeValue::Float(number) => match float(number) {
+                Some(number) => Unexpected::Float(number),
+                None => Unexpected::Other("a number beyond the largest"),
+            },
             DeValue::Boolean(value) => Unexpected::Bool(*value),
             DeValue::Datetime(_) => Unexpected::Other("a date"),
             DeValue::Array(_) => Unexpected::Seq,
@@ -66,13 +69,14 @@ impl Value<'_, '_> {
 
     fn number<'de, V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Wrong> {
         match self.0.get_ref() {
-            DeValue::Integer(number) => match integer(number) {
-                Some(number) => visitor.visit_i64(number),
-                None => Err(Wrong::custom("integer number overflowed")),
+            DeValue::Integer(number) => match (integer(number), u64::from_str_radix(number.as_str(), number.radix())) {
+                (Some(number), _) => visitor.visit_i64(number),
+                (None, Ok(number)) => visitor.visit_u64(number),
+                (None, Err(_)) => Err(self.is_not(&visitor)),
             },
             DeValue::Float(number) => match float(number) {
                 Some(number) => visitor.visit_f64(number),
-                None => Err(Wrong::custom("floating-point number overflowed")),
+                None => Err(self.is_not(&visitor)),
             },
             _ => Err(self.is_not(&visitor)),
         }
@@ -84,8 +88,10 @@ fn integer(number: &DeInteger) -> Option<i64> {
     i64::from_str_radix(number.as_str(), number.radix()).ok()
 }
 
+/// None is a number that is written with digits and beyond the largest.
 fn float(number: &DeFloat) -> Option<f64> {
-    number.as_str().parse().ok()
+    let text = number.as_str();
+    text.parse().ok().filter(|value: &f64| !value.is_infinite() || text.contains("inf"))
 }
 
 /// Methods of a [`Deserializer`] that do what another one does.

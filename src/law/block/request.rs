@@ -16,13 +16,11 @@ pub(super) const ALIGNED: u8 = 2;
 /// for each group of registers.
 pub(super) const ANY: u8 = 4;
 /// Longitudinal shear, compiled with the state alone: it is rarely used.
-#[cfg_attr(not(target_arch = "x86_64"), allow(dead_code))]
 pub(super) const SHEAR: u8 = 8;
-/// What explicit solvers ask beside the state, where the block has it: the wave speed, and failure limits of the points.
-#[cfg_attr(not(target_arch = "x86_64"), allow(dead_code))]
-pub(super) const EXPLICIT: u8 = 32;
 /// The law with friction between the fibres. The last part of its state begins with four variables of its own.
 pub(super) const FRICTION: u8 = 16;
+/// What explicit solvers ask beside the state, where the block has it: the wave speed, and failure limits of the points.
+pub(super) const EXPLICIT: u8 = 32;
 pub(super) const LOST: usize = 0;
 pub(super) const I_TE: usize = 1;
 pub(super) const SLIP: usize = 2;

@@ -111,7 +111,7 @@ fn notes(job: &BlowJob, solution: &Solution) -> Vec<String> {
         notes.extend(ends.filter_map(|((end, rise), side)| {
             let what = curved(solution.values[place], end, rise)?;
             Some(format!(
-                "the {side} end of {}, {}, is linearised, and wrong: {what}",
+                "the {side} end of {}, {}, is linearised, and a run there does not confirm it: {what}",
                 fitted.property.name,
                 digits(end)
             ))

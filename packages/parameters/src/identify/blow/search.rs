@@ -181,12 +181,14 @@ fn rises(
     let fits = &runs.job.fits;
     let squares =
         |followed: &[f64]| runs.job.residuals(followed).iter().map(|residual| residual * residual).sum::<f64>();
+    let here = runs.job.residuals(followed);
     let least = squares(followed);
     let rise = |(place, end): (usize, f64)| {
         let along = |i: usize| values[i] + paths[(i, place)] * (end - values[place]);
         let there: Vec<f64> = (0..fits.len()).map(|i| fits[i].clamped(along(i))).collect();
         let moved = |i: usize| (there[i] - values[i]) / fits[i].inside();
-        let linear = (gradients * DMatrix::from_fn(fits.len(), 1, |i, _| moved(i))).norm_squared();
+        let change = gradients * DMatrix::from_fn(fits.len(), 1, |i, _| moved(i));
+        let linear = here.iter().zip(change.iter()).map(|(r, d)| (r + d) * (r + d) - r * r).sum::<f64>();
         let found = squares(&runs.follow(&there).ok()?) - least;
         (linear > 0.0).then(|| found / linear)
     };
