@@ -86,6 +86,10 @@ fn properties_that_made_the_history_come_back() {
         assert!((found / wanted - 1.0).abs() < 0.01, "{found} for {wanted}");
         assert!(*low < wanted && wanted < *high, "{wanted} is not in {low} to {high}");
     }
+    // A run at each end says what the linearised interval is worth. These are narrow against the differences that the
+    // derivatives are of, and a run's roughness adds to the squares: they rise by 0.8 to 2.4 times the linearised rise.
+    let rises: Vec<f64> = solution.rises.iter().flatten().map(|rise| rise.expect("a run")).collect();
+    assert!(rises.len() == 6 && rises.iter().all(|rise| (0.5..4.0).contains(rise)), "{rises:?}");
     assert!(job.misfit(&solution.followed) < 0.01 * job.misfit(&solution.before));
     let count = runs.count();
     assert!(count.found == 0 && count.all > 8, "{count:?}");

@@ -19,6 +19,9 @@ use toron_shared::text_table::write_csv;
 
 /// Residuals of a column that is worth less than this part of its data come in waves.
 const WAVES: f64 = 0.5;
+/// Where the squares rise by more than this, or less than its inverse, over the linearised rise, the report says so: the
+/// end is off by more than 1.4 or 0.7 times.
+const LINEAR: f64 = 2.0;
 
 fn interval([low, high]: [f64; 2]) -> String {
     format!("95 % (linearised): {} to {}", digits(low), digits(high))
@@ -73,6 +76,21 @@ pub fn report(job: &BlowJob, solution: &Solution, count: Count) -> String {
     text
 }
 
+/// What a run at the end of an interval says against it, if its squares rise by much more or less than linearised.
+fn curved(value: f64, end: f64, rise: Option<f64>) -> Option<String> {
+    let rise = rise.filter(|rise| !(1.0 / LINEAR..=LINEAR).contains(rise))?;
+    let text = if rise > 0.0 {
+        let place = value + (end - value) / rise.sqrt();
+        format!(
+            "a run there raises the squares by {rise:.2} times what that takes; a parabola through it ends at {}",
+            digits(place)
+        )
+    } else {
+        "a run there has no larger squares: fit again from it".to_string()
+    };
+    Some(text)
+}
+
 fn notes(job: &BlowJob, solution: &Solution) -> Vec<String> {
     let mut notes = Vec::new();
     let misfit = job.misfit(&solution.followed);
@@ -87,6 +105,17 @@ fn notes(job: &BlowJob, solution: &Solution) -> Vec<String> {
         job.follows.iter().zip(&solution.independent).filter(in_waves).map(|(followed, _)| followed.name).collect();
     if !names.is_empty() {
         notes.push(format!("residuals of {} come in waves, and count for fewer data", names.join(", ")));
+    }
+    for (fitted, place) in job.fits.iter().zip(0..) {
+        let ends = solution.intervals[place].into_iter().zip(solution.rises[place]).zip(["lower", "upper"]);
+        notes.extend(ends.filter_map(|((end, rise), side)| {
+            let what = curved(solution.values[place], end, rise)?;
+            Some(format!(
+                "the {side} end of {}, {}, is linearised, and wrong: {what}",
+                fitted.property.name,
+                digits(end)
+            ))
+        }));
     }
     let on_bound =
         |(fitted, value): &(&Fitted, &f64)| **value <= fitted.property.minimum || **value >= fitted.property.maximum;
@@ -164,4 +193,20 @@ pub fn write_plot([svg, png]: [&Path; 2], job: &BlowJob, solution: &Solution) ->
     let abscissa = Abscissa { label: title("time", TIME, &job.scene.units), values: job.times.clone(), failure: None };
     let panels = job.follows.iter().enumerate().map(panel);
     history::write(svg, png, [&job.title, "The history of a blow, followed by a scene"], panels, &abscissa)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_end_that_a_run_contradicts_is_named() {
+        for rise in [None, Some(0.51), Some(1.0), Some(1.99)] {
+            assert_eq!(curved(100.0, 120.0, rise), None);
+        }
+        let text = |rise: f64| curved(100.0, 120.0, Some(rise)).expect("a sentence");
+        assert!(text(4.0).contains("by 4.00 times") && text(4.0).ends_with("ends at 110"), "{}", text(4.0));
+        assert!(text(0.25).ends_with("ends at 140"), "{}", text(0.25));
+        assert!(text(-0.1).contains("no larger squares"), "{}", text(-0.1));
+    }
 }

@@ -37,6 +37,9 @@ pub struct Solution {
     pub before: Vec<f64>,
     /// The ends of each property's 95 % interval.
     pub intervals: Vec<[f64; 2]>,
+    /// By how much the squares of a run at each of these ends rise, over what the linearised interval takes; none where
+    /// there is no such run.
+    pub rises: Vec<[Option<f64>; 2]>,
     pub correlations: DMatrix<f64>,
     /// How many data each column is worth whose residuals come in waves.
     pub independent: Vec<f64>,
@@ -65,8 +68,9 @@ pub fn minimise(runs: &Runs) -> Result<Solution, Error> {
     }
     let gradients = gradients?;
     let independent = independent(runs, &found.followed);
-    let (intervals, correlations) = intervals(runs, &values, &found.followed, &gradients, &independent)?;
-    Ok(Solution { values, followed: found.followed, before, intervals, correlations, independent, impatient })
+    let (intervals, correlations, paths) = intervals(runs, &values, &found.followed, &gradients, &independent)?;
+    let rises = rises(runs, [&values, &found.followed], &gradients, &intervals, &paths);
+    Ok(Solution { values, followed: found.followed, before, intervals, rises, correlations, independent, impatient })
 }
 
 impl Fitted {
@@ -164,15 +168,47 @@ fn independent(runs: &Runs, followed: &[f64]) -> Vec<f64> {
     residuals.chunks(runs.job.times.len()).map(|residuals| column(residuals).max(1.0)).collect()
 }
 
-/// Intervals and correlations, linearised: the deviations are those that the residuals have where they are larger than
-/// the given ones, and the data count for as many as are independent.
+/// Runs at the ends of the intervals, where the other properties are those of the least squares, linearised: the rise of
+/// their squares over the linearised rise. It is 1 where the law's answer is linear in the properties. A run that fails
+/// says nothing.
+fn rises(
+    runs: &Runs,
+    [values, followed]: [&[f64]; 2],
+    gradients: &DMatrix<f64>,
+    intervals: &[[f64; 2]],
+    paths: &DMatrix<f64>,
+) -> Vec<[Option<f64>; 2]> {
+    let fits = &runs.job.fits;
+    let squares =
+        |followed: &[f64]| runs.job.residuals(followed).iter().map(|residual| residual * residual).sum::<f64>();
+    let least = squares(followed);
+    let rise = |(place, end): (usize, f64)| {
+        let along = |i: usize| values[i] + paths[(i, place)] * (end - values[place]);
+        let there: Vec<f64> = (0..fits.len()).map(|i| fits[i].clamped(along(i))).collect();
+        let moved = |i: usize| (there[i] - values[i]) / fits[i].inside();
+        let linear = (gradients * DMatrix::from_fn(fits.len(), 1, |i, _| moved(i))).norm_squared();
+        let found = squares(&runs.follow(&there).ok()?) - least;
+        (linear > 0.0).then(|| found / linear)
+    };
+    let ends: Vec<(usize, f64)> =
+        intervals.iter().enumerate().flat_map(|(place, ends)| ends.map(|end| (place, end))).collect();
+    let found: Vec<Option<f64>> = ends.into_par_iter().map(rise).collect();
+    found.chunks(2).map(|pair| [pair[0], pair[1]]).collect()
+}
+
+/// What is told of all properties, linearised: intervals, correlations, and by how much each property (a row) moves with
+/// another (a column) where the squares are least.
+type Linearised = (Vec<[f64; 2]>, DMatrix<f64>, DMatrix<f64>);
+
+/// Linearised: the deviations are those that the residuals have where they are larger than the given ones, and the data
+/// count for as many as are independent.
 fn intervals(
     runs: &Runs,
     values: &[f64],
     followed: &[f64],
     gradients: &DMatrix<f64>,
     independent: &[f64],
-) -> Result<(Vec<[f64; 2]>, DMatrix<f64>), Error> {
+) -> Result<Linearised, Error> {
     let (job, count) = (runs.job, values.len());
     let norms: Vec<f64> = gradients.column_iter().map(|column| column.norm()).collect();
     let names = || job.fits.iter().map(|fitted| fitted.property.name);
@@ -202,5 +238,7 @@ fn intervals(
     };
     let correlations =
         DMatrix::from_fn(count, count, |i, j| inverse[(i, j)] / (inverse[(i, i)] * inverse[(j, j)]).sqrt());
-    Ok(((0..count).map(interval).collect(), correlations))
+    let length = |i: usize| job.fits[i].inside() / norms[i];
+    let paths = DMatrix::from_fn(count, count, |i, j| inverse[(i, j)] / inverse[(j, j)] * length(i) / length(j));
+    Ok(((0..count).map(interval).collect(), correlations, paths))
 }
