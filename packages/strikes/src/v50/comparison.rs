@@ -191,7 +191,62 @@ pub fn report(experiments: u64) -> String {
 
 #[cfg(test)]
 mod tests {
+    use super::super::designs::Approach;
     use super::*;
+
+    /// Of experiments of 40 shots by 3pod: how far the speed at which `chance` of the shots go through is off, in the
+    /// middle, and half of what is between the middle 68 %, over the deviation; by the speed that the design asks for
+    /// next, which with the third phase is its estimate, and by the likeliest curve of all shots.
+    fn of_percentile(truth: Truth, chance: f64, is_approached: bool, experiments: u64) -> [[f64; 2]; 2] {
+        let approach = is_approached.then_some(Approach { chance, after: 15 });
+        let kind = Kind { design: Design::ThreePod { deviation: DEVIATION, approach }, truth, guess: 1.0, size: 1 };
+        // The truth's place of the chance, by halving.
+        let halved = |[low, high]: [f64; 2]| {
+            let middle = 0.5 * (low + high);
+            if truth.chance(middle) < chance { [middle, high] } else { [low, middle] }
+        };
+        let [place, _] = (0..60).fold([-20.0, 20.0], |ends, _| halved(ends));
+        let one = |number: u64| {
+            let fates = kind.fates(40, number);
+            let fired: Vec<Fired> = fates.iter().map(|&fate| Fired { nominal: fate.speed, fate }).collect();
+            let range = [-1.0, 1.0].map(|side| MIDDLE + side * HALF_RANGE * DEVIATION);
+            let [v50, deviation] = Curve::likeliest(&fates);
+            let by_curve = v50 + Link::Probit.quantile(chance) * deviation;
+            [kind.design.speed(fired.len() + 1, &fired, range), by_curve].map(|speed| (speed - V50) / DEVIATION - place)
+        };
+        let found: Vec<[f64; 2]> = (0..experiments).into_par_iter().map(one).collect();
+        [0, 1].map(|by| {
+            let mut off: Vec<f64> = found.iter().map(|found| found[by]).collect();
+            off.sort_by(f64::total_cmp);
+            let at = |part: f64| off[(part * off.len() as f64) as usize];
+            [at(0.5), 0.5 * (at(0.841) - at(0.159))]
+        })
+    }
+
+    /// The third phase comes to its percentile.
+    #[test]
+    fn the_third_phase_comes_to_its_percentile() {
+        let [[off, spread], _] = of_percentile(Truth::Normal, 0.9, true, 60);
+        assert!(off.abs() < 0.3 && spread < 1.0, "{off} {spread}");
+    }
+
+    /// 400 experiments of each kind, for the results. The third phase is less off than the curve of as many shots of the
+    /// second one, and spreads more.
+    #[test]
+    #[ignore = "takes minutes"]
+    fn the_third_phase_by_simulation() {
+        for truth in Truth::ALL {
+            for chance in [0.1, 0.9, 0.99] {
+                let [next, all] = of_percentile(truth, chance, true, 400);
+                let [_, second] = of_percentile(truth, chance, false, 400);
+                println!(
+                    "{} {chance}: phase III {next:.3?}, curve of its shots {all:.3?}, phase II alone {second:.3?}",
+                    truth.name()
+                );
+                assert!(next[1] > second[1], "{} {chance}: {next:?} {second:?}", truth.name());
+            }
+        }
+    }
 
     /// Half of the shots go through at V50, whatever the truth, and the deviations are one.
     #[test]

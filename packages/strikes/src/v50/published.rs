@@ -2,6 +2,7 @@
 //! where there is one.
 
 use super::curve::{Asked, Curve, Estimate, Fate, Mix};
+use super::designs::{Design, Fired};
 use super::link::Link;
 
 const SHOTS: &str = include_str!("published/shots.csv");
@@ -79,5 +80,37 @@ fn published_figures_are_met() {
         let curve = Curve::fit(&fates(set), Link::Probit, false).expect("a curve");
         let found = [curve.v50().value, curve.scale().value].map(|value| value.expect("a value"));
         assert!((found[0] - v50).abs() < half && (found[1] - scale).abs() < half, "{set}: {found:?}");
+    }
+}
+
+/// The speeds that a design asks for, each after the published shots before it, and those that were published.
+fn asked_and_published(shots: &[Fate], design: Design, range: [f64; 2]) -> Vec<[f64; 2]> {
+    let fired: Vec<Fired> = shots.iter().map(|&fate| Fired { nominal: fate.speed, fate }).collect();
+    (0..shots.len()).map(|count| [design.speed(count + 1, &fired[..count], range), shots[count].speed]).collect()
+}
+
+/// Set 5 is a test by Langlie's rule, its levels rounded to 0.01. The limits are not listed; those of the first four
+/// shots follow from their levels. The fifth is below the lower one, as if it had been moved from 11 to 7 after four
+/// perforations. The last two of the 17 do not follow the rule.
+#[test]
+fn a_published_test_by_langlie_is_met() {
+    let shots = fates("5");
+    let found = asked_and_published(&shots, Design::Langlie, [11.0, 35.0]);
+    let moved = asked_and_published(&shots, Design::Langlie, [7.0, 35.0]);
+    assert_eq!((found[4][0], moved[4]), (11.75, [9.75, 9.75]));
+    for (place, [asked, published]) in found[..4].iter().chain(&moved[4..15]).enumerate() {
+        assert!((asked - published).abs() < 0.00501, "{}: {asked}, published {published}", place + 1);
+    }
+    assert!(moved[15..].iter().all(|[asked, published]| (asked - published).abs() > 0.1), "{moved:?}");
+}
+
+/// Set 11, of Dror and Steinberg (2008), begins with nine shots up and down by 1; 27 by 0.25 follow.
+#[test]
+fn a_published_test_up_and_down_is_met() {
+    let shots = fates("11");
+    for (part, step) in [(0..9, 1.0), (9..36, 0.25)] {
+        let first = shots[part.start].speed;
+        let found = asked_and_published(&shots[part], Design::UpAndDown { step }, [first - 5.0, first + 5.0]);
+        assert!(found.iter().all(|[asked, published]| asked == published), "{step}: {found:?}");
     }
 }

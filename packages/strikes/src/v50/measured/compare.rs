@@ -92,8 +92,65 @@ fn together(one: &Curve, other: &Curve, difference: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use rayon::prelude::*;
+
     use super::*;
     use crate::v50::curve::{Asked, Fate};
+    use crate::v50::designs::Design;
+    use crate::v50::simulation::{Experiment, Truth};
+
+    const DEVIATION: f64 = 10.0;
+    const DESIGNS: [Design; 3] =
+        [Design::Langlie, Design::UpAndDown { step: DEVIATION }, Design::DOptimal { deviation: DEVIATION }];
+
+    /// Of so many pairs of simulated tests, whose V50 are apart by this: the share of those whose shots refuse one V50
+    /// at 5 %, and the middle one of the least differences that they say they would show.
+    fn refused_and_least(design: Design, shots: usize, apart: f64, pairs: u64) -> [f64; 2] {
+        let experiment = Experiment { design, shots, range: [60.0, 140.0], scatter: 1.0 };
+        let one = |number: u64| {
+            let [first, second] = [(100.0, 1), (100.0 + apart, 2)].map(|(v50, seed)| {
+                let truth = Truth { link: Link::Probit, v50, deviation: DEVIATION };
+                Analysis::of(experiment.fates(&truth, seed, number), &Asked::default())
+            });
+            Difference::of(&first, &second, Link::Probit)
+        };
+        let found: Vec<Option<Difference>> = (0..pairs).into_par_iter().map(one).collect();
+        let refused = found.iter().flatten().filter(|found| found.one_v50[1] < 0.05).count();
+        let mut least: Vec<f64> =
+            found.iter().map(|found| found.as_ref().and_then(|found| found.least).unwrap_or(f64::INFINITY)).collect();
+        least.sort_by(f64::total_cmp);
+        [refused as f64 / pairs as f64, least[least.len() / 2]]
+    }
+
+    /// Pairs that differ by what they would show, in the middle, show it in about as many cases as is said.
+    #[test]
+    fn the_least_difference_shows_about_as_often_as_is_said() {
+        let [alarms, least] = refused_and_least(Design::Langlie, 40, 0.0, 40);
+        let [shown, _] = refused_and_least(Design::Langlie, 40, least, 40);
+        assert!(alarms < 0.2 && (shown - POWER).abs() < 0.2, "{alarms} {least} {shown}");
+    }
+
+    /// 400 pairs of each kind, for the guide.
+    #[test]
+    #[ignore = "takes minutes"]
+    fn the_power_of_a_least_difference_by_simulation() {
+        for shots in [10, 20, 40] {
+            for design in DESIGNS {
+                let [alarms, least] = refused_and_least(design, shots, 0.0, 400);
+                if least.is_infinite() {
+                    println!("{shots} {}: no difference in half of the pairs; refused {alarms:.3}", design.name());
+                    continue;
+                }
+                let [shown, _] = refused_and_least(design, shots, least, 400);
+                println!(
+                    "{shots} {}: would show {:.2} deviations; refused {alarms:.3} without, {shown:.3} with it",
+                    design.name(),
+                    least / DEVIATION
+                );
+                assert!(shots < 40 || (shown - POWER).abs() < 0.1, "{shots} {}: {shown}", design.name());
+            }
+        }
+    }
 
     fn told(groups: &[(f64, usize, usize)], logarithm: bool) -> Analysis {
         let group = |&(speed, through, shots): &(f64, usize, usize)| {
