@@ -263,8 +263,7 @@ fn try_all(
 /// Two answers agree to these parts of the stiffness, but for the components of a slip, which depend on the axes.
 fn agree(a: &Answer, b: &Answer, model: &Model, part: f64) -> Result<(), String> {
     let error = (a.stress - b.stress).norm();
-    // Written so that NaN does not agree.
-    if !(error <= part * (model.stiffness() + a.stress.norm())) {
+    if error.is_nan() || error > part * (model.stiffness() + a.stress.norm()) {
         return Err(format!("stress {} and {}", a.stress, b.stress));
     }
     let slips = |c: usize| model.law == Law::Frictional && (c == 10 || c == 11);
@@ -272,7 +271,8 @@ fn agree(a: &Answer, b: &Answer, model: &Model, part: f64) -> Result<(), String>
     for (c, (x, y)) in a.state.iter().zip(&b.state).enumerate().filter(|(c, _)| !slips(*c)) {
         // A rounding may decide whether a point fails.
         let at_limit = c + 2 >= a.state.len();
-        if !((x - y).abs() <= part * (1.0 + x.abs()).max(size)) && !at_limit {
+        let difference = (x - y).abs();
+        if difference.is_nan() || (difference > part * (1.0 + x.abs()).max(size) && !at_limit) {
             return Err(format!("state variable {c}: {x} and {y}"));
         }
     }
