@@ -302,8 +302,13 @@ impl Arguments<'_> {
         upper.iter_mut().zip(pairs).for_each(|(entry, (x, y))| *entry = 0.5 * x + 0.5 * y);
         answer.stiffness = by_columns(upper);
         if nan_unless_finite(&answer.stress) != 0.0 {
-            // The state must not advance without its stress.
+            // The state must not advance without its stress: the law leaves it as at any point without an F.
             answer = Answer { status: status::OVERFLOW, ..Answer::new(old) };
+            let nowhere = [f64::NAN; 9];
+            let state_new = L::parts_mut(answer.state.as_mut().as_mut_ptr(), 1);
+            let point = Points { f_new: components(nowhere.as_ptr(), 1), state_new, ..point };
+            // SAFETY: as above.
+            unsafe { law.step(&point) }?;
         }
         if L::DESCRIPTION.reads.old_gradient {
             answer.kept = Some(if answer.status == status::OK { *f_new } else { f_old });
