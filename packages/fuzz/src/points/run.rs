@@ -331,8 +331,11 @@ fn is_extreme(case: &Case, i: usize) -> bool {
         _ if case.single => 1e8,
         _ => 1e80,
     };
-    let numbers = case.points[i].f.iter().chain(&case.properties).chain([&case.density]);
-    numbers.into_iter().any(|x| *x != 0.0 && !(1.0 / most..most).contains(&x.abs()))
+    let point = &case.points[i];
+    let numbers = point.f.iter().chain(&case.properties).chain([&case.density]);
+    // The linear law's state has a stress.
+    let is_large = case.law == Law::Linear && point.state.iter().any(|x| x.abs() >= most);
+    is_large || numbers.into_iter().any(|x| *x != 0.0 && !(1.0 / most..most).contains(&x.abs()))
 }
 
 fn is_no_limit(limit: f64) -> bool {
