@@ -1,10 +1,14 @@
-"""Builds the shared library with cargo, or takes the one that TORON_LIBRARY names, and makes a wheel for any Python of the platform."""
+"""Builds the shared library with cargo, or takes the one that TORON_LIBRARY names, and makes a wheel for any Python of the platform.
+
+A source distribution has the crates of the library, as they are published, in a folder `rust` of its own.
+"""
 
 import json
 import os
 import shutil
 import subprocess
 import sys
+import tarfile
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -12,16 +16,19 @@ from pathlib import Path
 from setuptools import Distribution, setup
 from setuptools.command.bdist_wheel import bdist_wheel
 from setuptools.command.build_py import build_py
+from setuptools.command.sdist import sdist
 
 HERE = Path(__file__).resolve().parent
-ROOT = HERE.parent
+# Where the crate `toron` is: in a source distribution, or in the repository.
+ROOT = HERE / "rust/toron" if (HERE / "rust").is_dir() else HERE.parent
+CRATES = ["toron", "toron-c-functions", "toron-c"]
 sys.path.insert(0, str(HERE))
 
 import interface  # noqa: E402
 
 
 def version() -> str:
-    """The version of the workspace."""
+    """The version of the library."""
     for line in (ROOT / "Cargo.toml").read_text(encoding="utf-8").splitlines():
         if line.startswith("version = "):
             return line.split('"')[1]
@@ -81,6 +88,38 @@ class BuildWithLibrary(build_py):
         shutil.copyfile(shared_library(), package / "libtoron.so")
 
 
+def crates(folder: Path) -> None:
+    """Writes the crates of the library and a workspace for them."""
+    packages = [option for crate in CRATES for option in ("--package", crate)]
+    subprocess.run(["cargo", "package", "--quiet", "--no-verify", "--locked", *packages], cwd=ROOT, check=True)
+    metadata = subprocess.run(["cargo", "metadata", "--no-deps", "--format-version=1"], cwd=ROOT, stdout=subprocess.PIPE, check=True)
+    packed = Path(json.loads(metadata.stdout)["target_directory"]) / "package"
+    for crate in CRATES:
+        with tarfile.open(packed / f"{crate}-{version()}.crate") as archive:
+            archive.extractall(folder, filter="data")
+        (folder / f"{crate}-{version()}").rename(folder / crate)
+    # Of each crate its own; one for all of them is at the workspace.
+    (folder / "toron-c/Cargo.lock").replace(folder / "Cargo.lock")
+    paths = "".join(f'{crate} = {{ path = "{crate}" }}\n' for crate in CRATES[:-1])
+    workspace = f"[workspace]\nresolver = \"3\"\nmembers = {json.dumps(CRATES)}\n\n[patch.crates-io]\n{paths}"
+    (folder / "Cargo.toml").write_text(workspace, encoding="utf-8")
+    subprocess.run(["cargo", "update", "--quiet", "--workspace"], cwd=folder, check=True)
+
+
+class SourceDistribution(sdist):
+    """Adds what setup.py needs beside it: the crates, and what reads the header."""
+
+    def make_release_tree(self, base_dir: str, files: list[str]) -> None:
+        # The tests are those of a repository.
+        super().make_release_tree(base_dir, [file for file in files if not file.startswith("tests/")])
+        shutil.copyfile(HERE / "interface.py", Path(base_dir) / "interface.py")
+        if (HERE / "rust").is_dir():
+            shutil.copytree(HERE / "rust", Path(base_dir) / "rust", ignore=shutil.ignore_patterns("target"))
+        else:
+            (Path(base_dir) / "rust").mkdir()
+            crates(Path(base_dir) / "rust")
+
+
 class PlatformWheel(bdist_wheel):
     """The wheel depends on the platform, but not on the version of Python."""
 
@@ -94,4 +133,5 @@ class WithLibrary(Distribution):
 
 
 with licences():
-    setup(version=version(), distclass=WithLibrary, cmdclass={"build_py": BuildWithLibrary, "bdist_wheel": PlatformWheel})
+    commands = {"build_py": BuildWithLibrary, "bdist_wheel": PlatformWheel, "sdist": SourceDistribution}
+    setup(version=version(), distclass=WithLibrary, cmdclass=commands)
