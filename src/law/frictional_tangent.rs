@@ -52,7 +52,7 @@ impl<R: Real> Deformed<'_, R> {
         let (d, p) = (by_columns(&inverse, &d), by_columns(&inverse, &p));
         for (row, &x) in d.iter().enumerate() {
             for (column, &y) in p.iter().enumerate() {
-                tangent[9 * row + column] = (factor * x).mul_add(y, tangent[9 * row + column]);
+                tangent[9 * row + column] = unsigned_zero((factor * x).mul_add(y, tangent[9 * row + column]));
             }
         }
         tangent
@@ -140,7 +140,14 @@ fn add_to<R: Real>(a: &mut [[R; 6]; 6], b: &[[R; 6]; 6]) {
 fn add_dyad<R: Real>(a: &mut [[R; 6]; 6], s: R, d: &[R; 6], p: &[R; 6]) {
     for (row, &x) in a.iter_mut().zip(d) {
         for (entry, &y) in row.iter_mut().zip(p) {
-            *entry = (s * x).mul_add(y, *entry);
+            *entry = unsigned_zero((s * x).mul_add(y, *entry));
         }
     }
+}
+
+/// 0 for −0. Which of them comes out depends on whether fibres in the same register have slid before, and a point's bits
+/// must not.
+#[inline(always)]
+fn unsigned_zero<R: Real>(x: R) -> R {
+    x + R::splat(0.0)
 }

@@ -485,6 +485,8 @@ pub(super) fn axes_of<R: Real>(frame: &FibreFrame<R>, second: [R; 3]) -> (Matrix
     let across = along(n.m, -dot(frame.m, n.m), frame.m);
     let (n, apart) = FibreFrame::new(across);
     let usable = usable & apart & R::splat(1e-6).lt(dot(across, across));
+    // Of an axis near the fibre the difference has few digits, so that it is made orthogonal once more.
+    let n = FibreFrame { m: along(n.m, -dot(frame.m, n.m), frame.m), ..n };
     let chosen = [frame.m, n.m, cross(frame.m, n.m)];
     (selected(any, &[frame.m, frame.t1, frame.t2], &chosen), any | usable)
 }
