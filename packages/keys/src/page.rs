@@ -62,8 +62,10 @@ fn value(root: &Value, schema: &Value) -> String {
         Some("array") => {
             let item = value(root, &schema["items"]);
             let several = |noun: &str| item.replacen(noun, &format!("{noun}s"), 1);
-            let item =
-                ["number", "text", "table"].into_iter().find(|noun| item.contains(noun)).map_or(item.clone(), several);
+            let item = ["list", "number", "text", "table"]
+                .into_iter()
+                .find(|noun| item.contains(noun))
+                .map_or(item.clone(), several);
             match schema.get("minItems").filter(|least| schema.get("maxItems") == Some(least)) {
                 Some(count) => format!("{count} {item}"),
                 None => format!("list of {item}"),

@@ -21,6 +21,7 @@ pub fn all() -> Vec<(&'static str, Value)> {
         ("run", schema::<load_path::file::PathFile>("A load path, for toron run")),
         ("preset", schema::<material::preset::PresetFile>("A yarn of one's own")),
         ("fit", schema::<identify::file::FitFile>("Data of a yarn, for toron fit")),
+        ("check", schema::<umat_check::input::File>("The material of a UMAT, for toron check")),
         ("blow", schema::<identify::blow::file::BlowFile>("A fit from a blow, for toron fit")),
     ]
 }

@@ -12,10 +12,13 @@ use toron_test_support::update::is_asked;
 
 /// Where the program has them, which writes them beside a scene.
 const SCHEMAS: &str = "program/assets/schema";
+/// That of `check` is printed by `umat-check` too, without the program.
+const OF_CHECK: &str = "packages/umat-check/input.schema.json";
 /// From `docs/`.
-const PAGES: [&str; 7] = [
+const PAGES: [&str; 8] = [
     "guides/cell.md",
     "guides/load-paths.md",
+    "reference/check-lines.md",
     "reference/fabric-files.md",
     "reference/fibre-files.md",
     "reference/fit-files.md",
@@ -23,7 +26,7 @@ const PAGES: [&str; 7] = [
     "reference/v50-files.md",
 ];
 /// Folders of files that are read.
-const FOLDERS: [&str; 2] = ["examples", "program/assets/init"];
+const FOLDERS: [&str; 3] = ["examples", "program/assets/init", "ffi-tests/check/laws"];
 
 fn of(kind: &str) -> Value {
     let found = schema::all().into_iter().find(|(name, _)| *name == kind);
@@ -44,6 +47,10 @@ fn schemas_are_current() {
     let folder = Path::new(ROOT).join(SCHEMAS);
     let mut names = BTreeSet::new();
     for (kind, schema) in schema::all() {
+        if kind == "check" {
+            hold(&Path::new(ROOT).join(OF_CHECK), &schema::text(&schema));
+            continue;
+        }
         names.insert(format!("{kind}.json"));
         hold(&folder.join(format!("{kind}.json")), &schema::text(&schema));
     }
@@ -118,13 +125,14 @@ fn examples() -> Vec<(PathBuf, &'static str, toml::Table)> {
     let read = |path: PathBuf| {
         let text = std::fs::read_to_string(&path).expect("a file");
         let file: toml::Table = toml::from_str(&text).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
-        (path, kind(&file), file)
+        let is_law = path.strip_prefix(ROOT).is_ok_and(|path| path.starts_with("ffi-tests"));
+        (path, if is_law { "check" } else { kind(&file) }, file)
     };
     paths.retain(|path| path.file_name().is_none_or(|name| name != "Cargo.toml"));
     paths.into_iter().map(read).chain(shown()).collect()
 }
 
-/// The whole files that the pages show: those with `units`.
+/// The whole files that the pages show: those with `units`, and that of a check.
 fn shown() -> Vec<(PathBuf, &'static str, toml::Table)> {
     let mut found = Vec::new();
     for page in PAGES {
@@ -134,6 +142,8 @@ fn shown() -> Vec<(PathBuf, &'static str, toml::Table)> {
             let file: toml::Table = toml::from_str(block).unwrap_or_else(|error| panic!("{page}: {error}"));
             if file.contains_key("units") {
                 found.push((PathBuf::from(page), kind(&file), file));
+            } else if page == "reference/check-lines.md" {
+                found.push((PathBuf::from(page), "check", file));
             }
         }
     }
@@ -173,6 +183,8 @@ fn mistakes_are_refused() {
         ("weave", "units = \"si\"\nweave.pattern = \"twill\"", "weave.weave.pattern: none of the choices, or several"),
         ("impact", "units = \"si\"\n[scene]\nrows = 2.5", "impact.scene.rows: no \"integer\""),
         ("impact", "units = \"si\"\n[scene]\nheld = 1", "impact.scene.held: no \"boolean\""),
+        ("check", "[[expect]]\nsource = \"by hand\"\nstress = [1.0]", "check.expect[0]: strain is missing"),
+        ("check", "[allow]\ntangent = 0.0", "check.allow.tangent: 0 against exclusiveMinimum 0"),
     ] {
         assert_eq!(fault(kind, text), wanted, "{text}");
     }

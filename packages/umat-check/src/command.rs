@@ -35,7 +35,7 @@ use toron_shared::toml_file;
 #[derive(Args)]
 pub struct Arguments {
     /// The subroutine: Fortran, C or C++, or a shared library with it.
-    #[arg(required_unless_present = "again")]
+    #[arg(required_unless_present_any = ["again", "schema"])]
     file: Option<PathBuf>,
     /// Further sources, in any order; files near FILE that have the modules it uses are found.
     #[arg(long, value_delimiter = ',')]
@@ -61,6 +61,9 @@ pub struct Arguments {
     /// Properties, states and traits, a TOML file; without it, FILE's name with .toml if that is there.
     #[arg(long)]
     scene: Option<PathBuf>,
+    /// Print the JSON schema of that TOML file, by which editors complete, explain and check keys.
+    #[arg(long, exclusive = true)]
+    schema: bool,
     /// An input of Abaqus: PROPS, DEPVAR, DELETE, density, orientation, elements, initial stress of its user materials.
     #[arg(long)]
     inp: Option<PathBuf>,
@@ -145,6 +148,10 @@ fn allowance(text: &str) -> Result<(String, f64), String> {
 /// # Errors
 /// The input is invalid, or a line is wrong.
 pub fn run(program: &str, arguments: &Arguments) -> Result<(), Error> {
+    if arguments.schema {
+        print(include_str!("../input.schema.json"));
+        return Ok(());
+    }
     let work_dir = WorkDir::new()?;
     if let Some(again) = &arguments.again {
         return Repeated::read(again)?.run(&work_dir.path);

@@ -10,25 +10,42 @@ use toron_shared::toml_file::Source;
 
 /// The keys of a known answer.
 #[derive(Clone, Debug, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(transform = toron_shared::schema::order::<Self>))]
 #[serde(deny_unknown_fields)]
 pub struct Expect {
-    /// The material that it is of, by name; all where there is none.
+    /// The material that it is of, by name. Default: all.
     pub material: Option<String>,
+    /// Where the numbers are from. Required.
     source: Option<Spanned<String>>,
-    strain: Spanned<Vec<Entry>>,
+    /// The end of a path of logarithmic strain, shears twice the tensor's, or a list of its corners; `"free"` where
+    /// there is no stress.
+    strain: Spanned<Path>,
+    /// Cauchy's at the end of the path; `"any"` where it is not known.
     stress: Spanned<Vec<Entry>>,
+    /// Of the largest stress. Default: 1e-3.
     tolerance: Option<Positive>,
+    /// From corner to corner, up to 100000. Default: 20.
     increments: Option<Spanned<usize>>,
+    /// From corner to corner. Default: 1.
     time: Option<Positive>,
 }
 
-/// A number, "free" (a strain whose stress is zero) or "any" (a stress that is not known), or the entries of a corner.
+/// A number, "free" (a strain whose stress is zero) or "any" (a stress that is not known).
 #[derive(Clone, Debug, Deserialize)]
-#[serde(untagged)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(untagged, expecting = "expected a number, \"free\" or \"any\"")]
 enum Entry {
     Number(f64),
     Word(String),
-    Corner(Vec<Entry>),
+}
+
+/// The end of a path from the undeformed state, or its corners.
+#[derive(Clone, Debug, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(untagged, expecting = "expected numbers, \"free\" where there is no stress, or a list of such corners")]
+enum Path {
+    End(Vec<Entry>),
+    Corners(Vec<Vec<Entry>>),
 }
 
 const MOST_INCREMENTS: usize = 100_000;
@@ -36,19 +53,15 @@ const MOST_INCREMENTS: usize = 100_000;
 /// # Errors
 /// A key says what is not allowed.
 pub fn expected(source: &Source, given: &Expect, components: usize) -> Result<Expected, Error> {
-    let strains = given.strain.get_ref();
-    let corners: Vec<&[Entry]> = match strains.iter().all(|entry| matches!(entry, Entry::Corner(_))) {
-        true => strains
-            .iter()
-            .filter_map(|entry| if let Entry::Corner(corner) = entry { Some(&corner[..]) } else { None })
-            .collect(),
-        false => vec![&strains[..]],
+    let corners = match given.strain.get_ref() {
+        Path::End(end) => std::slice::from_ref(end),
+        Path::Corners(corners) => corners,
     };
     let wrong_strain = || {
         let allowed = format!("{components} numbers, or \"free\" where there is no stress, or a list of such corners");
         source.error(given.strain.span(), &format!("strain is no path; allowed: {allowed}"))
     };
-    let path = corners.into_iter().map(|corner| numbers(corner, "free", components));
+    let path = corners.iter().map(|corner| numbers(corner, "free", components));
     let path: Vec<[Option<f64>; 6]> =
         path.collect::<Option<Vec<_>>>().filter(|path| !path.is_empty()).ok_or_else(wrong_strain)?;
     let stress = numbers(given.stress.get_ref(), "any", components).filter(|stress| stress.iter().any(Option::is_some));
@@ -85,7 +98,7 @@ fn numbers(entries: &[Entry], word: &str, components: usize) -> Option<[Option<f
         *number = match entry {
             Entry::Number(value) if value.is_finite() => Some(*value),
             Entry::Word(known) if known == word => None,
-            _ => return None,
+            Entry::Number(_) | Entry::Word(_) => return None,
         };
     }
     for number in &mut numbers[components..] {

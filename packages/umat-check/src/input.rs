@@ -17,46 +17,79 @@ use toron_shared::toml_file::{Source, read};
 
 /// The keys of a file.
 #[derive(Clone, Debug, Default, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(transform = toron_shared::schema::order::<Self>))]
 #[serde(deny_unknown_fields)]
-struct File {
+pub struct File {
+    /// CMNAME, up to 80 ASCII characters. Default: `MATERIAL`.
     name: Option<Spanned<String>>,
+    /// PROPS. Default: none.
     properties: Option<Vec<f64>>,
+    /// NSTATV, up to 100000. Default: as many as `initial` has.
     statev: Option<usize>,
+    /// STATEV at the beginning; SDVINI is called, and UEXTERNALDB before all. Default: 0.
     initial: Option<Spanned<Vec<f64>>>,
+    /// STRESS at the beginning, as many as `ntens`; SIGINI is called. Default: 0.
     stress: Option<Spanned<Vec<f64>>>,
+    /// NTENS: 6 (solids), 4 (plane strain, axisymmetric), 3 (plane stress), 2 (shells of revolution), 1 (trusses);
+    /// with `separation` 3 (COH3D), 2 (COH2D, COHAX), 1. Default: 6.
     ntens: Option<Spanned<usize>>,
+    /// What elements have four components. Default: a strain 33 is asked too, and only warned of.
     plane: Option<Plane>,
+    /// The range of principal stretches, lowest and highest: what the law is for. Default: `[0.9, 1.1]`.
     stretch: Option<Spanned<Vec<f64>>>,
+    /// Of a cohesive element: the largest, as STRAN has it. Default: none.
     separation: Option<Positive>,
+    /// The norm of the logarithmic strain of one increment; with `separation` of the separation. Default: 0.01.
     increment: Option<Positive>,
+    /// TEMP. Default: 0.
     temperature: Option<Spanned<f64>>,
+    /// PREDEF, up to eight; DPRED is 0. Default: none.
     fields: Option<Spanned<Vec<f64>>>,
+    /// DTIME. Default: 1.
     dtime: Option<Positive>,
+    /// What you promise of the law: `"hyperelastic"`, `"dissipative"`, `"isotropic"`. Default: none.
     traits: Option<Spanned<Vec<String>>>,
+    /// As with `*ORIENTATION`: axes that turn with the material, DROT = 1. Default: `false`.
     orientation: Option<bool>,
+    /// `false` where the job is geometrically linear: strains add up. Default: `true`.
     nlgeom: Option<bool>,
+    /// Directions of three numbers in the reference configuration. Default: none.
     fibres: Option<Spanned<Vec<Vec<f64>>>>,
+    /// Of the random states. Default: 1.
     seed: Option<u64>,
+    /// Of a VUMAT: of the undeformed material. Default: 2, by which energies per mass and per volume are told apart.
     density: Option<Positive>,
+    /// Of a VUMAT: DELETE of `*DEPVAR`, the state variable that is 0 where the point is deleted. Default: none.
     deletion: Option<Spanned<usize>>,
+    /// Of a VUMAT: what defgradOld and defgradNew are, R U (`"RU"`) or U (`"U"`). Default: `"RU"`.
     defgrad: Option<Spanned<String>>,
+    /// [Known answers](reference/check-lines.md#expect). Default: none.
     #[serde(default)]
     expect: Vec<Expect>,
+    /// By the name of a line: the figure up to which it is a warning. Default: none.
     #[serde(default)]
     allow: BTreeMap<String, Spanned<Positive>>,
+    /// Several [materials](reference/check-lines.md#material) in one file. Default: one, of the keys above.
     #[serde(default, rename = "material")]
     materials: Vec<MaterialKeys>,
 }
 
 /// The keys of one of several materials.
 #[derive(Clone, Debug, Default, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(transform = toron_shared::schema::order::<Self>))]
 #[serde(deny_unknown_fields)]
 struct MaterialKeys {
+    /// Default: that of the file.
     name: Option<Spanned<String>>,
+    /// Default: those of the file.
     properties: Option<Vec<f64>>,
+    /// Default: that of the file.
     statev: Option<usize>,
+    /// Default: that of the file.
     initial: Option<Spanned<Vec<f64>>>,
+    /// Default: those of the file.
     traits: Option<Spanned<Vec<String>>>,
+    /// Default: those of the file.
     fibres: Option<Spanned<Vec<Vec<f64>>>>,
 }
 

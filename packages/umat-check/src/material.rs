@@ -71,6 +71,7 @@ pub struct Material {
 
 /// What elements have four components.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub enum Plane {
     /// Without a strain across.
