@@ -98,11 +98,66 @@ fn quantity(system: &str, si: f64, dimension: Dimension) -> String {
     if value == 0.0 || (1e-3..1e6).contains(&value) { value.to_string() } else { format!("{value:e}") }
 }
 
+/// What a host does at a code, in the words of the page, and what the user can do.
+fn answer_to(code: i32) -> [&'static str; 2] {
+    const POINT: &str = "deletes or repeats";
+    match code {
+        status::OK => ["goes on", ""],
+        status::NULL_ARGUMENT => ["stops", "pass the array that the message names"],
+        status::BAD_COUNT => ["stops", "Abaqus: mesh solids; else pass the count that the message names"],
+        status::BAD_LEADING_DIMENSION => ["stops", "pass one no less than the number of points"],
+        status::UNKNOWN_NAME => ["stops", "compare the spelling with this page, or with `toron params`"],
+        status::BAD_ARGUMENT => [
+            "stops",
+            "change the value that the message names; in Abaqus and CalculiX it may be a state variable of the deck",
+        ],
+        status::NO_DEFORMATION_GRADIENT => [
+            "stops",
+            "Abaqus/Standard, CalculiX: `NLGEOM`; LS-DYNA: IHYPER and NHV as `toron deck` prints them; OpenRadioss: \
+             Ismstr, Isolid, Iframe, and the library of the solver's precision",
+        ],
+        status::NOT_PREPARED => ["stops", "call the prepare function of this law and precision first"],
+        status::BAD_SIZE => ["stops", "set `size` to the `sizeof` of the structure"],
+        status::UNKNOWN_FIELD => ["stops", "load a library as new as the header"],
+        status::PROPERTY_COUNT => ["stops", "print the card anew by `toron deck`"],
+        status::PROPERTY_NOT_FINITE => ["stops", "correct the property that the message names"],
+        status::PROPERTY_OUT_OF_BOUNDS => {
+            ["stops", "correct the property that the message names; look for a shifted column, and for other units"]
+        }
+        status::PROPERTY_DIRECTION => ["stops", "give a fibre, and a second axis that is not along it"],
+        status::FIBRE_OUT_OF_PLANE => ["stops", "turn the direction into the plane (component 3 is 0) or normal to it"],
+        status::STATE_COUNT => ["stops", "correct `*DEPVAR` or NHV by the card of `toron deck`"],
+        status::INVERTED => [
+            POINT,
+            "look for units other than the mesh's, too stiff a contact, too long a step, \
+             [modes without stiffness](../guides/hosts.md#what-every-model-needs)",
+        ],
+        status::NOT_FINITE => [POINT, "the solver has lost the deformation before the call: as for −301"],
+        status::OVERFLOW => [POINT, "as for −301; in single precision try double"],
+        status::STATE_NOT_FINITE => {
+            ["deletes or repeats; CalculiX stops", "start state variables at 0; look for what else writes to them"]
+        }
+        status::FIBRE_DIRECTION => [
+            "deletes or repeats; OpenRadioss and CalculiX stop",
+            "give every element a fibre direction, not along the second axis",
+        ],
+        status::INCREMENT_TOO_LARGE => [POINT, "take smaller steps; as for −301"],
+        status::MATERIAL_AXES => {
+            ["returns to code of your own", "start with the law's axes, keep those that each step returns"]
+        }
+        status::LIMIT => ["deletes or repeats; OpenRadioss stops", "give 0, or a positive limit"],
+        status::LAW => [POINT, "a [law of your own](../guides/own-law.md) says why in the message"],
+        status::SMALLER_STEP => [POINT, "take smaller steps; only laws of your own ask for them"],
+        code => panic!("what does a user do about {code}?"),
+    }
+}
+
 fn status_codes() -> String {
-    let rows = status::TABLE
-        .iter()
-        .map(|&(code, name, meaning)| [code.to_string(), format!("`TORON_{}`", name.to_uppercase()), meaning.into()]);
-    table(["code", "name in C", "message"], rows)
+    let rows = status::TABLE.iter().map(|&(code, name, meaning)| {
+        let [host, remedy] = answer_to(code).map(String::from);
+        [code.to_string(), format!("`TORON_{}`", name.to_uppercase()), meaning.into(), host, remedy]
+    });
+    table(["code", "name in C", "message: what has happened", "the host", "what to do"], rows)
 }
 
 /// Decks with mistakes in them, and what the library says of each.
