@@ -10,19 +10,19 @@
 //! q ≤ µ p_t + c        µ = sin φ of the bundle, c a cohesion, p_t = (p/2) k_tc ⟨−I_tc⟩^(p−1)
 //! ```
 //!
-//! Sliding changes the shape of the section at constant area, and its work is lost. What has slid is G, a symmetric
+//! Sliding changes the shape of the section at constant area, and its work is lost. What has slid is Γ, a symmetric
 //! tensor of the reference section with determinant 1, kept as two state variables d1 and d2:
 //!
 //! ```text
-//! G = [g + d1, d2; d2, g − d1],  g = √(1 + d1² + d2²);      G = V Vᵀ,  det V = 1,  (w1, w2) = (a, b) V
+//! Γ = [d0 + d1, d2; d2, d0 − d1],  d0 = √(1 + d1² + d2²);      Γ = V Vᵀ,  det V = 1,  (w1, w2) = (a, b) V
 //! ```
 //!
 //! with the images a and b of `kinematics`. All that the hyperelastic law says about the distortion holds of w1 and w2
 //! in their place, with I_te in place of I_td. Where q exceeds the limit it returns to it in closed form, along the
-//! geodesic of G to the inverse of the shape that the section has: with s = sinh 2 I_te and I_max = 2 (µ p_t + c)/k_td
+//! geodesic of Γ to the inverse of the shape that the section has: with s = sinh 2 I_te and I_max = 2 (µ p_t + c)/k_td
 //!
 //! ```text
-//! d ← [sinh(2 I_max) d − sinh(2 (I_te − I_max)) (½(a·a − b·b), a·b)/J_t]/s,      I_te ← I_max
+//! (d1, d2) ← [sinh(2 I_max) (d1, d2) − sinh(2 (I_te − I_max)) (½(a·a − b·b), a·b)/J_t]/s,      I_te ← I_max
 //! w_fr ← w_fr + ½ k_td (I_max + max(I_max, min(I_te, I_te,old))) (I_te − I_max)
 //! ```
 //!

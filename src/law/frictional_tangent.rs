@@ -73,7 +73,7 @@ impl<R: Real> Deformed<'_, R> {
         (sum([d1 * over_a, -(d1 * over_b), d2 * over_area], &dyads), combination(over_a, a, over_b, b))
     }
 
-    /// −µ W″/(4 s), the factor of D⊗P where the fibres slide, else 0.
+    /// −µ W″/(4 s), the factor of D⊗Π where the fibres slide, else 0.
     #[inline(always)]
     fn sliding_factor(self, slid: &Slid<'_, R>, shape: &Shape<R>, over: R) -> R {
         let (zero, one) = (R::splat(0.0), R::splat(1.0));

@@ -3,16 +3,16 @@
 //! ```text
 //! W = ½ k_el ⟨I_el⟩²  +  k_tc ⟨−I_tc⟩^p  +  ½ k_td I_td²  +  ½ k_ld I_ld²        per reference volume
 //!
-//! τ = k_el ⟨I_el⟩ e⊗e  −  (p/2) k_tc ⟨−I_tc⟩^(p−1) P  +  (k_td/4)(2 I_td/ŝ) D̂  +  (k_ld/λ⁴)(u⊗c1 + c1⊗u)
+//! τ = k_el ⟨I_el⟩ e⊗e  −  (p/2) k_tc ⟨−I_tc⟩^(p−1) Π  +  (k_td/4)(2 I_td/ŝ) D̂  +  (k_ld/λ³)(h⊗c1 + c1⊗h)
 //! ```
 //!
-//! with e = c1/λ, P = 1 − e⊗e, D̂ = a⊗a + b⊗b − t̂ P the deviator of the section, u = h2 a + h3 b, and the other
+//! with e = c1/λ, Π = 1 − e⊗e, D̂ = a⊗a + b⊗b − t̂ Π the deviator of the section, λ h = h2 a + h3 b, and the other
 //! quantities as in `kinematics`. It is the law that [`thesis`](super::thesis) states, with its Eq. 4.14 pushed
 //! forward, without its quotient 0/0: 2 I_td/ŝ is smooth through ŝ = 0.
 //!
 //! `Kirchhoff` holds the four factors of τ. They are multiplied out twice: `cauchy` sums the modes in the axes of
 //! space, which is what a solver needs of every point, and `modes` keeps them apart and pulls them back to the
-//! reference placement, with the decomposition of F that `cauchy` does without. The tangents take D̂ and u from the
+//! reference placement, with the decomposition of F that `cauchy` does without. The tangents take D̂ and h from the
 //! same two functions of `kinematics` as `cauchy`.
 
 use super::axes::FibreFrame;
@@ -72,11 +72,11 @@ pub struct Hyperelastic<R = f64> {
 pub(crate) struct Kirchhoff<R> {
     /// k_el⟨I_el⟩, the factor of e⊗e.
     pub tension: R,
-    /// (p/2) k_tc⟨−I_tc⟩^(p−1), the factor of −P.
+    /// (p/2) k_tc⟨−I_tc⟩^(p−1), the factor of −Π.
     pub pressure: R,
     /// (k_td/2)(I_td/ŝ), the factor of D̂.
     pub distortion: R,
-    /// k_ld/λ², the factor of (u⊗c1 + c1⊗u)/λ².
+    /// k_ld/λ², the factor of (h⊗c1 + c1⊗h)/λ.
     pub shear: R,
     /// The energy k_tc⟨−I_tc⟩^p, computed from the same power as the pressure.
     pub compaction_energy: R,
@@ -130,10 +130,10 @@ impl<R: Real> Hyperelastic<R> {
     /// points that cannot be evaluated.
     ///
     /// The modes are summed before they are multiplied out: with the tension t, the pressure p, the factor f of the
-    /// deviator, d = f d̂ and v' = (f/(a·a)) v, see [`Section`](super::kinematics::Section),
+    /// deviator, d = f η and v' = (f/(a·a)) D̂a, see [`Section`](super::kinematics::Section),
     ///
     /// ```text
-    /// J σ = −(p + d) 1 + (t + p + d) e⊗e + a⊗v' + v'⊗a + (k_ld/λ⁴)(u⊗c1 + c1⊗u)
+    /// J σ = −(p + d) 1 + (t + p + d) e⊗e + a⊗v' + v'⊗a + (k_ld/λ³)(h⊗c1 + c1⊗h)
     /// ```
     #[inline(always)]
     pub(crate) fn cauchy(
@@ -221,7 +221,7 @@ fn shear_mode<R: Real>(d: &Decomposition<R>, [w1, w2, w3]: [[R; 3]; 3], factor: 
     sum(product(two * t12, w1, w2), product(two * t13, w1, w3))
 }
 
-/// The components of the longitudinal-shear stress on (e, q1) and (e, q2): `factor` · P b e.
+/// The components of the longitudinal-shear stress on (e, q1) and (e, q2): `factor` · h.
 #[inline(always)]
 pub(super) fn shear_components<R: Real>(d: &Decomposition<R>, factor: R) -> [R; 2] {
     [factor * d.f_a.mul_add(d.r11, d.f_b * d.r12), factor * d.f_b * d.r22]

@@ -1,7 +1,7 @@
 //! The kinematics: from the deformation gradient to the four deformation modes and to the quantities that the stress
 //! needs, without cancellation.
 //!
-//! With N = (m, t1, t2) the fibre and any two transverse axes, c_i = F n_i are the images of the axes. The fibre gives
+//! With N = (m, t1, t2) the fibre and any two transverse axes, c_i = F N_i are the images of the axes. The fibre gives
 //!
 //! ```text
 //! λ² = c1·c1            fibre stretch, I_el = ½ ln λ²
@@ -104,9 +104,9 @@ impl<R: Real> Stretch<R> {
 
 /// The second stage: the section across the fibre.
 ///
-/// Its deviator D̂ = a⊗a + b⊗b − t̂ P is computed as (a⊗v + v⊗a)/(a·a) − d̂ P, with [`deviator`](Self::deviator) for d̂
-/// and [`beside_a`](Self::beside_a) for v, whose terms are all as small as ŝ: it keeps its digits if the section is
-/// hardly distorted.
+/// Its deviator D̂ = a⊗a + b⊗b − t̂ Π, with Π = 1 − e⊗e, is computed as (a⊗D̂a + D̂a⊗a)/(a·a) − η Π, with
+/// [`deviator`](Self::deviator) for η and [`beside_a`](Self::beside_a) for D̂a, whose terms are all as small as ŝ: it
+/// keeps its digits if the section is hardly distorted.
 #[derive(Clone, Copy, Debug)]
 pub struct Section<R: Real> {
     /// ½(a·a − b·b), a·b and its square, a·a.
@@ -218,7 +218,7 @@ impl<R: Real> Section<R> {
     ) -> (Self, [[R; 3]; 2]) {
         let (zero, half) = (R::splat(0.0), R::splat(0.5));
         let (a, b) = (n.shifted(delta_2, d.chi, 1), n.shifted(delta_3, d.chi, 2));
-        // Near 1, V − 1 has digits that V has lost, and w_i − χ n_i = δ_i + (V − 1) a_i. Elsewhere V and a are
+        // Near 1, V − 1 has digits that V has lost, and w_i − χ t_i = δ_i + (V − 1) a_i. Elsewhere V and a are
         // multiplied out.
         let chi = R::select(v.near_one, d.chi, zero);
         let kept = R::select(v.near_one, R::splat(1.0), zero);
@@ -241,13 +241,13 @@ impl<R: Real> Section<R> {
         (section, [w1.whole, w2.whole])
     }
 
-    /// d̂ = ½(a·a − b·b) + (a·b)²/(a·a), given 1/(a·a).
+    /// η = ½(a·a − b·b) + (a·b)²/(a·a), given 1/(a·a).
     #[inline(always)]
     pub fn deviator(&self, inverse_a_square: R) -> R {
         self.x23_square.mul_add(inverse_a_square, self.delta)
     }
 
-    /// `factor` v with v = ½(a·a − b·b) a + (a·b) b.
+    /// `factor` D̂a with D̂a = ½(a·a − b·b) a + (a·b) b.
     #[inline(always)]
     pub fn beside_a(&self, factor: R, [a, b]: [[R; 3]; 2]) -> [R; 3] {
         along(scale(factor * self.delta, a), factor * self.x23, b)
@@ -411,7 +411,7 @@ pub struct Slid<'a, R: Real> {
 }
 
 impl<R: Real> Kinematics<'_, R> {
-    /// `factor` u with u = h2 a + h3 b = λ P F Fᵀ e, the direction of the longitudinal shear.
+    /// `factor` λ h with λ h = h2 a + h3 b = λ Π F Fᵀ e, the direction of the longitudinal shear.
     #[inline(always)]
     pub fn slip(&self, factor: R) -> [R; 3] {
         let [_, a, b] = self.whole().images;
@@ -465,8 +465,8 @@ impl<'a, R: Real> Kinematics<'a, R> {
 ///     ⎣ 0   0   r22 ⎦
 /// ```
 ///
-/// The deviator of B = P F Fᵀ P over J_t has the components (d1, d2; d2, −d1) on (q1, q2), with √(d1² + d2²) = s = sinh
-/// 2 I_td. The stress by mode and the wave speed need this decomposition; the stress itself does not.
+/// The deviator D of Π F Fᵀ Π over J_t has the components (D22, D23; D23, −D22) on (q1, q2), with √(D22² + D23²) = s =
+/// sinh 2 I_td. The stress by mode and the wave speed need this decomposition; the stress itself does not.
 #[derive(Clone, Copy, Debug)]
 pub struct Decomposition<R> {
     pub e: [R; 3],

@@ -1,10 +1,10 @@
 //! The linear elastic orthotropic law in common use (thesis, section 4.1), with which the yarn law is compared.
 //!
-//! An objective rate of the Cauchy stress is C : D, with C = diag(E1, E2, E2, G, G, G) on (D11, D22, D33, 2D12, 2D23,
-//! 2D31) in a material frame and zero Poisson ratios. The choice of the frame has a large effect, since the shear
-//! stiffness is 1/630 of that of the fibre: see [`Rotation`]. In the frame the stress is the sum of C times the strain
-//! increments; an increment is the symmetric part of ln(Q1ᵀ F1 F0⁻¹ Q0), so that a stretch along the fibre gives E1 ln
-//! λ in any number of steps.
+//! An objective rate of the Cauchy stress is ℂ : ε̇, with ℂ = diag(E1, E2, E2, G, G, G) on (ε̇11, ε̇22, ε̇33, 2ε̇12,
+//! 2ε̇23, 2ε̇31) in a material frame and zero Poisson ratios. The choice of the frame has a large effect, since the
+//! shear stiffness is 1/630 of that of the fibre: see [`Rotation`]. In the frame the stress is the sum of ℂ times the
+//! strain increments; an increment is the symmetric part of ln(Q1ᵀ F1 F0⁻¹ Q0), so that a stretch along the fibre gives
+//! E1 ln λ in any number of steps.
 //!
 //! A small increment keeps its digits: Q1ᵀ F1 F0⁻¹ Q0 − 1 is computed as the sum of Q1ᵀ (F1 − F0) F0⁻¹ Q0 and Q1ᵀ Q0 −
 //! 1, the rotation of the axes, whose symmetric part is −½ (Q1 − Q0)ᵀ(Q1 − Q0). So the rounding of F and Q relative to
@@ -270,9 +270,9 @@ impl<R: Real> LinearElastic<R> {
 
     /// ρ0 c² for an upper bound c of the wave speed, given J and the Cauchy stress.
     ///
-    /// For a wave of direction n and polarisation u, unit vectors, the rate of the stress is C : D + Ωσ − σΩ with the
-    /// spin Ω of the material frame, and the terms of the change of area and volume cancel, so that ρ c² = u·(C : D +
-    /// Ωσ − σΩ)n. Ω has an axial vector of at most unit length in every one of the frames, so that its terms are at
+    /// For a wave of direction ξ and polarisation u, unit vectors, the rate of the stress is ℂ : ε̇ + Ωσ − σΩ with the
+    /// spin Ω of the material frame, and the terms of the change of area and volume cancel, so that ρ c² = u·(ℂ : ε̇ +
+    /// Ωσ − σΩ)ξ. Ω has an axial vector of at most unit length in every one of the frames, so that its terms are at
     /// most twice the largest principal stress by its size.
     #[inline(always)]
     fn wave_modulus_at(&self, jacobian: R, stress: &[R; 6]) -> R {

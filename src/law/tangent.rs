@@ -1,17 +1,17 @@
 //! The tangents of the yarn law, in closed form.
 //!
-//! In the current frame (e, q1, q2) most entries of the Truesdell modulus of τ vanish. With E = e⊗e, P = 1 − E, the
-//! deviator D of the section, A⊙B = A_ik B_jl + A_il B_jk + A_jk B_il + A_jl B_ik, and the factors of `Factors`, it is
+//! In the current frame (e, q1, q2) most entries of the Truesdell modulus of τ vanish. With Λ = e⊗e, Π = 1 − Λ, the
+//! deviator D of the section, X⊙Z = X_ik Z_jl + X_il Z_jk + X_jk Z_il + X_jl Z_ik, and the factors of `Factors`, it is
 //! (derivation in `docs/reference/theory.md`)
 //!
 //! ```text
-//! c = A E⊗E + (W − K) P⊗P + W2 D⊗D + P⊙Y + E⊙(G − τ_ld)
-//! Y = ½ (π + K) P − ½ W1 D,      G = (π + κ J_t x) P − (W1 − κ J_t) D
+//! 𝕔 = A_el Λ⊗Λ + (¼ W″ − x W1) Π⊗Π + W2 D⊗D + Π⊙Y + Λ⊙(Y_e − τ_ld)
+//! Y = ½ (p_t + x W1) Π − ½ W1 D,      Y_e = (p_t + κ J_t x) Π − (W1 − κ J_t) D
 //! ```
 //!
-//! For the spatial moduli P is replaced by 1 − E, since products with 1 are sparse; E⊗E = ¼ E⊙E, and a product with E =
-//! e⊗e needs only e_k G_jl + e_l G_jk. The Jaumann modulus, c + ½ 1⊙τ, differs only in Y, which becomes ½ K P + ½ τ_el
-//! + ½ τ_ld.
+//! For the spatial moduli Π is replaced by 1 − Λ, since products with 1 are sparse; Λ⊗Λ = ¼ Λ⊙Λ, and a product Λ⊙Z
+//! needs only e_k Z_jl + e_l Z_jk. The Jaumann modulus, 𝕔 + ½ 1⊙τ, differs only in Y, which becomes ½ x W1 Π + ½ τ_el +
+//! ½ τ_ld.
 //!
 //! dS/dE has the same few components in the basis F⁻¹c = m, F⁻¹a, F⁻¹b', each divided by the length of c, a or b',
 //! where c, a and b' are orthogonal (`Orthogonal`). There is no quotient 0/0, and the moduli are symmetric by
@@ -60,12 +60,12 @@ impl Measure {
 
 /// The factors of the modulus, all divided by J for a modulus of σ, by 1 for one of τ or S.
 struct Factors<R> {
-    /// A = k_el (1 − 2 I_el) in tension, I_el = 0 included.
+    /// A_el = k_el (1 − 2 I_el) in tension, I_el = 0 included.
     elongation: R,
-    /// W = ¼ W″, the compaction's curvature; π = ½ |W′|.
+    /// ¼ W″, with the compaction's curvature; p_t.
     compaction: R,
     pressure: R,
-    /// W1 = (k_td/4) θ/s with θ = 2 I_td; K = W1 x; W2 = (k_td/4)(1 − x θ/s)/s².
+    /// W1 = (k_td/4) θ/s with θ = 2 I_td; x W1; W2 = (k_td/4)(1 − x θ/s)/s².
     distortion: R,
     stiffness: R,
     curvature: R,
@@ -102,7 +102,7 @@ impl<R: Real> Shape<R> {
 pub(crate) struct Bases<R> {
     shape: Shape<R>,
     inverse_lambda: R,
-    /// e, E = e⊗e and D.
+    /// e, Λ = e⊗e and D.
     fibre: [R; 3],
     pub(super) e: [R; 6],
     pub(super) d: [R; 6],
@@ -116,7 +116,7 @@ impl<R: Real> Bases<R> {
         let inverse_lambda = R::splat(1.0) / d.square.sqrt();
         let fibre = scale(inverse_lambda, *c);
         let e = square(R::splat(1.0), fibre);
-        // D = a⊗v + v⊗a − d1 P.
+        // D = a⊗v + v⊗a − d1 Π.
         let inverse_a_square = R::splat(1.0) / section.a_square;
         let share = inverse_a_square * shape.inverse_area_ratio;
         let d1 = section.deviator(inverse_a_square) * shape.inverse_area_ratio;
@@ -133,17 +133,17 @@ impl<R: Real> Bases<R> {
     }
 }
 
-/// The terms of the spatial moduli, P⊗(w P) + D⊗(W2 D) + E⊙G + 1⊙S.
+/// The terms of the spatial moduli, Π⊗(w Π) + D⊗(W2 D) + Λ⊙Z + 1⊙S.
 struct Terms<'a, R> {
     bases: &'a Bases<R>,
-    /// The diagonals of P and of w P.
+    /// The diagonals of Π and of w Π.
     p: [R; 3],
     with_p: [R; 3],
-    /// −w E, which is w P off the diagonal.
+    /// −w Λ, which is w Π off the diagonal.
     sheared: [R; 6],
     /// W2 D.
     with_d: [R; 6],
-    /// [`along_fibre`] of G.
+    /// [`along_fibre`] of Z.
     with_fibre: [[R; 6]; 3],
     /// S.
     with_one: [R; 6],
@@ -153,7 +153,7 @@ struct Terms<'a, R> {
 #[inline(always)]
 fn entry<R: Real, const ROW: usize, const COLUMN: usize>(t: &Terms<R>) -> R {
     let Bases { fibre, e, d, .. } = t.bases;
-    // P⊗(w P); off the diagonal P is −E.
+    // Π⊗(w Π); off the diagonal Π is −Λ.
     let (factor, other) = if COLUMN < 3 {
         (t.with_p[ROW], t.p[COLUMN])
     } else if ROW < 3 {
@@ -210,8 +210,8 @@ impl<R: Real> Deformed<'_, R> {
         let (half, quarter) = (R::splat(0.5), R::splat(0.25));
         let over = kinematics.stretch.inverse_jacobian;
         let f = self.factors(&bases.shape, over);
-        // Y = y_p P − y_d D, G − Y = g_p P + g_d D. No term is a difference of larger ones, so that the stiffness of a
-        // slack fibre is 0 but for roundings of the other terms.
+        // Y = y_p Π − y_d D, Y_e − Y = g_p Π + g_d D. No term is a difference of larger ones, so that the stiffness of
+        // a slack fibre is 0 but for roundings of the other terms.
         let (y_p, y_d) = (half * (f.pressure + f.stiffness), half * f.distortion);
         let g_p = f.shear.mul_add(bases.shape.cosh, f.pressure - y_p);
         let g_d = f.shear + y_d - f.distortion;
@@ -533,7 +533,7 @@ fn apply_slip<R: Real>([c22, c33, c23]: [R; 3], [y, z]: [R; 2]) -> (R, R, R) {
     (fnmadd(y, c12, fnmadd(z, c31, zero)), c12, c31)
 }
 
-/// An entry of A⊗A' + B⊗B' + C⊗C' + (m⊗m)⊙G.
+/// An entry of A⊗A' + B⊗B' + C⊗C' + (m⊗m)⊙Z.
 #[inline(always)]
 fn material_entry<R: Real, const ROW: usize, const COLUMN: usize>(
     [a, b, c]: &[[R; 6]; 3],
@@ -545,7 +545,7 @@ fn material_entry<R: Real, const ROW: usize, const COLUMN: usize>(
     paired_along::<R, ROW, COLUMN>(m, along, sum)
 }
 
-/// `rest` plus an entry of (m⊗m)⊙G; `along` is [`along_fibre`] of G.
+/// `rest` plus an entry of (m⊗m)⊙Z; `along` is [`along_fibre`] of Z.
 #[inline(always)]
 fn paired_along<R: Real, const ROW: usize, const COLUMN: usize>(m: [R; 3], along: &[[R; 6]; 3], rest: R) -> R {
     let (i, j) = PAIRS[ROW];
@@ -555,13 +555,13 @@ fn paired_along<R: Real, const ROW: usize, const COLUMN: usize>(m: [R; 3], along
     m[i].mul_add(along[j][COLUMN], m[j].mul_add(along[i][COLUMN], rest))
 }
 
-/// m_k G_jl + m_l G_jk for each j and the pairs kl.
+/// m_k Z_jl + m_l Z_jk for each j and the pairs kl.
 #[inline(always)]
 fn along_fibre<R: Real>(m: [R; 3], g: &[R; 6]) -> [[R; 6]; 3] {
     [along_row(m, [g[0], g[3], g[5]]), along_row(m, [g[3], g[1], g[4]]), along_row(m, [g[5], g[4], g[2]])]
 }
 
-/// m_k G_jl + m_l G_jk for the pairs kl and one j, given row j of G.
+/// m_k Z_jl + m_l Z_jk for the pairs kl and one j, given row j of Z.
 #[inline(always)]
 fn along_row<R: Real>([x, y, z]: [R; 3], [a, b, c]: [R; 3]) -> [R; 6] {
     [(x + x) * a, (y + y) * b, (z + z) * c, x.mul_add(b, y * a), y.mul_add(c, z * b), z.mul_add(a, x * c)]

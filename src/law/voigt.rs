@@ -118,7 +118,7 @@ macro_rules! upper_triangle {
 
 pub(super) use upper_triangle;
 
-/// An entry of 1⊙B with A⊙B = A_ik B_jl + A_il B_jk + A_jk B_il + A_jl B_ik; `None` for an entry that is 0 whatever B
+/// An entry of 1⊙Z with X⊙Z = X_ik Z_jl + X_il Z_jk + X_jk Z_il + X_jl Z_ik; `None` for an entry that is 0 whatever Z
 /// is.
 #[inline(always)]
 pub(super) fn paired_with_one<R: Real, const ROW: usize, const COLUMN: usize>(b: &[R; 6]) -> Option<R> {

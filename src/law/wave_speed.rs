@@ -1,19 +1,20 @@
 //! An upper bound of the wave speed, for the time step of an explicit solver.
 //!
-//! For a direction n and a polarisation u the acoustic tensor times the reference density is
-//! u·ρ0 Q(n)u = c:(n⊗u)(n⊗u) + n·τn, with c the Truesdell modulus and τ the Kirchhoff stress. With y = (e·n)(e·u), mode
+//! For a direction ξ and a polarisation u the acoustic tensor times the reference density is
+//! u·ρ0 Q(ξ)u = 𝕔:(ξ⊗u)(ξ⊗u) + ξ·τξ, with 𝕔 the Truesdell modulus and τ the Kirchhoff stress. With y = (e·ξ)(e·u), mode
 //! by mode (derivation in `docs/design/law.md`):
 //!
 //! - elongation:       ≤ k_el ⟨I_el⟩ + k_el (1 − 2 I_el) y², only in tension;
-//! - compaction:       ≤ (W″/4 + |W′|)(1 − y²);
-//! - distortion:       ≤ ¼ k_td ((θ/s) e^θ + θ)(1 − y²), θ = 2 I_td, s = sinh θ;
-//! - longitudinal shear: ≤ (k_ld/λ²)(2 J_t e^θ (1 − y²) + 4 |P b e|).
+//! - compaction:       ≤ (¼ W″ + 2 p_t)(1 − y²);
+//! - distortion:       ≤ ¼ k_td ((θ/s) exp θ + θ)(1 − y²), θ = 2 I_td, s = sinh θ;
+//! - longitudinal shear: ≤ κ (2 J_t exp θ (1 − y²) + 4 |h|), κ = k_ld/λ².
 //!
 //! The sum is linear in y², so that its maximum is at y² = 0 or y² = 1:
 //!
-//! ρ0 c² ≤ max(k_el, k_el ⟨I_el⟩ + R) + L, where R gathers the factors of 1 − y² and L is the shear's last term.
+//! ρ0 v² ≤ max(k_el, k_el ⟨I_el⟩ + M_t) + M_ld, where M_t gathers the factors of 1 − y² and M_ld is the shear's last
+//! term.
 //!
-//! At rest and along a stretched fibre c is √(k_el/ρ0). k_el is kept for a slack fibre, since tension may return within
+//! At rest and along a stretched fibre v is √(k_el/ρ0). k_el is kept for a slack fibre, since tension may return within
 //! a step.
 
 use super::error::{Error, Value};

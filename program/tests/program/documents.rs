@@ -98,11 +98,66 @@ fn quantity(system: &str, si: f64, dimension: Dimension) -> String {
     if value == 0.0 || (1e-3..1e6).contains(&value) { value.to_string() } else { format!("{value:e}") }
 }
 
+/// What a host does at a code, in the words of the page, and what the user can do.
+fn answer_to(code: i32) -> [&'static str; 2] {
+    const POINT: &str = "deletes or repeats";
+    match code {
+        status::OK => ["goes on", ""],
+        status::NULL_ARGUMENT => ["stops", "pass the array that the message names"],
+        status::BAD_COUNT => ["stops", "Abaqus: mesh solids; else pass the count that the message names"],
+        status::BAD_LEADING_DIMENSION => ["stops", "pass one no less than the number of points"],
+        status::UNKNOWN_NAME => ["stops", "compare the spelling with this page, or with `toron params`"],
+        status::BAD_ARGUMENT => [
+            "stops",
+            "change the value that the message names; in Abaqus and CalculiX it may be a state variable of the deck",
+        ],
+        status::NO_DEFORMATION_GRADIENT => [
+            "stops",
+            "Abaqus/Standard, CalculiX: `NLGEOM`; LS-DYNA: IHYPER and NHV as `toron deck` prints them; OpenRadioss: \
+             Ismstr, Isolid, Iframe, and the library of the solver's precision",
+        ],
+        status::NOT_PREPARED => ["stops", "call the prepare function of this law and precision first"],
+        status::BAD_SIZE => ["stops", "set `size` to the `sizeof` of the structure"],
+        status::UNKNOWN_FIELD => ["stops", "load a library as new as the header"],
+        status::PROPERTY_COUNT => ["stops", "print the card anew by `toron deck`"],
+        status::PROPERTY_NOT_FINITE => ["stops", "correct the property that the message names"],
+        status::PROPERTY_OUT_OF_BOUNDS => {
+            ["stops", "correct the property that the message names; look for a shifted column, and for other units"]
+        }
+        status::PROPERTY_DIRECTION => ["stops", "give a fibre, and a second axis that is not along it"],
+        status::FIBRE_OUT_OF_PLANE => ["stops", "turn the direction into the plane (component 3 is 0) or normal to it"],
+        status::STATE_COUNT => ["stops", "correct `*DEPVAR` or NHV by the card of `toron deck`"],
+        status::INVERTED => [
+            POINT,
+            "look for units other than the mesh's, too stiff a contact, too long a step, \
+             [modes without stiffness](../guides/hosts.md#what-every-model-needs)",
+        ],
+        status::NOT_FINITE => [POINT, "the solver has lost the deformation before the call: as for −301"],
+        status::OVERFLOW => [POINT, "as for −301; in single precision try double"],
+        status::STATE_NOT_FINITE => {
+            ["deletes or repeats; CalculiX stops", "start state variables at 0; look for what else writes to them"]
+        }
+        status::FIBRE_DIRECTION => [
+            "deletes or repeats; OpenRadioss and CalculiX stop",
+            "give every element a fibre direction, not along the second axis",
+        ],
+        status::INCREMENT_TOO_LARGE => [POINT, "take smaller steps; as for −301"],
+        status::MATERIAL_AXES => {
+            ["returns to code of your own", "start with the law's axes, keep those that each step returns"]
+        }
+        status::LIMIT => ["deletes or repeats; OpenRadioss stops", "give 0, or a positive limit"],
+        status::LAW => [POINT, "a [law of your own](../guides/own-law.md) says why in the message"],
+        status::SMALLER_STEP => [POINT, "take smaller steps; only laws of your own ask for them"],
+        code => panic!("what does a user do about {code}?"),
+    }
+}
+
 fn status_codes() -> String {
-    let rows = status::TABLE
-        .iter()
-        .map(|&(code, name, meaning)| [code.to_string(), format!("`TORON_{}`", name.to_uppercase()), meaning.into()]);
-    table(["code", "name in C", "message"], rows)
+    let rows = status::TABLE.iter().map(|&(code, name, meaning)| {
+        let [host, remedy] = answer_to(code).map(String::from);
+        [code.to_string(), format!("`TORON_{}`", name.to_uppercase()), meaning.into(), host, remedy]
+    });
+    table(["code", "name in C", "message: what has happened", "the host", "what to do"], rows)
 }
 
 /// Decks with mistakes in them, and what the library says of each.
@@ -593,22 +648,226 @@ fn the_readme_s_figures_of_the_panel_are_those_of_the_results() {
     );
 }
 
+/// The summary of a scene's cases: a line for each, with the titles in the first.
+struct Summary(Vec<Vec<String>>);
+
+impl Summary {
+    /// That of `toron impact SCENE`, whose files go to the folder of this name.
+    fn of(scene: &Path, name: &str) -> Self {
+        let output = folder(name);
+        let mut program = Command::new(env!("CARGO_BIN_EXE_toron"));
+        run(program.arg("impact").arg(scene).arg("-o").arg(&output).current_dir(ROOT), "");
+        let summary = std::fs::read_to_string(output.join("summary.csv")).expect("the summary");
+        // A text in quotes may have commas.
+        let fields = |line: &str| {
+            let mut quoted = false;
+            let comma = |c: char| {
+                quoted ^= c == '"';
+                c == ',' && !quoted
+            };
+            line.split(comma).map(String::from).collect()
+        };
+        Summary(summary.lines().map(fields).collect())
+    }
+
+    fn value(&self, case: &str, column: &str) -> &str {
+        let place = self.0[0].iter().position(|title| title == column).expect(column);
+        &self.0.iter().find(|line| line[0] == case).expect(case)[place]
+    }
+}
+
+const RESIDUAL_SPEED: &str = "residual_speed (mm/ms)";
+
 /// The README's figure of the yarn is what its command gives, and that of the results.
 #[test]
 fn the_readme_s_figure_of_the_yarn_is_what_its_command_gives() {
-    let output = folder("documents-impact");
-    let command = "impact examples/yarn_impact/impact.toml";
-    let mut program = Command::new(env!("CARGO_BIN_EXE_toron"));
-    run(program.args(command.split(' ')).arg("-o").arg(&output).current_dir(ROOT), "");
-    let summary = std::fs::read_to_string(output.join("summary.csv")).expect("the summary");
-    let lines: Vec<Vec<&str>> = summary.lines().map(|line| line.split(',').collect()).collect();
-    let place = lines[0].iter().position(|title| *title == "residual_speed (mm/ms)").expect("a column");
-    let speed: f64 = lines[1][place].parse().expect("a speed");
+    const SCENE: &str = "examples/yarn_impact/impact.toml";
+    let summary = Summary::of(Path::new(SCENE), "documents-impact");
+    let speed: f64 = summary.value("mf-120", RESIDUAL_SPEED).parse().expect("a speed");
     let words: Vec<String> = read("../README.md").split_whitespace().map(String::from).collect();
     let said = format!("the residual speed is {speed:.0} m/s at 120 m/s (thesis: 64;");
     let words = words.join(" ");
-    assert!(words.contains(&format!("`toron {command}`")) && words.contains(&said), "README.md lacks {said}");
+    assert!(words.contains(&format!("`toron impact {SCENE}`")) && words.contains(&said), "README.md lacks {said}");
     assert!(read("results/impact.md").contains(&format!("{speed:.1}")), "{speed}");
+}
+
+/// A row of a table of the struck yarn: its scene, the heading over the table, and for each cell the column's title,
+/// the case, and the column of the summary.
+struct Row {
+    scene: &'static str,
+    heading: &'static str,
+    row: &'static str,
+    cells: &'static [(&'static str, &'static str, &'static str)],
+}
+
+const ROWS_OF_THE_YARN: [Row; 11] = [
+    Row {
+        scene: "table_4_5",
+        heading: "## Residual speeds, Tab. 4.5",
+        row: "`toron impact`",
+        cells: &[
+            ("MF 100", "mf-100", RESIDUAL_SPEED),
+            ("MF 120", "mf-120", RESIDUAL_SPEED),
+            ("UF 120", "uf-120", RESIDUAL_SPEED),
+            ("UF 140", "uf-140", RESIDUAL_SPEED),
+            ("linear 100", "linear-100", RESIDUAL_SPEED),
+            ("linear 120", "linear-120", RESIDUAL_SPEED),
+        ],
+    },
+    Row {
+        scene: "margins",
+        heading: "### Cases near the limit",
+        row: "no viscosity",
+        cells: &[
+            ("MF 120", "mf-120-no-viscosity", RESIDUAL_SPEED),
+            ("MF 100", "mf-100-no-viscosity", "speed_at_end (mm/ms)"),
+            ("UF 140", "uf-140-no-viscosity", RESIDUAL_SPEED),
+        ],
+    },
+    Row {
+        scene: "margins",
+        heading: "### Cases near the limit",
+        row: "hourglass 1.0",
+        cells: &[
+            ("MF 120", "mf-120-stiff-hourglass", RESIDUAL_SPEED),
+            ("MF 100", "mf-100-stiff-hourglass", RESIDUAL_SPEED),
+            ("UF 140", "uf-140-stiff-hourglass", RESIDUAL_SPEED),
+        ],
+    },
+    Row {
+        scene: "margins",
+        heading: "### Cases near the limit",
+        row: "50 layers",
+        cells: &[
+            ("MF 120", "mf-120-50-layers", RESIDUAL_SPEED),
+            ("MF 100", "mf-100-50-layers", RESIDUAL_SPEED),
+            ("UF 140", "uf-140-50-layers", RESIDUAL_SPEED),
+        ],
+    },
+    Row {
+        scene: "margins_linear",
+        heading: "### Cases near the limit",
+        row: "no viscosity",
+        cells: &[("linear 100", "linear-100-no-viscosity", RESIDUAL_SPEED)],
+    },
+    Row {
+        scene: "margins_linear",
+        heading: "### Cases near the limit",
+        row: "hourglass 1.0",
+        cells: &[("linear 100", "linear-100-stiff-hourglass", RESIDUAL_SPEED)],
+    },
+    Row {
+        scene: "margins_linear",
+        heading: "### Cases near the limit",
+        row: "50 layers",
+        cells: &[("linear 100", "linear-100-50-layers", RESIDUAL_SPEED)],
+    },
+    Row {
+        scene: "no_failure",
+        heading: "## Energy densities at 30 µs are within 11 % of the thesis",
+        row: "6 × 2",
+        cells: &[
+            ("W_el", "hyperelastic", "w_el_at_end (mJ/mm³)"),
+            ("W_tc", "hyperelastic", "w_tc_at_end (mJ/mm³)"),
+            ("W_td", "hyperelastic", "w_td_at_end (mJ/mm³)"),
+        ],
+    },
+    Row {
+        scene: "no_failure",
+        heading: "## Energy densities at 30 µs are within 11 % of the thesis",
+        row: "12 × 4",
+        cells: &[
+            ("W_el", "section-12x4", "w_el_at_end (mJ/mm³)"),
+            ("W_tc", "section-12x4", "w_tc_at_end (mJ/mm³)"),
+            ("W_td", "section-12x4", "w_td_at_end (mJ/mm³)"),
+        ],
+    },
+    Row {
+        scene: "mesh",
+        heading: "## Convergence",
+        row: "34.0",
+        cells: &[("150 elements", "half", RESIDUAL_SPEED), ("9600", "double", RESIDUAL_SPEED)],
+    },
+    Row {
+        scene: "contact",
+        heading: "## Convergence",
+        row: "34.0",
+        cells: &[
+            ("contact 1e4", "k-1e4", RESIDUAL_SPEED),
+            ("1e5", "k-1e5", RESIDUAL_SPEED),
+            ("1e6, usual", "k-1e6", RESIDUAL_SPEED),
+            ("1e7", "k-1e7", RESIDUAL_SPEED),
+        ],
+    },
+];
+
+/// The tables of the struck yarn have what their scenes give, to the digits that they show; NP: not penetrated.
+#[test]
+#[ignore = "takes minutes: .ci/long documents"]
+fn the_tables_of_the_yarn_are_what_its_scenes_give() {
+    const PAGE: &str = "results/impact.md";
+    let mut wrong = Vec::new();
+    for Row { scene, heading, row, cells } in ROWS_OF_THE_YARN {
+        // Of the scene's cases those of the row alone.
+        let file = Path::new(ROOT).join(format!("examples/yarn_impact/{scene}.toml"));
+        let text = std::fs::read_to_string(&file).expect(scene);
+        let mut parts = text.split("[[case]]");
+        let common = parts.next().expect("what all cases share");
+        let wanted = |part: &&str| cells.iter().any(|(_, case, _)| part.contains(&format!("name = \"{case}\"")));
+        let cases: Vec<_> = parts.filter(wanted).collect();
+        assert_eq!(cases.len(), cells.iter().map(|cell| cell.1).collect::<BTreeSet<_>>().len(), "{scene}, {row}");
+        let place = folder("documents-yarn");
+        let file = place.join("scene.toml");
+        std::fs::write(&file, [&[common][..], &cases].concat().join("[[case]]")).expect("a scene");
+        let summary = Summary::of(&file, "documents-yarn-results");
+        for &(title, case, column) in cells {
+            let (shown, value) = (cell(PAGE, heading, row, title), summary.value(case, column));
+            let number = shown.split(' ').next().expect("a word");
+            let digits = number.split_once('.').map_or(0, |(_, decimals)| decimals.len());
+            let is_shown = match value.parse::<f64>() {
+                _ if shown == "NP" => summary.value(case, "ending") == "not penetrated",
+                Ok(value) => number == format!("{value:.digits$}"),
+                Err(_) => false,
+            };
+            println!("{scene}, {case}: {shown}, {value}");
+            wrong.extend((!is_shown).then(|| format!("{scene}, {case}, {title}: {shown}, not {value}")));
+        }
+    }
+    assert!(wrong.is_empty(), "{PAGE}: {}", wrong.join("; "));
+}
+
+/// The shares of the intervals of V50 that hold are those that the commands print, by the logit.
+#[test]
+#[ignore = "takes minutes: .ci/long documents"]
+fn the_shares_of_intervals_that_hold_are_what_the_commands_print() {
+    const PAGE: &str = "results/v50.md";
+    const COMMAND: &str = "v50 examples/fabric_impact/v50.toml --simulate 1000 --firth";
+    const CURVES: [(&str, &str); 2] = [("logit", "without correction"), ("logit, Firth", "with Firth's correction")];
+    let printed = |more: &str| {
+        let mut program = Command::new(env!("CARGO_BIN_EXE_toron"));
+        let output = run(program.args(COMMAND.split(' ')).args(more.split_whitespace()).current_dir(ROOT), "");
+        String::from_utf8(output.stdout).expect("UTF-8")
+    };
+    // A line has the design, the curve, and the shares of V5, V50 and V95.
+    let shares = |text: &str, design: &str, curve: &str| -> String {
+        let names: Vec<_> = design.split(' ').chain(curve.split(' ')).collect();
+        let mut lines = text.lines().map(|line| line.split_whitespace().collect::<Vec<_>>());
+        let line = lines.find(|words| words.starts_with(&names)).expect(design);
+        line[names.len()..names.len() + 3].join(", ")
+    };
+    let (flat, steep) = (printed(""), printed("--truth 41.2 0.75"));
+    for (curve, title) in CURVES {
+        for design in ["even", "langlie", "up-and-down", "d-optimal", "3pod"] {
+            let title = if curve == "logit" { "V5, V50, V95, without correction" } else { title };
+            let shown = cell(PAGE, "## How often the intervals hold", design, title);
+            assert_eq!(shown, shares(&flat, design, curve), "{design}, {curve}");
+        }
+        for (text, row) in [(&flat, "6.25 m/s"), (&steep, "0.75 m/s")] {
+            let (_, separated) = text.split_once("separated (").expect("a table of the separated");
+            let shown = cell(PAGE, "### Where no zone of mixed results is left", row, title);
+            assert_eq!(shown, shares(separated, "even", curve), "{row}, {curve}");
+        }
+    }
 }
 
 /// What a page tells to write and to type: its files, by the name in the line before, and its commands with what they
