@@ -3,11 +3,11 @@
 use core::mem::MaybeUninit;
 
 use super::outputs::{
-    Evaluated, Outcome, Remembered, add_to_check, clear_tangent, gradient, own_frame, prefetch, remembered,
-    reset_invalid, respond, status_code, store_state,
+    Evaluated, Outcome, Remembered, add_to_check, clear_tangent, gradient, keep_old_state_of_one, own_frame, prefetch,
+    remembered, reset_invalid, respond, status_code, store_state,
 };
 use super::points::Points;
-use super::request::{ALIGNED, ANY, FRICTION, STATE, wants_tangent};
+use super::request::{ALIGNED, ANY, FRICTION, STATE, parts, wants_tangent};
 use crate::law::axes::{Axes, FibreFrame, FirstAxis};
 use crate::law::frictional::{Friction, Hold, Slip};
 use crate::law::hyperelastic::{Hyperelastic, Kirchhoff};
@@ -304,6 +304,9 @@ unsafe fn staged<T: Scalar, R: Lanes<T>, A: GroupAxes<R>, const WANT: u8>(group:
             group.hold(&mut stages);
         }
         group.respond::<WANT>(&mut stages, status);
+        if R::ALONE {
+            keep_old_state_of_one(block, stages.outcomes.get(0), parts::<WANT>());
+        }
         if group.any_invalid::<WANT>(&stages) {
             group.report::<WANT>(&stages, status, worst);
         }
@@ -585,6 +588,7 @@ impl<T: Scalar, R: Lanes<T>, A: GroupAxes<R>> Group<'_, T, R, A> {
         // SAFETY: see above.
         unsafe {
             for k in 0..self.count {
+                let old;
                 let mut point = Evaluated {
                     stretch: stages.stretches.get(k),
                     strain: stages.strains.get(k),
@@ -593,7 +597,14 @@ impl<T: Scalar, R: Lanes<T>, A: GroupAxes<R>> Group<'_, T, R, A> {
                 };
                 if WANT & FRICTION != 0 {
                     let slides = &*stages.slides;
-                    let slip = if slides.any { Some(slides.slips.get(k)) } else { None };
+                    let slip = match (slides.any, R::ALONE) {
+                        (true, _) => Some(slides.slips.get(k)),
+                        (false, true) => {
+                            old = remembered::<T, R>(self.block, self.at(k));
+                            Some(&old)
+                        }
+                        (false, false) => None,
+                    };
                     let i_td = match slides.any_before {
                         true => slides.distortions.get(k).finish().0,
                         false => slides.holds.get(k).trial,

@@ -331,11 +331,16 @@ pub fn sinh_and_exp_of_minus<R: Real>(u: R) -> (R, R) {
     let (high, low) = ln_2_in_parts::<R>();
     let n = (u * R::splat(LOG2_E)).round();
     let r = n.mul_add(R::splat(-low), n.mul_add(R::splat(-high), u));
-    // eᵘ − 1 = 2^n (eʳ − 1) + (2^n − 1).
-    let power = one.times_power_of_two(n);
-    let growth = power.mul_add((r * r).mul_add(polynomial(R::EXP, r), r), power - one);
-    let decay = one / (one + growth);
-    (R::splat(0.5) * growth.mul_add(decay, growth), decay)
+    // Both powers of two do not wait for r, and no exponential for the reciprocal of the other.
+    let half = R::splat(0.5);
+    let (power, inverse) = (half.times_power_of_two(n), half.times_power_of_two(-n));
+    let (sum, difference) = (power + inverse, power - inverse);
+    // cosh r − 1 and sinh r, by the even and the odd terms of eʳ.
+    let square = r * r;
+    let [even, odd] = R::EXP_BY_PARITY;
+    let (cosh_less_one, sinh) = (square * polynomial(even, square), (r * square).mul_add(polynomial(odd, square), r));
+    let of_both = sum.mul_add(sinh, difference.mul_add(cosh_less_one, difference));
+    (of_both, (inverse + inverse) * (one + (cosh_less_one - sinh)))
 }
 
 /// x^q for |q| up to 1000: ∞ and 0 where it is beyond the numbers that [`power`] has; 0^q is 0, 1 or ∞; NaN for x < 0.
