@@ -178,8 +178,9 @@ impl<R: Real> Section<R> {
         [along(g2, -(d.h[0] * d.inverse_square), c1), along(g3, -(d.h[1] * d.inverse_square), c1)]
     }
 
+    /// From δ2 and δ3, as [`new`](Self::new).
     #[inline(always)]
-    fn from_rests<A: Axes<R>>(d: &Stretch<R>, [delta_2, delta_3]: [[R; 3]; 2], n: &A) -> (Self, [[R; 3]; 2]) {
+    pub fn from_rests<A: Axes<R>>(d: &Stretch<R>, [delta_2, delta_3]: [[R; 3]; 2], n: &A) -> (Self, [[R; 3]; 2]) {
         let (one, half) = (R::splat(1.0), R::splat(0.5));
         let a = Image { whole: n.shifted(delta_2, d.chi, 1), rest: delta_2 };
         let b = Image { whole: n.shifted(delta_3, d.chi, 2), rest: delta_3 };

@@ -3,7 +3,7 @@
 use core::mem::MaybeUninit;
 
 use super::outputs::{
-    Evaluated, Outcome, Remembered, add_to_check, clear_tangent, gradient, keep_old_state_of_one, own_frame, prefetch,
+    Evaluated, Outcome, Remembered, add_to_check, clear_tangent, gradient, own_frame, prefetch,
     remembered, reset_invalid, respond, status_code, store_state,
 };
 use super::points::Points;
@@ -229,18 +229,38 @@ struct Stages<'a, R: Real, K> {
 }
 
 impl<R: Real, K> Stages<'_, R, K> {
+    /// Whether any of the fibres have slid before.
+    #[inline(always)]
+    fn have_slid<const SLID: u8>(&self) -> bool {
+        match SLID {
+            NEVER => false,
+            BEFORE => true,
+            _ => self.slides.any_before,
+        }
+    }
+
     /// The sections as the deformation makes them, and their a and b.
     #[inline(always)]
-    fn whole(&self) -> (&Stage<Section<R>>, &Stage<[[R; 3]; 2]>) {
-        match self.slides.any_before {
+    fn whole<const SLID: u8>(&self) -> (&Stage<Section<R>>, &Stage<[[R; 3]; 2]>) {
+        match self.have_slid::<SLID>() {
             true => (&self.slides.sections, &self.slides.images),
             false => (self.sections, self.images),
         }
     }
 }
 
+/// Whether fibres have slid before: one point goes different ways through all stages, a block looks it up in each.
+const NEVER: u8 = 0;
+const BEFORE: u8 = 1;
+const LOOKED_UP: u8 = 2;
+
 /// What a law with friction keeps besides.
 struct Slides<R: Real> {
+    /// Of one point alone, whose numbers are in the processor's registers: F m, (F − χ1) t1 and (F − χ1) t2, δ2 and δ3,
+    /// and what it has remembered.
+    vectors: Stage<[[R; 3]; 3]>,
+    rests: Stage<[[R; 3]; 2]>,
+    old: Stage<Slip<R>>,
     /// Where any of the fibres have slid before: the axes that the distortion is referred to, the section as the
     /// deformation makes it, its a and b, and its distortion.
     axes: Stage<Unimodular<R>>,
@@ -263,6 +283,9 @@ struct Slides<R: Real> {
 unsafe fn staged<T: Scalar, R: Lanes<T>, A: GroupAxes<R>, const WANT: u8>(group: &Group<'_, T, R, A>, worst: &mut R) {
     let Group { block, i, count, .. } = *group;
     let mut slides = Slides {
+        vectors: Stage::new(),
+        rests: Stage::new(),
+        old: Stage::new(),
         sections: Stage::new(),
         images: Stage::new(),
         distortions: Stage::new(),
@@ -282,6 +305,32 @@ unsafe fn staged<T: Scalar, R: Lanes<T>, A: GroupAxes<R>, const WANT: u8>(group:
         outcomes: &mut Stage::new(),
         slides: &mut slides,
     };
+    // SAFETY: as the caller promises.
+    unsafe {
+        if const { WANT & FRICTION != 0 } {
+            group.recall_slip(&mut stages);
+            if R::ALONE {
+                return match stages.slides.any_before {
+                    true => evaluate::<T, R, A, WANT, BEFORE>(group, &mut stages, worst),
+                    false => evaluate::<T, R, A, WANT, NEVER>(group, &mut stages, worst),
+                };
+            }
+        }
+        evaluate::<T, R, A, WANT, LOOKED_UP>(group, &mut stages, worst);
+    }
+}
+
+/// The stages of a group whose slip has been recalled.
+///
+/// # Safety
+/// As for [`evaluate_group`].
+#[inline(always)]
+unsafe fn evaluate<T: Scalar, R: Lanes<T>, A: GroupAxes<R>, const WANT: u8, const SLID: u8>(
+    group: &Group<'_, T, R, A>,
+    stages: &mut Stages<'_, R, Kept<R, A>>,
+    worst: &mut R,
+) {
+    let Group { block, i, count, .. } = *group;
     // If the block has no array for the status codes or the active points, these are stored to a scratch array, which
     // costs less than a test at every store. They have WIDEST ≥ COUNT values for each k, and i ≤ at(k) ≤ i + k COUNT,
     // so that i may be subtracted from their addresses.
@@ -292,26 +341,23 @@ unsafe fn staged<T: Scalar, R: Lanes<T>, A: GroupAxes<R>, const WANT: u8>(group:
     let active = if block.active.is_null() { no_active.as_mut_ptr().cast::<T>().wrapping_sub(i) } else { block.active };
     // SAFETY: as the caller promises; each function reads what the ones before have put.
     unsafe {
+        let slipped = group.kinematics(stages);
         if const { WANT & FRICTION != 0 } {
-            group.recall_slip(&mut stages);
+            group.refer_to_slip::<SLID>(stages, slipped);
         }
-        let slipped = group.kinematics(&mut stages);
+        group.strains::<WANT, SLID>(stages);
         if const { WANT & FRICTION != 0 } {
-            group.refer_to_slip(&mut stages, slipped);
+            group.hold::<SLID>(stages);
         }
-        group.strains::<WANT>(&mut stages);
-        if const { WANT & FRICTION != 0 } {
-            group.hold(&mut stages);
-        }
-        group.respond::<WANT>(&mut stages, status);
-        if R::ALONE {
-            keep_old_state_of_one(block, stages.outcomes.get(0), parts::<WANT>());
-        }
-        if group.any_invalid::<WANT>(&stages) {
-            group.report::<WANT>(&stages, status, worst);
+        group.respond::<WANT, SLID>(stages, status);
+        if group.any_invalid::<WANT>(stages) {
+            if R::ALONE {
+                block.keep_old_state_of_one(parts::<WANT>());
+            }
+            group.report::<WANT>(stages, status, worst);
         }
         if WANT & (STATE | ANY) != 0 {
-            group.store::<WANT>(&stages, active);
+            group.store::<WANT, SLID>(stages, active);
         }
         if wants_tangent::<T, WANT>(block) {
             for k in 0..count {
@@ -338,6 +384,9 @@ impl<T: Scalar, R: Lanes<T>, A: GroupAxes<R>> Group<'_, T, R, A> {
     unsafe fn images(&self, stages: &Stages<'_, R, Kept<R, A>>, k: usize) -> [[R; 3]; 3] {
         // SAFETY: see above.
         unsafe {
+            if R::ALONE {
+                return *stages.slides.vectors.get(k);
+            }
             let (n, d) = (self.axes.get(k).0, stages.stretches.get(k));
             n.recall(stages.kept.get(k), &gradient(self.block, self.at(k)), d)
         }
@@ -353,11 +402,18 @@ impl<T: Scalar, R: Lanes<T>, A: GroupAxes<R>> Group<'_, T, R, A> {
                 let n = self.axes.get(k).0;
                 let (stretch, vectors) = Stretch::new(&gradient(self.block, self.at(k)), &n);
                 stages.stretches.put(k, stretch);
-                stages.kept.put(k, n.keep(vectors));
+                match R::ALONE {
+                    true => stages.slides.vectors.put(k, vectors),
+                    false => stages.kept.put(k, n.keep(vectors)),
+                }
             }
             for k in 0..self.count {
                 let (n, d) = (self.axes.get(k).0, stages.stretches.get(k));
-                let (section, vectors) = Section::new(d, self.images(stages, k), &n);
+                let rests = Section::rests(d, self.images(stages, k));
+                let (section, vectors) = Section::from_rests(d, rests, &n);
+                if R::ALONE {
+                    stages.slides.rests.put(k, rests);
+                }
                 slipped = slipped | section.slipped_far(d);
                 stages.sections.put(k, section);
                 stages.images.put(k, vectors);
@@ -368,7 +424,11 @@ impl<T: Scalar, R: Lanes<T>, A: GroupAxes<R>> Group<'_, T, R, A> {
                 for k in 0..self.count {
                     let (n, d) = (self.axes.get(k).0, stages.stretches.get(k));
                     let far = stages.sections.get(k).slipped_far(d);
-                    let (section, vectors) = Section::orthogonal(d, self.images(stages, k), &n, far);
+                    let rests = Section::orthogonal_rests(d, self.images(stages, k), &n, far);
+                    let (section, vectors) = Section::from_rests(d, rests, &n);
+                    if R::ALONE {
+                        stages.slides.rests.put(k, rests);
+                    }
                     stages.sections.put(k, section);
                     stages.images.put(k, vectors);
                 }
@@ -385,21 +445,32 @@ impl<T: Scalar, R: Lanes<T>, A: GroupAxes<R>> Group<'_, T, R, A> {
         // SAFETY: see above.
         unsafe {
             for k in 0..self.count {
-                slid = slid | remembered::<T, R>(self.block, self.at(k)).is_any();
+                let old = remembered::<T, R>(self.block, self.at(k));
+                if R::ALONE {
+                    stages.slides.old.put(k, old);
+                }
+                slid = slid | old.is_any();
             }
             stages.slides.any_before = R::any(slid);
             if stages.slides.any_before {
                 for k in 0..self.count {
-                    stages.slides.axes.put(k, remembered::<T, R>(self.block, self.at(k)).axes());
+                    stages.slides.axes.put(k, self.old(stages, k).axes());
                 }
             }
         }
     }
 
+    /// What register k has remembered.
+    #[inline(always)]
+    unsafe fn old(&self, stages: &Stages<'_, R, Kept<R, A>>, k: usize) -> Slip<R> {
+        // SAFETY: see above.
+        unsafe { if R::ALONE { *stages.slides.old.get(k) } else { remembered::<T, R>(self.block, self.at(k)) } }
+    }
+
     /// The section that is left of the whole one where the fibres have slid.
     #[inline(always)]
-    unsafe fn refer_to_slip(&self, stages: &mut Stages<'_, R, Kept<R, A>>, any_slipped: bool) {
-        if !stages.slides.any_before {
+    unsafe fn refer_to_slip<const SLID: u8>(&self, stages: &mut Stages<'_, R, Kept<R, A>>, any_slipped: bool) {
+        if !stages.have_slid::<SLID>() {
             return;
         }
         // SAFETY: see above.
@@ -408,6 +479,7 @@ impl<T: Scalar, R: Lanes<T>, A: GroupAxes<R>> Group<'_, T, R, A> {
                 let (n, d, &whole) = (self.axes.get(k).0, stages.stretches.get(k), stages.sections.get(k));
                 let vectors = self.images(stages, k);
                 let rests = match any_slipped {
+                    _ if R::ALONE => *stages.slides.rests.get(k),
                     true => Section::orthogonal_rests(d, vectors, &n, whole.slipped_far(d)),
                     false => Section::rests(d, vectors),
                 };
@@ -422,14 +494,14 @@ impl<T: Scalar, R: Lanes<T>, A: GroupAxes<R>> Group<'_, T, R, A> {
 
     /// The invariants, and the power of the compaction.
     #[inline(always)]
-    unsafe fn strains<const WANT: u8>(&self, stages: &mut Stages<'_, R, Kept<R, A>>) {
+    unsafe fn strains<const WANT: u8, const SLID: u8>(&self, stages: &mut Stages<'_, R, Kept<R, A>>) {
         let (law, block) = (self.law.elastic, self.block);
         let (state, stride) = (WANT & (STATE | ANY) != 0, block.leading_dimension);
         // SAFETY: see above.
         unsafe {
             for k in 0..self.count {
                 let mut logarithms = Logarithms::new(stages.stretches.get(k), stages.sections.get(k));
-                if WANT & FRICTION != 0 && stages.slides.any_before {
+                if WANT & FRICTION != 0 && stages.have_slid::<SLID>() {
                     let distortion = logarithms.beside(stages.slides.sections.get(k));
                     stages.slides.distortions.put(k, distortion);
                 }
@@ -461,7 +533,7 @@ impl<T: Scalar, R: Lanes<T>, A: GroupAxes<R>> Group<'_, T, R, A> {
 
     /// What friction holds of the distortion, and the slip where it holds less.
     #[inline(always)]
-    unsafe fn hold(&self, stages: &mut Stages<'_, R, Kept<R, A>>) {
+    unsafe fn hold<const SLID: u8>(&self, stages: &mut Stages<'_, R, Kept<R, A>>) {
         let Yarn { elastic: law, friction } = self.law;
         let mut sliding = R::never();
         // SAFETY: see above.
@@ -478,11 +550,13 @@ impl<T: Scalar, R: Lanes<T>, A: GroupAxes<R>> Group<'_, T, R, A> {
             stages.slides.any = R::any(sliding);
             if stages.slides.any {
                 for k in 0..self.count {
-                    let old = remembered::<T, R>(self.block, self.at(k));
+                    let old = self.old(stages, k);
                     let (section, hold) = (stages.sections.get(k), stages.slides.holds.get(k));
-                    let slip = friction.slid(law, &old, stages.whole().0.get(k), section, hold);
+                    let slip = friction.slid(law, &old, stages.whole::<SLID>().0.get(k), section, hold);
                     stages.slides.slips.put(k, slip);
                 }
+            } else if R::ALONE {
+                stages.slides.slips.put(0, self.old(stages, 0));
             }
         }
     }
@@ -503,7 +577,7 @@ impl<T: Scalar, R: Lanes<T>, A: GroupAxes<R>> Group<'_, T, R, A> {
 
     /// Stress, modes, wave speed and tangent, and a status of 0.
     #[inline(always)]
-    unsafe fn respond<const WANT: u8>(&self, stages: &mut Stages<'_, R, Kept<R, A>>, status: *mut i32) {
+    unsafe fn respond<const WANT: u8, const SLID: u8>(&self, stages: &mut Stages<'_, R, Kept<R, A>>, status: *mut i32) {
         let zero = R::splat(0.0);
         // SAFETY: see above.
         unsafe {
@@ -524,7 +598,7 @@ impl<T: Scalar, R: Lanes<T>, A: GroupAxes<R>> Group<'_, T, R, A> {
                 };
                 let slid;
                 if WANT & FRICTION != 0 {
-                    let (old, (sections, images)) = (remembered::<T, R>(self.block, self.at(k)), stages.whole());
+                    let (old, (sections, images)) = (self.old(stages, k), stages.whole::<SLID>());
                     nan_if_invalid = (old.i_te + old.lost).mul_add(zero, nan_if_invalid);
                     slid = Slid {
                         whole: sections.get(k),
@@ -548,6 +622,11 @@ impl<T: Scalar, R: Lanes<T>, A: GroupAxes<R>> Group<'_, T, R, A> {
     #[inline(always)]
     #[allow(clippy::eq_op)] // A number minus itself is 0, unless it is NaN or infinite.
     unsafe fn any_invalid<const WANT: u8>(&self, stages: &Stages<'_, R, Kept<R, A>>) -> bool {
+        if R::ALONE {
+            // What it has remembered is not needed but where it is kept.
+            // SAFETY: see above.
+            return unsafe { stages.outcomes.get(0).is_kept() };
+        }
         let mut check = R::splat(0.0);
         for k in 0..self.count {
             // SAFETY: see above.
@@ -584,11 +663,10 @@ impl<T: Scalar, R: Lanes<T>, A: GroupAxes<R>> Group<'_, T, R, A> {
 
     /// The new state, and which points are active.
     #[inline(always)]
-    unsafe fn store<const WANT: u8>(&self, stages: &Stages<'_, R, Kept<R, A>>, active: *mut T) {
+    unsafe fn store<const WANT: u8, const SLID: u8>(&self, stages: &Stages<'_, R, Kept<R, A>>, active: *mut T) {
         // SAFETY: see above.
         unsafe {
             for k in 0..self.count {
-                let old;
                 let mut point = Evaluated {
                     stretch: stages.stretches.get(k),
                     strain: stages.strains.get(k),
@@ -597,15 +675,8 @@ impl<T: Scalar, R: Lanes<T>, A: GroupAxes<R>> Group<'_, T, R, A> {
                 };
                 if WANT & FRICTION != 0 {
                     let slides = &*stages.slides;
-                    let slip = match (slides.any, R::ALONE) {
-                        (true, _) => Some(slides.slips.get(k)),
-                        (false, true) => {
-                            old = remembered::<T, R>(self.block, self.at(k));
-                            Some(&old)
-                        }
-                        (false, false) => None,
-                    };
-                    let i_td = match slides.any_before {
+                    let slip = if slides.any || R::ALONE { Some(slides.slips.get(k)) } else { None };
+                    let i_td = match stages.have_slid::<SLID>() {
                         true => slides.distortions.get(k).finish().0,
                         false => slides.holds.get(k).trial,
                     };

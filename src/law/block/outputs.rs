@@ -1,6 +1,6 @@
 //! What the kernel reads of a register's points besides F, and what it stores: results, new states, status codes.
 
-use super::points::{PARTS, Points};
+use super::points::Points;
 use super::request::{
     ANY, EXPLICIT, FRICTION, I_TE, LOST, SHEAR, SLIP, STATE, index_row, request, shears, wants_tangent,
 };
@@ -88,6 +88,14 @@ pub(super) struct Outcome<R: Real> {
     /// The old latch, and the same but NaN where the point cannot be evaluated.
     latch: R,
     pub latch_or_nan: R,
+}
+
+impl<R: Real> Outcome<R> {
+    /// Whether a point keeps its old state.
+    #[inline(always)]
+    pub fn is_kept(&self) -> bool {
+        R::any(!self.updated)
+    }
 }
 
 /// Computes and stores the stress, modes, wave speed and tangent; those of invalid points are reset later. The state is
@@ -240,44 +248,23 @@ pub(super) unsafe fn add_to_check<T: Scalar, R: Lanes<T>, const WANT: u8>(
     check: R,
 ) -> R {
     let request = request::<T, WANT>(block);
-    // The old state of one point is where the caller has it.
-    let old = |part: usize, c: usize| {
-        let array = if R::ALONE { block.state_old[part] } else { block.state_new[part].cast_const() };
-        // SAFETY: it is called for arrays that are requested and components that they have, with n ≥ i + COUNT values.
-        unsafe { R::load(array.add(c * block.leading_dimension + i)) }
-    };
+    // SAFETY: it is called for arrays that are requested and components that they have, with n ≥ i + COUNT values.
+    let old = |array: *mut T, c: usize| unsafe { R::load(array.add(c * block.leading_dimension + i)) };
     let mut sum = latch_or_nan;
     if request.failure {
         for row in 0..=index_row::<WANT>() {
-            sum += old(FAILURE, row);
+            sum += old(block.state_new[FAILURE], row);
         }
     }
     for c in 0..4 {
         sum = match (request.energies, request.invariants) {
-            (true, true) => old(ENERGIES, c).mul_add(old(INVARIANTS, c), sum),
-            (true, false) => sum + old(ENERGIES, c),
-            (false, true) => sum + old(INVARIANTS, c),
+            (true, true) => old(block.state_new[ENERGIES], c).mul_add(old(block.state_new[INVARIANTS], c), sum),
+            (true, false) => sum + old(block.state_new[ENERGIES], c),
+            (false, true) => sum + old(block.state_new[INVARIANTS], c),
             (false, false) => sum,
         };
     }
     check + sum
-}
-
-/// Copies the old state of a point that gets no new one to the arrays of the new one. Points of other kernels have it
-/// there, or a copy.
-///
-/// # Safety
-/// As for [`sweep`](super::kernel::sweep) of one point, after [`respond`].
-#[inline(always)]
-pub(super) unsafe fn keep_old_state_of_one<T: Scalar, R: Real>(
-    block: &Points<T>,
-    outcome: &Outcome<R>,
-    parts: &[usize; PARTS],
-) {
-    if R::any(!outcome.updated) {
-        // SAFETY: the block is one valid point, which has an old state wherever a new one is requested.
-        unsafe { block.keep_old_state_of_one(parts) };
-    }
 }
 
 /// A point whose new state is to be stored.

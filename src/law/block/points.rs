@@ -122,6 +122,8 @@ impl<T: Scalar> OnePoint<T> {
         }
         let (second, third) = const { (FRICTIONAL_PARTS[0], FRICTIONAL_PARTS[0] + FRICTIONAL_PARTS[1]) };
         points.state_old = [state_old, state_old.wrapping_add(second), state_old.wrapping_add(third)];
+        // SAFETY: part of an array that is there.
+        unsafe { core::hint::assert_unchecked(!points.state_old[2].is_null()) };
         points.state_new = [state_new, state_new.wrapping_add(second), state_new.wrapping_add(third)];
         points
     }
