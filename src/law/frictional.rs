@@ -255,23 +255,25 @@ impl<R: Real> Friction<R> {
         let (one, two, half) = (R::splat(1.0), R::splat(2.0), R::splat(0.5));
         let &Hold { slides, trial, i_te, over_distorted, .. } = hold;
         let [area, over_area] = section.area_ratio();
+        // One point comes here only if it slides.
+        let sliding = |x: R, other: R| if R::PAIRS { x } else { R::select(slides, x, other) };
         // The smaller of the two parts of 2 I_te, u, and the shares of both ends of the geodesic: sinh u/s, and
         // sinh(2 I_te − u)/s = e^−u − e^(−2 I_te) sinh u/s, a difference of which at least half is left.
         let (held, lost) = (two * i_te, two * (trial - i_te));
         let (sinh, decay) = sinh_and_exp_of_minus(held.min(lost));
         let smaller = sinh * area * over_distorted;
-        let shape = R::select(slides, elastic.distortion + elastic.half_trace, one);
+        let shape = sliding(elastic.distortion + elastic.half_trace, one);
         let larger = decay - smaller * (area / shape);
         let less_is_held = held.lt(lost);
         let of_old = R::select(less_is_held, smaller, larger);
         let of_shape = R::select(less_is_held, larger, smaller) * over_area;
-        let next = |d: R, shape: R| R::select(slides, of_old.mul_add(d, -(of_shape * shape)), d);
+        let next = |d: R, shape: R| sliding(of_old.mul_add(d, -(of_shape * shape)), d);
         let from = i_te.max(trial.min(old.i_te));
         let work = half * law.k_td * (i_te + from) * (trial - i_te);
         Slip {
             d: [next(old.d[0], section.delta), next(old.d[1], section.x23)],
             i_te,
-            lost: R::select(slides, old.lost + work, old.lost),
+            lost: sliding(old.lost + work, old.lost),
         }
     }
 }

@@ -261,6 +261,8 @@ struct Slides<R: Real> {
     vectors: Stage<[[R; 3]; 3]>,
     rests: Stage<[[R; 3]; 2]>,
     old: Stage<Slip<R>>,
+    /// And the distortion of its whole section where it has slid before.
+    i_td: Stage<R>,
     /// Where any of the fibres have slid before: the axes that the distortion is referred to, the section as the
     /// deformation makes it, its a and b, and its distortion.
     axes: Stage<Unimodular<R>>,
@@ -286,6 +288,7 @@ unsafe fn staged<T: Scalar, R: Lanes<T>, A: GroupAxes<R>, const WANT: u8>(group:
         vectors: Stage::new(),
         rests: Stage::new(),
         old: Stage::new(),
+        i_td: Stage::new(),
         sections: Stage::new(),
         images: Stage::new(),
         distortions: Stage::new(),
@@ -500,7 +503,16 @@ impl<T: Scalar, R: Lanes<T>, A: GroupAxes<R>> Group<'_, T, R, A> {
         // SAFETY: see above.
         unsafe {
             for k in 0..self.count {
-                let mut logarithms = Logarithms::new(stages.stretches.get(k), stages.sections.get(k));
+                let (d, section) = (stages.stretches.get(k), stages.sections.get(k));
+                if R::ALONE && SLID == BEFORE {
+                    // Both distortions side by side.
+                    let logarithms = Logarithms::of_both(d, section, stages.slides.sections.get(k));
+                    let (strain, whole) = Strain::of_both(d, section, &logarithms);
+                    stages.strains.put(k, strain);
+                    stages.slides.i_td.put(k, whole);
+                    continue;
+                }
+                let mut logarithms = Logarithms::new(d, section);
                 if WANT & FRICTION != 0 && stages.have_slid::<SLID>() {
                     let distortion = logarithms.beside(stages.slides.sections.get(k));
                     stages.slides.distortions.put(k, distortion);
@@ -508,8 +520,10 @@ impl<T: Scalar, R: Lanes<T>, A: GroupAxes<R>> Group<'_, T, R, A> {
                 stages.steps.put(k, Step { logarithms });
             }
             for k in 0..self.count {
-                let logarithms = &stages.steps.get(k).logarithms;
-                stages.strains.put(k, Strain::new(stages.stretches.get(k), stages.sections.get(k), logarithms));
+                if !(R::ALONE && SLID == BEFORE) {
+                    let (d, section) = (stages.stretches.get(k), stages.sections.get(k));
+                    stages.strains.put(k, Strain::new(d, section, &stages.steps.get(k).logarithms));
+                }
                 if !R::ALONE {
                     for column in block.stress {
                         R::prefetch(column.wrapping_add(self.at(k)));
@@ -677,6 +691,7 @@ impl<T: Scalar, R: Lanes<T>, A: GroupAxes<R>> Group<'_, T, R, A> {
                     let slides = &*stages.slides;
                     let slip = if slides.any || R::ALONE { Some(slides.slips.get(k)) } else { None };
                     let i_td = match stages.have_slid::<SLID>() {
+                        true if R::ALONE => *slides.i_td.get(k),
                         true => slides.distortions.get(k).finish().0,
                         false => slides.holds.get(k).trial,
                     };
