@@ -7,12 +7,12 @@ use super::outputs::{
     remembered, reset_invalid, respond, status_code, store_state,
 };
 use super::points::Points;
-use super::request::{ALIGNED, ANY, FRICTION, STATE, parts, wants_tangent};
+use super::request::{ALIGNED, ANY, EXPLICIT, FRICTION, SHEAR, STATE, parts, wants_tangent};
 use crate::law::axes::{Axes, FibreFrame, FirstAxis};
 use crate::law::frictional::{Friction, Hold, Slip};
 use crate::law::hyperelastic::{Hyperelastic, Kirchhoff};
 use crate::law::kinematics::{Kinematics, Logarithms, Section, Slid, Strain, Stretch, Unimodular};
-use crate::law::number::elementary::{Asinh, Power, Reduced};
+use crate::law::number::elementary::{AsinhAlone, Power, Reduced};
 use crate::law::number::real::{Lanes, Real, Scalar, WIDEST};
 use crate::law::state::part::{ENERGIES, FAILURE, INVARIANTS};
 use crate::law::status;
@@ -101,6 +101,14 @@ impl<X> Stage<X> {
     unsafe fn put(&mut self, k: usize, x: X) {
         // SAFETY: k < STAGED, the length of the array.
         unsafe { self.0.get_unchecked_mut(k) }.write(x);
+    }
+
+    /// # Safety
+    /// As for [`get`](Self::get).
+    #[inline(always)]
+    unsafe fn get_mut(&mut self, k: usize) -> &mut X {
+        // SAFETY: see `get`.
+        unsafe { self.0.get_unchecked_mut(k).assume_init_mut() }
     }
 
     /// # Safety
@@ -219,7 +227,7 @@ struct Stages<'a, R: Real, K> {
     stretches: &'a mut Stage<Stretch<R>>,
     /// Images of the axes, as [`Axes::keep`] stores them.
     kept: &'a mut Stage<K>,
-    /// The section whose distortion has energy, its a and b, and the strain.
+    /// The section as the deformation makes it, a and b of the one whose distortion has energy, and the strain.
     sections: &'a mut Stage<Section<R>>,
     images: &'a mut Stage<[[R; 3]; 2]>,
     steps: &'a mut Stage<Step<R>>,
@@ -239,13 +247,16 @@ impl<R: Real, K> Stages<'_, R, K> {
         }
     }
 
-    /// The sections as the deformation makes them, and their a and b.
+    /// The sections whose distortion has energy.
     #[inline(always)]
-    fn whole<const SLID: u8>(&self) -> (&Stage<Section<R>>, &Stage<[[R; 3]; 2]>) {
-        match self.have_slid::<SLID>() {
-            true => (&self.slides.sections, &self.slides.images),
-            false => (self.sections, self.images),
-        }
+    fn elastic<const SLID: u8>(&self) -> &Stage<Section<R>> {
+        if self.have_slid::<SLID>() { &self.slides.sections } else { self.sections }
+    }
+
+    /// a and b of the sections as the deformation makes them; in kernels that need them, see [`needs_whole`].
+    #[inline(always)]
+    fn whole_images<const WANT: u8, const SLID: u8>(&self) -> &Stage<[[R; 3]; 2]> {
+        if needs_whole::<WANT>() && self.have_slid::<SLID>() { &self.slides.images } else { self.images }
     }
 }
 
@@ -254,21 +265,27 @@ const NEVER: u8 = 0;
 const BEFORE: u8 = 1;
 const LOOKED_UP: u8 = 2;
 
+/// Whether a and b of a section as the deformation makes it are needed besides those of its axes that have slid: for the
+/// stress by mode, the wave speed, the longitudinal shear and the tangent.
+const fn needs_whole<const WANT: u8>() -> bool {
+    WANT & (ANY | EXPLICIT | SHEAR) != 0
+}
+
 /// What a law with friction keeps besides.
 struct Slides<R: Real> {
     /// Of one point alone, whose numbers are in the processor's registers: F m, (F − χ1) t1 and (F − χ1) t2, δ2 and δ3,
     /// and what it has remembered.
     vectors: Stage<[[R; 3]; 3]>,
     rests: Stage<[[R; 3]; 2]>,
-    old: Stage<Slip<R>>,
+    old: Stage<(Slip<R>, R)>,
     /// And the distortion of its whole section where it has slid before.
     i_td: Stage<R>,
-    /// Where any of the fibres have slid before: the axes that the distortion is referred to, the section as the
-    /// deformation makes it, its a and b, and its distortion.
+    /// Where any of the fibres have slid before: the axes that the distortion is referred to, the section whose
+    /// distortion has energy, and a and b and the distortion of the section as the deformation makes it.
     axes: Stage<Unimodular<R>>,
     sections: Stage<Section<R>>,
     images: Stage<[[R; 3]; 2]>,
-    distortions: Stage<Asinh<R>>,
+    distortions: Stage<AsinhAlone<R>>,
     holds: Stage<Hold<R>>,
     slips: Stage<Slip<R>>,
     /// Whether any of the fibres slide.
@@ -319,7 +336,11 @@ unsafe fn staged<T: Scalar, R: Lanes<T>, A: GroupAxes<R>, const WANT: u8>(group:
                 };
             }
         }
-        evaluate::<T, R, A, WANT, LOOKED_UP>(group, &mut stages, worst);
+        if const { WANT & FRICTION != 0 } {
+            evaluate::<T, R, A, WANT, LOOKED_UP>(group, &mut stages, worst);
+        } else {
+            evaluate::<T, R, A, WANT, NEVER>(group, &mut stages, worst);
+        }
     }
 }
 
@@ -346,7 +367,7 @@ unsafe fn evaluate<T: Scalar, R: Lanes<T>, A: GroupAxes<R>, const WANT: u8, cons
     unsafe {
         let slipped = group.kinematics(stages);
         if const { WANT & FRICTION != 0 } {
-            group.refer_to_slip::<SLID>(stages, slipped);
+            group.refer_to_slip::<WANT, SLID>(stages, slipped);
         }
         group.strains::<WANT, SLID>(stages);
         if const { WANT & FRICTION != 0 } {
@@ -452,12 +473,12 @@ impl<T: Scalar, R: Lanes<T>, A: GroupAxes<R>> Group<'_, T, R, A> {
                 if R::ALONE {
                     stages.slides.old.put(k, old);
                 }
-                slid = slid | old.is_any();
+                slid = slid | old.0.is_any();
             }
             stages.slides.any_before = R::any(slid);
             if stages.slides.any_before {
                 for k in 0..self.count {
-                    stages.slides.axes.put(k, self.old(stages, k).axes());
+                    stages.slides.axes.put(k, self.old(stages, k).0.axes());
                 }
             }
         }
@@ -465,14 +486,18 @@ impl<T: Scalar, R: Lanes<T>, A: GroupAxes<R>> Group<'_, T, R, A> {
 
     /// What register k has remembered.
     #[inline(always)]
-    unsafe fn old(&self, stages: &Stages<'_, R, Kept<R, A>>, k: usize) -> Slip<R> {
+    unsafe fn old(&self, stages: &Stages<'_, R, Kept<R, A>>, k: usize) -> (Slip<R>, R) {
         // SAFETY: see above.
         unsafe { if R::ALONE { *stages.slides.old.get(k) } else { remembered::<T, R>(self.block, self.at(k)) } }
     }
 
     /// The section that is left of the whole one where the fibres have slid.
     #[inline(always)]
-    unsafe fn refer_to_slip<const SLID: u8>(&self, stages: &mut Stages<'_, R, Kept<R, A>>, any_slipped: bool) {
+    unsafe fn refer_to_slip<const WANT: u8, const SLID: u8>(
+        &self,
+        stages: &mut Stages<'_, R, Kept<R, A>>,
+        any_slipped: bool,
+    ) {
         if !stages.have_slid::<SLID>() {
             return;
         }
@@ -487,9 +512,10 @@ impl<T: Scalar, R: Lanes<T>, A: GroupAxes<R>> Group<'_, T, R, A> {
                     false => Section::rests(d, vectors),
                 };
                 let (section, vectors) = whole.referred_to(stages.slides.axes.get(k), d, rests, &n);
-                stages.slides.sections.put(k, whole);
-                stages.slides.images.put(k, *stages.images.get(k));
-                stages.sections.put(k, section);
+                stages.slides.sections.put(k, section);
+                if needs_whole::<WANT>() {
+                    stages.slides.images.put(k, *stages.images.get(k));
+                }
                 stages.images.put(k, vectors);
             }
         }
@@ -503,10 +529,10 @@ impl<T: Scalar, R: Lanes<T>, A: GroupAxes<R>> Group<'_, T, R, A> {
         // SAFETY: see above.
         unsafe {
             for k in 0..self.count {
-                let (d, section) = (stages.stretches.get(k), stages.sections.get(k));
+                let (d, section) = (stages.stretches.get(k), stages.elastic::<SLID>().get(k));
                 if R::ALONE && SLID == BEFORE {
                     // Both distortions side by side.
-                    let logarithms = Logarithms::of_both(d, section, stages.slides.sections.get(k));
+                    let logarithms = Logarithms::of_both(d, section, stages.sections.get(k));
                     let (strain, whole) = Strain::of_both(d, section, &logarithms);
                     stages.strains.put(k, strain);
                     stages.slides.i_td.put(k, whole);
@@ -514,14 +540,14 @@ impl<T: Scalar, R: Lanes<T>, A: GroupAxes<R>> Group<'_, T, R, A> {
                 }
                 let mut logarithms = Logarithms::new(d, section);
                 if WANT & FRICTION != 0 && stages.have_slid::<SLID>() {
-                    let distortion = logarithms.beside(stages.slides.sections.get(k));
-                    stages.slides.distortions.put(k, distortion);
+                    let distortion = logarithms.beside(stages.sections.get(k));
+                    stages.slides.distortions.put(k, distortion.alone());
                 }
                 stages.steps.put(k, Step { logarithms });
             }
             for k in 0..self.count {
                 if !(R::ALONE && SLID == BEFORE) {
-                    let (d, section) = (stages.stretches.get(k), stages.sections.get(k));
+                    let (d, section) = (stages.stretches.get(k), stages.elastic::<SLID>().get(k));
                     stages.strains.put(k, Strain::new(d, section, &stages.steps.get(k).logarithms));
                 }
                 if !R::ALONE {
@@ -553,24 +579,24 @@ impl<T: Scalar, R: Lanes<T>, A: GroupAxes<R>> Group<'_, T, R, A> {
         // SAFETY: see above.
         unsafe {
             for k in 0..self.count {
-                let (section, strain) = (stages.sections.get(k), stages.strains.get(k));
-                let factors = law.kirchhoff(stages.stretches.get(k), strain, stages.steps.get(k).powered);
-                let hold = friction.hold(law, section, strain, &factors);
+                let (d, powered) = (stages.stretches.get(k), stages.steps.get(k).powered);
+                let section = *stages.elastic::<SLID>().get(k);
+                let factors = law.kirchhoff(d, stages.strains.get(k), powered);
+                let hold = friction.hold(law, &section, stages.strains.get_mut(k), &factors);
                 sliding = sliding | hold.slides;
-                let strain = friction.held(&hold, strain);
-                stages.strains.put(k, strain);
                 stages.slides.holds.put(k, hold);
             }
             stages.slides.any = R::any(sliding);
             if stages.slides.any {
                 for k in 0..self.count {
-                    let old = self.old(stages, k);
-                    let (section, hold) = (stages.sections.get(k), stages.slides.holds.get(k));
-                    let slip = friction.slid(law, &old, stages.whole::<SLID>().0.get(k), section, hold);
+                    let (old, old_i_te) = self.old(stages, k);
+                    let (whole, section) = (stages.sections.get(k), stages.elastic::<SLID>().get(k));
+                    let (i_te, hold) = (stages.strains.get(k).i_td, stages.slides.holds.get(k));
+                    let slip = friction.slid(law, (&old, old_i_te), whole, section, i_te, hold);
                     stages.slides.slips.put(k, slip);
                 }
             } else if R::ALONE {
-                stages.slides.slips.put(0, self.old(stages, 0));
+                stages.slides.slips.put(0, self.old(stages, 0).0);
             }
         }
     }
@@ -605,18 +631,18 @@ impl<T: Scalar, R: Lanes<T>, A: GroupAxes<R>> Group<'_, T, R, A> {
                 let &[a, b] = stages.images.get(k);
                 let mut kinematics = Kinematics {
                     stretch: stages.stretches.get(k),
-                    section: stages.sections.get(k),
+                    section: stages.elastic::<SLID>().get(k),
                     images: [fibre, a, b],
                     strain,
                     slid: None,
                 };
                 let slid;
                 if WANT & FRICTION != 0 {
-                    let (old, (sections, images)) = (self.old(stages, k), stages.whole::<SLID>());
-                    nan_if_invalid = (old.i_te + old.lost).mul_add(zero, nan_if_invalid);
+                    let (old, old_i_te) = self.old(stages, k);
+                    nan_if_invalid = (old_i_te + old.lost).mul_add(zero, nan_if_invalid);
                     slid = Slid {
-                        whole: sections.get(k),
-                        images: *images.get(k),
+                        whole: stages.sections.get(k),
+                        images: *stages.whole_images::<WANT, SLID>().get(k),
                         axes: old.axes(),
                         slides: stages.slides.holds.get(k).slides,
                         mu: self.law.friction.mu(),
@@ -692,7 +718,7 @@ impl<T: Scalar, R: Lanes<T>, A: GroupAxes<R>> Group<'_, T, R, A> {
                     let slip = if slides.any || R::ALONE { Some(slides.slips.get(k)) } else { None };
                     let i_td = match stages.have_slid::<SLID>() {
                         true if R::ALONE => *slides.i_td.get(k),
-                        true => slides.distortions.get(k).finish().0,
+                        true => slides.distortions.get(k).finish(),
                         false => slides.holds.get(k).trial,
                     };
                     point.friction = Some(Remembered { i_td, slip });

@@ -156,11 +156,38 @@ impl<R: Real> Asinh<R> {
     /// ½a and ½a/s.
     #[inline(always)]
     pub fn finish(&self) -> (R, R) {
-        let square = self.w * self.w;
+        let (a, series) = self.alone().with_series();
         // ½ artanh w = w · series, and w/s = 1/t where k = 0.
-        let series = square.mul_add(polynomial(R::HALF_ARTANH, square), R::splat(0.5));
-        let a = self.k.mul_add(R::splat(0.25 * LN_2), self.w * series);
         (a, R::select(self.small, series, a) / self.divisor)
+    }
+
+    /// What a needs, and a/s does not.
+    #[inline(always)]
+    pub fn alone(&self) -> AsinhAlone<R> {
+        AsinhAlone { k: self.k, w: self.w }
+    }
+}
+
+/// What is left of [`Asinh`] if a/s is not asked for.
+#[derive(Clone, Copy)]
+pub struct AsinhAlone<R> {
+    k: R,
+    w: R,
+}
+
+impl<R: Real> AsinhAlone<R> {
+    /// ½a.
+    #[inline(always)]
+    pub fn finish(&self) -> R {
+        self.with_series().0
+    }
+
+    /// ½a, and ½ (artanh w)/w.
+    #[inline(always)]
+    fn with_series(&self) -> (R, R) {
+        let square = self.w * self.w;
+        let series = square.mul_add(polynomial(R::HALF_ARTANH, square), R::splat(0.5));
+        (self.k.mul_add(R::splat(0.25 * LN_2), self.w * series), series)
     }
 }
 
