@@ -329,7 +329,7 @@ unsafe fn staged<T: Scalar, R: Lanes<T>, A: GroupAxes<R>, const WANT: u8>(group:
     unsafe {
         if const { WANT & FRICTION != 0 } {
             group.recall_slip(&mut stages);
-            if R::ALONE {
+            if R::ALONE || WANT & ANY == 0 {
                 return match stages.slides.any_before {
                     true => evaluate::<T, R, A, WANT, BEFORE>(group, &mut stages, worst),
                     false => evaluate::<T, R, A, WANT, NEVER>(group, &mut stages, worst),
