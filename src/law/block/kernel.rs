@@ -273,10 +273,9 @@ const fn needs_whole<const WANT: u8>() -> bool {
 
 /// What a law with friction keeps besides.
 struct Slides<R: Real> {
-    /// Of one point alone, whose numbers are in the processor's registers: F m, (F − χ1) t1 and (F − χ1) t2, δ2 and δ3,
-    /// and what it has remembered.
+    /// Of one point alone, whose numbers are in the processor's registers: F m, (F − χ1) t1 and (F − χ1) t2, and what it
+    /// has remembered.
     vectors: Stage<[[R; 3]; 3]>,
-    rests: Stage<[[R; 3]; 2]>,
     old: Stage<(Slip<R>, R)>,
     /// And the distortion of its whole section where it has slid before.
     i_td: Stage<R>,
@@ -303,7 +302,6 @@ unsafe fn staged<T: Scalar, R: Lanes<T>, A: GroupAxes<R>, const WANT: u8>(group:
     let Group { block, i, count, .. } = *group;
     let mut slides = Slides {
         vectors: Stage::new(),
-        rests: Stage::new(),
         old: Stage::new(),
         i_td: Stage::new(),
         sections: Stage::new(),
@@ -365,10 +363,7 @@ unsafe fn evaluate<T: Scalar, R: Lanes<T>, A: GroupAxes<R>, const WANT: u8, cons
     let active = if block.active.is_null() { no_active.as_mut_ptr().cast::<T>().wrapping_sub(i) } else { block.active };
     // SAFETY: as the caller promises; each function reads what the ones before have put.
     unsafe {
-        let slipped = group.kinematics(stages);
-        if const { WANT & FRICTION != 0 } {
-            group.refer_to_slip::<WANT, SLID>(stages, slipped);
-        }
+        group.kinematics::<WANT, SLID>(stages);
         group.strains::<WANT, SLID>(stages);
         if const { WANT & FRICTION != 0 } {
             group.hold::<SLID>(stages);
@@ -416,9 +411,9 @@ impl<T: Scalar, R: Lanes<T>, A: GroupAxes<R>> Group<'_, T, R, A> {
         }
     }
 
-    /// Fibre stretch and section. Returns whether any fibres have slipped far.
+    /// Fibre stretch and section.
     #[inline(always)]
-    unsafe fn kinematics(&self, stages: &mut Stages<'_, R, Kept<R, A>>) -> bool {
+    unsafe fn kinematics<const WANT: u8, const SLID: u8>(&self, stages: &mut Stages<'_, R, Kept<R, A>>) {
         let mut slipped = R::never();
         // SAFETY: see above.
         unsafe {
@@ -432,32 +427,46 @@ impl<T: Scalar, R: Lanes<T>, A: GroupAxes<R>> Group<'_, T, R, A> {
                 }
             }
             for k in 0..self.count {
-                let (n, d) = (self.axes.get(k).0, stages.stretches.get(k));
+                let d = stages.stretches.get(k);
                 let rests = Section::rests(d, self.images(stages, k));
-                let (section, vectors) = Section::from_rests(d, rests, &n);
-                if R::ALONE {
-                    stages.slides.rests.put(k, rests);
-                }
-                slipped = slipped | section.slipped_far(d);
-                stages.sections.put(k, section);
-                stages.images.put(k, vectors);
+                slipped = slipped | self.put_section::<WANT, SLID>(stages, k, rests).slipped_far(stages.stretches.get(k));
             }
             // Far slips are seldom, so that there is one test for all.
-            let any_slipped = R::any(slipped);
-            if any_slipped {
+            if R::any(slipped) {
                 for k in 0..self.count {
                     let (n, d) = (self.axes.get(k).0, stages.stretches.get(k));
                     let far = stages.sections.get(k).slipped_far(d);
                     let rests = Section::orthogonal_rests(d, self.images(stages, k), &n, far);
-                    let (section, vectors) = Section::from_rests(d, rests, &n);
-                    if R::ALONE {
-                        stages.slides.rests.put(k, rests);
-                    }
-                    stages.sections.put(k, section);
-                    stages.images.put(k, vectors);
+                    self.put_section::<WANT, SLID>(stages, k, rests);
                 }
             }
-            any_slipped
+        }
+    }
+
+    /// The section of register k and, where fibres have slid, what is left of it, from δ2 and δ3. Returns the former.
+    #[inline(always)]
+    unsafe fn put_section<const WANT: u8, const SLID: u8>(
+        &self,
+        stages: &mut Stages<'_, R, Kept<R, A>>,
+        k: usize,
+        rests: [[R; 3]; 2],
+    ) -> Section<R> {
+        // SAFETY: see above.
+        unsafe {
+            let (n, d) = (self.axes.get(k).0, stages.stretches.get(k));
+            let (whole, vectors) = Section::from_rests(d, rests, &n);
+            stages.sections.put(k, whole);
+            if WANT & FRICTION != 0 && stages.have_slid::<SLID>() {
+                let (section, slid_vectors) = whole.referred_to(stages.slides.axes.get(k), d, rests, &n);
+                stages.slides.sections.put(k, section);
+                stages.images.put(k, slid_vectors);
+                if needs_whole::<WANT>() {
+                    stages.slides.images.put(k, vectors);
+                }
+            } else {
+                stages.images.put(k, vectors);
+            }
+            whole
         }
     }
 
@@ -489,36 +498,6 @@ impl<T: Scalar, R: Lanes<T>, A: GroupAxes<R>> Group<'_, T, R, A> {
     unsafe fn old(&self, stages: &Stages<'_, R, Kept<R, A>>, k: usize) -> (Slip<R>, R) {
         // SAFETY: see above.
         unsafe { if R::ALONE { *stages.slides.old.get(k) } else { remembered::<T, R>(self.block, self.at(k)) } }
-    }
-
-    /// The section that is left of the whole one where the fibres have slid.
-    #[inline(always)]
-    unsafe fn refer_to_slip<const WANT: u8, const SLID: u8>(
-        &self,
-        stages: &mut Stages<'_, R, Kept<R, A>>,
-        any_slipped: bool,
-    ) {
-        if !stages.have_slid::<SLID>() {
-            return;
-        }
-        // SAFETY: see above.
-        unsafe {
-            for k in 0..self.count {
-                let (n, d, &whole) = (self.axes.get(k).0, stages.stretches.get(k), stages.sections.get(k));
-                let vectors = self.images(stages, k);
-                let rests = match any_slipped {
-                    _ if R::ALONE => *stages.slides.rests.get(k),
-                    true => Section::orthogonal_rests(d, vectors, &n, whole.slipped_far(d)),
-                    false => Section::rests(d, vectors),
-                };
-                let (section, vectors) = whole.referred_to(stages.slides.axes.get(k), d, rests, &n);
-                stages.slides.sections.put(k, section);
-                if needs_whole::<WANT>() {
-                    stages.slides.images.put(k, *stages.images.get(k));
-                }
-                stages.images.put(k, vectors);
-            }
-        }
     }
 
     /// The invariants, and the power of the compaction.
