@@ -169,6 +169,7 @@ impl<T: Real + Into<f64>> PreparedFrictional<T> {
     }
 
     /// Whether the fibre lies along the first axis.
+    #[cfg(target_arch = "x86_64")]
     #[inline(always)]
     pub(crate) fn is_aligned(&self) -> bool {
         (&self.elastic).frame().aligned

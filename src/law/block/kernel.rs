@@ -3,8 +3,8 @@
 use core::mem::MaybeUninit;
 
 use super::outputs::{
-    Evaluated, Outcome, Remembered, add_to_check, clear_tangent, gradient, own_frame, prefetch,
-    remembered, reset_invalid, respond, status_code, store_state,
+    Evaluated, Outcome, Remembered, add_to_check, clear_tangent, gradient, own_frame, prefetch, remembered,
+    reset_invalid, respond, status_code, store_state,
 };
 use super::points::Points;
 use super::request::{ALIGNED, ANY, EXPLICIT, FRICTION, SHEAR, STATE, parts, wants_tangent};
@@ -273,9 +273,10 @@ const fn needs_whole<const WANT: u8>() -> bool {
 
 /// What a law with friction keeps besides.
 struct Slides<R: Real> {
-    /// Of one point alone, whose numbers are in the processor's registers: F m, (F − χ1) t1 and (F − χ1) t2, and what it
-    /// has remembered.
+    /// Of one point alone, whose numbers are in the processor's registers: F m, (F − χ1) t1 and (F − χ1) t2, δ2 and δ3,
+    /// and what it has remembered.
     vectors: Stage<[[R; 3]; 3]>,
+    rests: Stage<[[R; 3]; 2]>,
     old: Stage<(Slip<R>, R)>,
     /// And the distortion of its whole section where it has slid before.
     i_td: Stage<R>,
@@ -299,9 +300,9 @@ struct Slides<R: Real> {
 /// As for [`evaluate_group`].
 #[inline(always)]
 unsafe fn staged<T: Scalar, R: Lanes<T>, A: GroupAxes<R>, const WANT: u8>(group: &Group<'_, T, R, A>, worst: &mut R) {
-    let Group { block, i, count, .. } = *group;
     let mut slides = Slides {
         vectors: Stage::new(),
+        rests: Stage::new(),
         old: Stage::new(),
         i_td: Stage::new(),
         sections: Stage::new(),
@@ -429,7 +430,8 @@ impl<T: Scalar, R: Lanes<T>, A: GroupAxes<R>> Group<'_, T, R, A> {
             for k in 0..self.count {
                 let d = stages.stretches.get(k);
                 let rests = Section::rests(d, self.images(stages, k));
-                slipped = slipped | self.put_section::<WANT, SLID>(stages, k, rests).slipped_far(stages.stretches.get(k));
+                self.put_section::<WANT, SLID>(stages, k, rests);
+                slipped = slipped | stages.sections.get(k).slipped_far(stages.stretches.get(k));
             }
             // Far slips are seldom, so that there is one test for all.
             if R::any(slipped) {
@@ -440,33 +442,56 @@ impl<T: Scalar, R: Lanes<T>, A: GroupAxes<R>> Group<'_, T, R, A> {
                     self.put_section::<WANT, SLID>(stages, k, rests);
                 }
             }
+            // The axes of one point take long, and fewer operations wait for them if all that need none come before.
+            if R::ALONE && SLID == BEFORE {
+                let (whole, rests) = (*stages.sections.get(0), *stages.slides.rests.get(0));
+                self.put_slid(stages, 0, &whole, rests);
+            }
         }
     }
 
-    /// The section of register k and, where fibres have slid, what is left of it, from δ2 and δ3. Returns the former.
+    /// The section of register k, from δ2 and δ3, which one point alone keeps for [`put_slid`](Self::put_slid).
     #[inline(always)]
     unsafe fn put_section<const WANT: u8, const SLID: u8>(
         &self,
         stages: &mut Stages<'_, R, Kept<R, A>>,
         k: usize,
         rests: [[R; 3]; 2],
-    ) -> Section<R> {
+    ) {
         // SAFETY: see above.
         unsafe {
             let (n, d) = (self.axes.get(k).0, stages.stretches.get(k));
-            let (whole, vectors) = Section::from_rests(d, rests, &n);
-            stages.sections.put(k, whole);
-            if WANT & FRICTION != 0 && stages.have_slid::<SLID>() {
-                let (section, slid_vectors) = whole.referred_to(stages.slides.axes.get(k), d, rests, &n);
-                stages.slides.sections.put(k, section);
-                stages.images.put(k, slid_vectors);
-                if needs_whole::<WANT>() {
-                    stages.slides.images.put(k, vectors);
-                }
-            } else {
+            let (section, vectors) = Section::from_rests(d, rests, &n);
+            stages.sections.put(k, section);
+            if !(WANT & FRICTION != 0 && stages.have_slid::<SLID>()) {
                 stages.images.put(k, vectors);
+                return;
             }
-            whole
+            if needs_whole::<WANT>() {
+                stages.slides.images.put(k, vectors);
+            }
+            match R::ALONE {
+                true => stages.slides.rests.put(k, rests),
+                false => self.put_slid(stages, k, &section, rests),
+            }
+        }
+    }
+
+    /// What is left of a section whose fibres have slid.
+    #[inline(always)]
+    unsafe fn put_slid(
+        &self,
+        stages: &mut Stages<'_, R, Kept<R, A>>,
+        k: usize,
+        whole: &Section<R>,
+        rests: [[R; 3]; 2],
+    ) {
+        // SAFETY: see above.
+        unsafe {
+            let (n, d) = (self.axes.get(k).0, stages.stretches.get(k));
+            let (section, vectors) = whole.referred_to(stages.slides.axes.get(k), d, rests, &n);
+            stages.slides.sections.put(k, section);
+            stages.images.put(k, vectors);
         }
     }
 

@@ -1,7 +1,9 @@
 //! f32 and f64 as number types, without a fused multiply-add: every processor gives the same results.
 
 use super::real::{Lanes, Real};
-use super::series::{EXP_BY_PARITY_F32, EXP_BY_PARITY_F64, EXP_F32, EXP_F64, HALF_ARTANH_F32, HALF_ARTANH_F64, LN_F32, LN_F64};
+use super::series::{
+    EXP_BY_PARITY_F32, EXP_BY_PARITY_F64, EXP_F32, EXP_F64, HALF_ARTANH_F32, HALF_ARTANH_F64, LN_F32, LN_F64,
+};
 
 /// A product and its rounding error, without a fused multiply-add (Dekker, Numer. Math. 18, 1971).
 #[inline(always)]
