@@ -366,7 +366,8 @@ pub fn sinh_and_exp_of_minus<R: Real>(u: R) -> (R, R) {
     let square = r * r;
     let [even, odd] = R::EXP_BY_PARITY;
     let (cosh_less_one, sinh) = (square * polynomial(even, square), (r * square).mul_add(polynomial(odd, square), r));
-    let of_both = sum.mul_add(sinh, difference.mul_add(cosh_less_one, difference));
+    // The large term last: where it and sinh r cancel, their difference is exact.
+    let of_both = difference + sum.mul_add(sinh, difference * cosh_less_one);
     (of_both, (inverse + inverse) * (one + (cosh_less_one - sinh)))
 }
 
