@@ -5,10 +5,11 @@ use core::mem::MaybeUninit;
 use super::entry_points::of_points;
 use super::point_and_block::{Block, Point};
 use super::structures::read;
-use crate::law::block::{Points, Precision, at_fault, evaluate_one};
+use crate::law::block::{OnePoint, Points, Precision, at_fault, evaluate_one};
 use crate::law::error::Error;
 use crate::law::frictional::Frictional;
 use crate::law::interface::Law;
+use crate::law::prepared::PreparedFrictional;
 use crate::law::status;
 
 /// Evaluates the law at a point, as a block of one. Returns its status.
@@ -18,7 +19,7 @@ use crate::law::status;
 ///
 /// # Safety
 /// What [a caller promises](super#what-a-caller-promises).
-pub unsafe fn point<T: Precision>(law: &Frictional<T>, point: *const Point<T>) -> Result<i32, Error> {
+pub unsafe fn point<T: Precision>(law: &PreparedFrictional<T>, point: *const Point<T>) -> Result<i32, Error> {
     let mut buffer = MaybeUninit::uninit();
     // SAFETY: `read` refuses null, and F is checked; how long the arrays of the one point are the C caller promises.
     unsafe {
@@ -26,8 +27,12 @@ pub unsafe fn point<T: Precision>(law: &Frictional<T>, point: *const Point<T>) -
         if point.deformation_gradient.is_null() {
             return Err(Error::Null { name: "deformation_gradient" });
         }
+        let &Point { deformation_gradient: f, fibre, state_old, state_new, stress, .. } = point;
+        if point.is_usual_step() && !law.shears() {
+            return Ok(T::one_frictional(law, &OnePoint { f, fibre, state_old, state_new, stress }));
+        }
+        let law = &law.law();
         point.as_points(|points| {
-            let (state_old, state_new) = (point.state_old, point.state_new);
             let (state_old, state_new) =
                 (Frictional::<T>::parts(state_old, 1), Frictional::<T>::parts_mut(state_new, 1));
             Ok(evaluate_one(law, &Points { state_old, state_new, ..points }))

@@ -6,7 +6,9 @@ use core::ptr::{null, null_mut};
 use libc::size_t;
 
 use super::arguments::{Layout, check_density, check_points, leading_dimension, level, measure, measure_of};
-use super::constants::{TORON_LEVEL_BASELINE, TORON_TANGENT_NOMINAL};
+use super::constants::{
+    TORON_LEVEL_AVX2, TORON_LEVEL_AVX512, TORON_LEVEL_BASELINE, TORON_LEVEL_BEST, TORON_TANGENT_NOMINAL,
+};
 use super::entry_points::store;
 use super::structures::structures;
 use crate::law::block::{MOST, Points, Strides, components, components_mut, distances};
@@ -165,6 +167,17 @@ impl<T> Point<T> {
     pub(super) fn is_usual(&self) -> bool {
         let nothing_else = self.modes.is_null() && self.wave_speed.is_null() && self.tangent.is_null();
         nothing_else && !self.stress.is_null()
+    }
+
+    /// Whether it asks for what solvers do in every step: stress and a new state from an old one, without a limit of
+    /// its own, at a level whose lanes compute as a point on its own does.
+    #[inline(always)]
+    pub(super) fn is_usual_step(&self) -> bool {
+        self.is_usual()
+            && !(self.state_old.is_null() | self.state_new.is_null())
+            && self.limit.is_null()
+            && matches!(self.level, TORON_LEVEL_BEST | TORON_LEVEL_AVX2 | TORON_LEVEL_AVX512)
+            && has_fma()
     }
 }
 

@@ -115,11 +115,10 @@ pub(crate) struct Friction<R> {
     per_stiffness: R,
 }
 
-/// What a section remembers: the components d1 and d2 of its slip, I_te, and the energy lost.
+/// What a section remembers besides I_te: the components d1 and d2 of its slip, and the energy lost.
 #[derive(Clone, Copy)]
 pub(crate) struct Slip<R> {
     pub d: [R; 2],
-    pub i_te: R,
     pub lost: R,
 }
 
@@ -127,9 +126,8 @@ pub(crate) struct Slip<R> {
 #[derive(Clone, Copy)]
 pub(crate) struct Hold<R: Real> {
     pub slides: R::Mask,
-    /// I_te before and after the return.
+    /// I_te before the return.
     pub trial: R,
-    pub i_te: R,
     /// The factor of D̂ in the Kirchhoff stress.
     pub distortion: R,
     /// 1/ŝ, of a section that is distorted.
@@ -214,64 +212,63 @@ impl<R: Real> Friction<R> {
         self.mu
     }
 
-    /// What holds of the distortion, from the strain of the section `elastic` before the return and the factors of its
-    /// stress.
+    /// What holds of the distortion of the section `elastic`, given the factors of its stress before the return. Puts
+    /// the strain after the return in the place of that before: I_te in place of I_td.
     #[inline(always)]
-    pub fn hold(&self, law: &Hyperelastic<R>, elastic: &Section<R>, trial: &Strain<R>, k: &Kirchhoff<R>) -> Hold<R> {
+    pub fn hold(
+        &self,
+        law: &Hyperelastic<R>,
+        elastic: &Section<R>,
+        strain: &mut Strain<R>,
+        k: &Kirchhoff<R>,
+    ) -> Hold<R> {
+        let trial = strain.i_td;
         let limit = self.mu.mul_add(k.pressure, self.cohesion);
-        let slides = limit.lt(R::splat(0.5) * law.k_td * trial.i_td);
-        let most = (limit * self.per_stiffness).min(trial.i_td);
+        let slides = limit.lt(R::splat(0.5) * law.k_td * trial);
+        let most = (limit * self.per_stiffness).min(trial);
         let one = R::splat(1.0);
         // The division does not wait for the limit, which takes long to compute.
         let distorted = R::splat(R::MIN_POSITIVE).le(elastic.distortion);
         let over_distorted = one / R::select(distorted, elastic.distortion, one);
-        Hold {
-            slides,
-            trial: trial.i_td,
-            i_te: R::select(slides, most, trial.i_td),
-            distortion: R::select(slides, limit * over_distorted, k.distortion),
-            over_distorted,
-        }
+        let distortion = R::select(slides, limit * over_distorted, k.distortion);
+        strain.i_td = R::select(slides, most, trial);
+        strain.distortion_ratio = R::select(slides, distortion * self.per_stiffness, strain.distortion_ratio);
+        Hold { slides, trial, distortion, over_distorted }
     }
 
-    /// The strain after the return: I_te in place of I_td.
-    #[inline(always)]
-    pub fn held(&self, hold: &Hold<R>, trial: &Strain<R>) -> Strain<R> {
-        let ratio = R::select(hold.slides, hold.distortion * self.per_stiffness, trial.distortion_ratio);
-        Strain { i_td: hold.i_te, distortion_ratio: ratio, ..*trial }
-    }
-
-    /// The slip after the return, where the fibres slide; `section` is the whole one, `elastic` that of which the
-    /// distortion is held.
+    /// The slip after the return to `i_te`, where the fibres slide, from the old one and the old I_te; `section` is the
+    /// whole one, `elastic` that of which the distortion is held.
     #[inline(always)]
     pub fn slid(
         &self,
         law: &Hyperelastic<R>,
-        old: &Slip<R>,
+        (old, old_i_te): (&Slip<R>, R),
         section: &Section<R>,
         elastic: &Section<R>,
+        i_te: R,
         hold: &Hold<R>,
     ) -> Slip<R> {
         let (one, two, half) = (R::splat(1.0), R::splat(2.0), R::splat(0.5));
-        let &Hold { slides, trial, i_te, over_distorted, .. } = hold;
+        let &Hold { slides, trial, over_distorted, .. } = hold;
         let [area, over_area] = section.area_ratio();
+        // One point comes here only if it slides.
+        let sliding = |x: R, other: R| if R::PAIRS { x } else { R::select(slides, x, other) };
         // The smaller of the two parts of 2 I_te, u, and the shares of both ends of the geodesic: sinh u/s, and
         // sinh(2 I_te − u)/s = e^−u − e^(−2 I_te) sinh u/s, a difference of which at least half is left.
         let (held, lost) = (two * i_te, two * (trial - i_te));
         let (sinh, decay) = sinh_and_exp_of_minus(held.min(lost));
         let smaller = sinh * area * over_distorted;
-        let shape = R::select(slides, elastic.distortion + elastic.half_trace, one);
+        let shape = sliding(elastic.distortion + elastic.half_trace, one);
         let larger = decay - smaller * (area / shape);
         let less_is_held = held.lt(lost);
         let of_old = R::select(less_is_held, smaller, larger);
         let of_shape = R::select(less_is_held, larger, smaller) * over_area;
-        let next = |d: R, shape: R| R::select(slides, of_old.mul_add(d, -(of_shape * shape)), d);
-        let from = i_te.max(trial.min(old.i_te));
+        let next = |d: R, shape: R| sliding(of_old.mul_add(d, -(of_shape * shape)), d);
+        let from = i_te.max(trial.min(old_i_te));
         let work = half * law.k_td * (i_te + from) * (trial - i_te);
         Slip {
             d: [next(old.d[0], section.delta), next(old.d[1], section.x23)],
-            i_te,
-            lost: R::select(slides, old.lost + work, old.lost),
+            lost: sliding(old.lost + work, old.lost),
         }
     }
 }

@@ -178,8 +178,9 @@ impl<R: Real> Section<R> {
         [along(g2, -(d.h[0] * d.inverse_square), c1), along(g3, -(d.h[1] * d.inverse_square), c1)]
     }
 
+    /// From δ2 and δ3, as [`new`](Self::new).
     #[inline(always)]
-    fn from_rests<A: Axes<R>>(d: &Stretch<R>, [delta_2, delta_3]: [[R; 3]; 2], n: &A) -> (Self, [[R; 3]; 2]) {
+    pub fn from_rests<A: Axes<R>>(d: &Stretch<R>, [delta_2, delta_3]: [[R; 3]; 2], n: &A) -> (Self, [[R; 3]; 2]) {
         let (one, half) = (R::splat(1.0), R::splat(0.5));
         let a = Image { whole: n.shifted(delta_2, d.chi, 1), rest: delta_2 };
         let b = Image { whole: n.shifted(delta_3, d.chi, 2), rest: delta_3 };
@@ -316,18 +317,42 @@ impl<R: Real> Logarithms<R> {
     /// valid only where that is.
     #[inline(always)]
     pub fn beside(&mut self, whole: &Section<R>) -> Asinh<R> {
-        let (least, most) = (R::splat(R::SQUARES.0), R::splat(R::SQUARES.1));
         let (distortion, growth) = Asinh::new(whole.distortion, whole.half_trace, whole.inverse_area_square);
-        let valid = least.lt(whole.a_square) & whole.half_trace.max(growth).lt(most);
-        self.nan_if_invalid = R::select(valid, self.nan_if_invalid, R::splat(f64::NAN));
+        self.check_whole(whole, growth);
         distortion
     }
 
     #[inline(always)]
+    fn check_whole(&mut self, whole: &Section<R>, growth: R) {
+        let (least, most) = (R::splat(R::SQUARES.0), R::splat(R::SQUARES.1));
+        let valid = least.lt(whole.a_square) & whole.half_trace.max(growth).lt(most);
+        self.nan_if_invalid = R::select(valid, self.nan_if_invalid, R::splat(f64::NAN));
+    }
+
+    #[inline(always)]
     pub fn new(d: &Stretch<R>, section: &Section<R>) -> Self {
+        let distortion = Asinh::new(section.distortion, section.half_trace, section.inverse_area_square);
+        Self::with_distortion(d, section, distortion)
+    }
+
+    /// Of a section that has slid and, side by side with it, the distortion of the whole one, of the same area, in a
+    /// number that has room for both: [`Strain::of_both`].
+    #[inline(always)]
+    pub fn of_both(d: &Stretch<R>, section: &Section<R>, whole: &Section<R>) -> Self {
+        let s = section.distortion.pair(whole.distortion);
+        let t = section.half_trace.pair(whole.half_trace);
+        let (both, growth) = Asinh::new(s, t, section.inverse_area_square);
+        let [growth, growth_of_whole] = growth.apart();
+        let mut logarithms = Self::with_distortion(d, section, (both, growth));
+        logarithms.check_whole(whole, growth_of_whole);
+        logarithms
+    }
+
+    /// Given the distortion and its e^2a.
+    #[inline(always)]
+    fn with_distortion(d: &Stretch<R>, section: &Section<R>, (distortion, growth): (Asinh<R>, R)) -> Self {
         let (least, most) = (R::splat(R::SQUARES.0), R::splat(R::SQUARES.1));
         let (stretch, area) = (Logarithm::new(d.square), Logarithm::new(section.area_square));
-        let (distortion, growth) = Asinh::new(section.distortion, section.half_trace, section.inverse_area_square);
         Logarithms {
             stretch,
             area,
@@ -364,7 +389,25 @@ pub struct Strain<R> {
 impl<R: Real> Strain<R> {
     #[inline(always)]
     pub fn new(d: &Stretch<R>, section: &Section<R>, logarithms: &Logarithms<R>) -> Self {
-        let l = logarithms;
+        Self::with_distortion(d, section, logarithms, logarithms.distortion.finish())
+    }
+
+    /// From [`Logarithms::of_both`]. Also returns I_td of the whole section.
+    #[inline(always)]
+    pub fn of_both(d: &Stretch<R>, section: &Section<R>, logarithms: &Logarithms<R>) -> (Self, R) {
+        let (both, ratios) = logarithms.distortion.finish();
+        let ([i_td, whole], [ratio, _]) = (both.apart(), ratios.apart());
+        (Self::with_distortion(d, section, logarithms, (i_td, ratio)), whole)
+    }
+
+    /// Given I_td and I_td/ŝ.
+    #[inline(always)]
+    fn with_distortion(
+        d: &Stretch<R>,
+        section: &Section<R>,
+        l: &Logarithms<R>,
+        (i_td, distortion_ratio): (R, R),
+    ) -> Self {
         let [ln_stretch, ln_area] = if R::PAIRS {
             let over_both = d.inverse_square.pair(section.inverse_area_square);
             l.stretch.pair(&l.area).finish(d.rounding.pair(section.rounding), over_both).apart()
@@ -372,7 +415,6 @@ impl<R: Real> Strain<R> {
             let area = l.area.finish(section.rounding, section.inverse_area_square);
             [l.stretch.finish(d.rounding, d.inverse_square), area]
         };
-        let (i_td, distortion_ratio) = l.distortion.finish();
         Strain {
             i_el: R::splat(0.5) * ln_stretch,
             i_tc: R::splat(0.25) * ln_area,

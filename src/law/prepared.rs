@@ -167,6 +167,20 @@ impl<T: Real + Into<f64>> PreparedFrictional<T> {
     pub(crate) fn law(&self) -> Frictional<T> {
         Frictional { elastic: self.elastic.law(), friction: Friction::from_numbers(self.friction) }
     }
+
+    /// Whether the fibre lies along the first axis.
+    #[cfg(target_arch = "x86_64")]
+    #[inline(always)]
+    pub(crate) fn is_aligned(&self) -> bool {
+        (&self.elastic).frame().aligned
+    }
+
+    /// Whether there is a longitudinal-shear stiffness.
+    #[inline(always)]
+    pub(crate) fn shears(&self) -> bool {
+        let PreparedHyperelastic([_, _, _, _, k_ld, ..]) = self.elastic;
+        k_ld.into() > 0.0
+    }
 }
 
 impl<T: Real<Mask = bool> + Into<f64>> From<&LinearElastic<T>> for PreparedLinearElastic<T> {

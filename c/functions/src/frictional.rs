@@ -82,7 +82,7 @@ pub unsafe extern "C" fn toron_frictional_point_f64(
     capacity: size_t,
 ) -> i32 {
     // SAFETY: the caller's arguments, as lib.rs says.
-    unsafe { entry(Message { text: message, capacity }, move || frictional::point(&prepared(law)?, point)) }
+    unsafe { entry(Message { text: message, capacity }, move || frictional::point(numbers(law)?, point)) }
 }
 
 /// As `toron_frictional_point_f64`, in single precision.
@@ -94,7 +94,7 @@ pub unsafe extern "C" fn toron_frictional_point_f32(
     capacity: size_t,
 ) -> i32 {
     // SAFETY: the caller's arguments, as lib.rs says.
-    unsafe { entry(Message { text: message, capacity }, move || frictional::point(&prepared(law)?, point)) }
+    unsafe { entry(Message { text: message, capacity }, move || frictional::point(numbers(law)?, point)) }
 }
 
 /// As `toron_frictional_point_f64`, with the properties in the table's order in place of a law that has been prepared.
@@ -108,7 +108,11 @@ pub unsafe extern "C" fn toron_frictional_point_with_properties_f64(
     capacity: size_t,
 ) -> i32 {
     // SAFETY: the caller's arguments, as lib.rs says.
-    unsafe { entry(Message { text: message, capacity }, move || frictional::point(&with(properties, count)?, point)) }
+    unsafe {
+        entry(Message { text: message, capacity }, move || {
+            frictional::point(&with(properties, count)?.numbers(), point)
+        })
+    }
 }
 
 /// As `toron_frictional_point_with_properties_f64`, in single precision.
@@ -121,7 +125,11 @@ pub unsafe extern "C" fn toron_frictional_point_with_properties_f32(
     capacity: size_t,
 ) -> i32 {
     // SAFETY: the caller's arguments, as lib.rs says.
-    unsafe { entry(Message { text: message, capacity }, move || frictional::point(&with(properties, count)?, point)) }
+    unsafe {
+        entry(Message { text: message, capacity }, move || {
+            frictional::point(&with(properties, count)?.numbers(), point)
+        })
+    }
 }
 
 /// The law with friction over a step at a block of points, with or without a tangent: see `toron_block_f64`; its arrays

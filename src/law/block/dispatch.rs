@@ -9,11 +9,13 @@ use super::avx512::Avx512;
 use super::baseline::Baseline;
 use super::instructions::{BlockInstructions, Instructions};
 #[cfg(target_arch = "x86_64")]
-use super::one::One;
-use super::points::Points;
+use super::one::{One, run_one};
+use super::points::{OnePoint, Points};
 use super::request::{ALIGNED, ANY, FRICTION};
 #[cfg(target_arch = "x86_64")]
 use super::request::{EXPLICIT, SHEAR, STATE, STRESS};
+#[cfg(not(target_arch = "x86_64"))]
+use super::run::evaluate_one;
 use super::run::{FRICTIONAL_ROWS, HYPERELASTIC_ROWS, LINEAR_ROWS};
 use crate::law::frictional::{Friction, Frictional};
 use crate::law::hyperelastic::Hyperelastic;
@@ -21,6 +23,7 @@ use crate::law::linear_elastic::LinearElastic;
 use crate::law::number::level::Level;
 use crate::law::number::real::Lanes;
 use crate::law::number::registers::Registers;
+use crate::law::prepared::PreparedFrictional;
 #[cfg(target_arch = "x86_64")]
 use crate::law::response::Request;
 #[cfg(target_arch = "x86_64")]
@@ -44,6 +47,14 @@ pub trait Precision: Registers + 'static {
     #[doc(hidden)]
     unsafe fn dispatch_frictional(level: Level, law: &Frictional<Self>, block: &Points<Self>) -> i32;
 
+    /// Runs the kernel of the law with friction for one point that asks for stress and state alone.
+    ///
+    /// # Safety
+    /// As for [`Law::step`](crate::law::interface::Law::step), of a law without longitudinal shear; the processor has
+    /// AVX2 and FMA.
+    #[doc(hidden)]
+    unsafe fn one_frictional(law: &PreparedFrictional<Self>, point: &OnePoint<Self>) -> i32;
+
     /// Runs the kernels of the linear elastic law at a level.
     ///
     /// # Safety
@@ -65,6 +76,11 @@ impl Precision for f64 {
         unsafe { dispatch_frictional(level, law, block) }
     }
 
+    unsafe fn one_frictional(law: &PreparedFrictional<f64>, point: &OnePoint<f64>) -> i32 {
+        // SAFETY: the same point and processor.
+        unsafe { one_frictional(law, point) }
+    }
+
     unsafe fn dispatch_linear(level: Level, law: &LinearElastic<f64>, block: &Points<f64>) -> i32 {
         // SAFETY: the same block and level.
         unsafe { dispatch_linear(level, law, block) }
@@ -80,6 +96,11 @@ impl Precision for f32 {
     unsafe fn dispatch_frictional(level: Level, law: &Frictional<f32>, block: &Points<f32>) -> i32 {
         // SAFETY: the same block and level.
         unsafe { dispatch_frictional(level, law, block) }
+    }
+
+    unsafe fn one_frictional(law: &PreparedFrictional<f32>, point: &OnePoint<f32>) -> i32 {
+        // SAFETY: the same point and processor.
+        unsafe { one_frictional(law, point) }
     }
 
     unsafe fn dispatch_linear(level: Level, law: &LinearElastic<f32>, block: &Points<f32>) -> i32 {
@@ -225,6 +246,29 @@ unsafe fn run_frictional<T: Registers, I: Instructions>(law: &Frictional<T>, blo
             _ => run_any_frictional::<T, I>(law, block),
         }
     }
+}
+
+/// # Safety
+/// As for [`Precision::one_frictional`].
+#[cfg(target_arch = "x86_64")]
+unsafe fn one_frictional<T: Precision>(law: &PreparedFrictional<T>, point: &OnePoint<T>) -> i32 {
+    const SLIP: u8 = FRICTION + STATE;
+    const SLIP_ALIGNED: u8 = SLIP + ALIGNED;
+    // SAFETY: the same point and processor.
+    unsafe {
+        match law.is_aligned() && point.fibre.is_null() {
+            true => run_one::<T, SLIP_ALIGNED>(law, point),
+            false => run_one::<T, SLIP>(law, point),
+        }
+    }
+}
+
+/// # Safety
+/// As for [`Precision::one_frictional`].
+#[cfg(not(target_arch = "x86_64"))]
+unsafe fn one_frictional<T: Precision>(law: &PreparedFrictional<T>, point: &OnePoint<T>) -> i32 {
+    // SAFETY: the same point.
+    unsafe { evaluate_one(&law.law(), &point.points()) }
 }
 
 /// Runs the general kernel of the law with friction.

@@ -7,12 +7,12 @@ use super::outputs::{
     reset_invalid, respond, status_code, store_state,
 };
 use super::points::Points;
-use super::request::{ALIGNED, ANY, FRICTION, STATE, wants_tangent};
+use super::request::{ALIGNED, ANY, EXPLICIT, FRICTION, SHEAR, STATE, parts, wants_tangent};
 use crate::law::axes::{Axes, FibreFrame, FirstAxis};
 use crate::law::frictional::{Friction, Hold, Slip};
 use crate::law::hyperelastic::{Hyperelastic, Kirchhoff};
 use crate::law::kinematics::{Kinematics, Logarithms, Section, Slid, Strain, Stretch, Unimodular};
-use crate::law::number::elementary::{Asinh, Power, Reduced};
+use crate::law::number::elementary::{AsinhAlone, Power, Reduced};
 use crate::law::number::real::{Lanes, Real, Scalar, WIDEST};
 use crate::law::state::part::{ENERGIES, FAILURE, INVARIANTS};
 use crate::law::status;
@@ -101,6 +101,14 @@ impl<X> Stage<X> {
     unsafe fn put(&mut self, k: usize, x: X) {
         // SAFETY: k < STAGED, the length of the array.
         unsafe { self.0.get_unchecked_mut(k) }.write(x);
+    }
+
+    /// # Safety
+    /// As for [`get`](Self::get).
+    #[inline(always)]
+    unsafe fn get_mut(&mut self, k: usize) -> &mut X {
+        // SAFETY: see `get`.
+        unsafe { self.0.get_unchecked_mut(k).assume_init_mut() }
     }
 
     /// # Safety
@@ -219,7 +227,7 @@ struct Stages<'a, R: Real, K> {
     stretches: &'a mut Stage<Stretch<R>>,
     /// Images of the axes, as [`Axes::keep`] stores them.
     kept: &'a mut Stage<K>,
-    /// The section whose distortion has energy, its a and b, and the strain.
+    /// The section as the deformation makes it, a and b of the one whose distortion has energy, and the strain.
     sections: &'a mut Stage<Section<R>>,
     images: &'a mut Stage<[[R; 3]; 2]>,
     steps: &'a mut Stage<Step<R>>,
@@ -229,24 +237,55 @@ struct Stages<'a, R: Real, K> {
 }
 
 impl<R: Real, K> Stages<'_, R, K> {
-    /// The sections as the deformation makes them, and their a and b.
+    /// Whether any of the fibres have slid before.
     #[inline(always)]
-    fn whole(&self) -> (&Stage<Section<R>>, &Stage<[[R; 3]; 2]>) {
-        match self.slides.any_before {
-            true => (&self.slides.sections, &self.slides.images),
-            false => (self.sections, self.images),
+    fn have_slid<const SLID: u8>(&self) -> bool {
+        match SLID {
+            NEVER => false,
+            BEFORE => true,
+            _ => self.slides.any_before,
         }
     }
+
+    /// The sections whose distortion has energy.
+    #[inline(always)]
+    fn elastic<const SLID: u8>(&self) -> &Stage<Section<R>> {
+        if self.have_slid::<SLID>() { &self.slides.sections } else { self.sections }
+    }
+
+    /// a and b of the sections as the deformation makes them; in kernels that need them, see [`needs_whole`].
+    #[inline(always)]
+    fn whole_images<const WANT: u8, const SLID: u8>(&self) -> &Stage<[[R; 3]; 2]> {
+        if needs_whole::<WANT>() && self.have_slid::<SLID>() { &self.slides.images } else { self.images }
+    }
+}
+
+/// Whether fibres have slid before: one point goes different ways through all stages, a block looks it up in each.
+const NEVER: u8 = 0;
+const BEFORE: u8 = 1;
+const LOOKED_UP: u8 = 2;
+
+/// Whether a and b of a section as the deformation makes it are needed besides those of its axes that have slid: for the
+/// stress by mode, the wave speed, the longitudinal shear and the tangent.
+const fn needs_whole<const WANT: u8>() -> bool {
+    WANT & (ANY | EXPLICIT | SHEAR) != 0
 }
 
 /// What a law with friction keeps besides.
 struct Slides<R: Real> {
-    /// Where any of the fibres have slid before: the axes that the distortion is referred to, the section as the
-    /// deformation makes it, its a and b, and its distortion.
+    /// Of one point alone, whose numbers are in the processor's registers: F m, (F − χ1) t1 and (F − χ1) t2, δ2 and δ3,
+    /// and what it has remembered.
+    vectors: Stage<[[R; 3]; 3]>,
+    rests: Stage<[[R; 3]; 2]>,
+    old: Stage<(Slip<R>, R)>,
+    /// And the distortion of its whole section where it has slid before.
+    i_td: Stage<R>,
+    /// Where any of the fibres have slid before: the axes that the distortion is referred to, the section whose
+    /// distortion has energy, and a and b and the distortion of the section as the deformation makes it.
     axes: Stage<Unimodular<R>>,
     sections: Stage<Section<R>>,
     images: Stage<[[R; 3]; 2]>,
-    distortions: Stage<Asinh<R>>,
+    distortions: Stage<AsinhAlone<R>>,
     holds: Stage<Hold<R>>,
     slips: Stage<Slip<R>>,
     /// Whether any of the fibres slide.
@@ -261,8 +300,11 @@ struct Slides<R: Real> {
 /// As for [`evaluate_group`].
 #[inline(always)]
 unsafe fn staged<T: Scalar, R: Lanes<T>, A: GroupAxes<R>, const WANT: u8>(group: &Group<'_, T, R, A>, worst: &mut R) {
-    let Group { block, i, count, .. } = *group;
     let mut slides = Slides {
+        vectors: Stage::new(),
+        rests: Stage::new(),
+        old: Stage::new(),
+        i_td: Stage::new(),
         sections: Stage::new(),
         images: Stage::new(),
         distortions: Stage::new(),
@@ -282,6 +324,36 @@ unsafe fn staged<T: Scalar, R: Lanes<T>, A: GroupAxes<R>, const WANT: u8>(group:
         outcomes: &mut Stage::new(),
         slides: &mut slides,
     };
+    // SAFETY: as the caller promises.
+    unsafe {
+        if const { WANT & FRICTION != 0 } {
+            group.recall_slip(&mut stages);
+            if R::ALONE || WANT & ANY == 0 {
+                return match stages.slides.any_before {
+                    true => evaluate::<T, R, A, WANT, BEFORE>(group, &mut stages, worst),
+                    false => evaluate::<T, R, A, WANT, NEVER>(group, &mut stages, worst),
+                };
+            }
+        }
+        if const { WANT & FRICTION != 0 } {
+            evaluate::<T, R, A, WANT, LOOKED_UP>(group, &mut stages, worst);
+        } else {
+            evaluate::<T, R, A, WANT, NEVER>(group, &mut stages, worst);
+        }
+    }
+}
+
+/// The stages of a group whose slip has been recalled.
+///
+/// # Safety
+/// As for [`evaluate_group`].
+#[inline(always)]
+unsafe fn evaluate<T: Scalar, R: Lanes<T>, A: GroupAxes<R>, const WANT: u8, const SLID: u8>(
+    group: &Group<'_, T, R, A>,
+    stages: &mut Stages<'_, R, Kept<R, A>>,
+    worst: &mut R,
+) {
+    let Group { block, i, count, .. } = *group;
     // If the block has no array for the status codes or the active points, these are stored to a scratch array, which
     // costs less than a test at every store. They have WIDEST ≥ COUNT values for each k, and i ≤ at(k) ≤ i + k COUNT,
     // so that i may be subtracted from their addresses.
@@ -292,23 +364,20 @@ unsafe fn staged<T: Scalar, R: Lanes<T>, A: GroupAxes<R>, const WANT: u8>(group:
     let active = if block.active.is_null() { no_active.as_mut_ptr().cast::<T>().wrapping_sub(i) } else { block.active };
     // SAFETY: as the caller promises; each function reads what the ones before have put.
     unsafe {
+        group.kinematics::<WANT, SLID>(stages);
+        group.strains::<WANT, SLID>(stages);
         if const { WANT & FRICTION != 0 } {
-            group.recall_slip(&mut stages);
+            group.hold::<SLID>(stages);
         }
-        let slipped = group.kinematics(&mut stages);
-        if const { WANT & FRICTION != 0 } {
-            group.refer_to_slip(&mut stages, slipped);
-        }
-        group.strains::<WANT>(&mut stages);
-        if const { WANT & FRICTION != 0 } {
-            group.hold(&mut stages);
-        }
-        group.respond::<WANT>(&mut stages, status);
-        if group.any_invalid::<WANT>(&stages) {
-            group.report::<WANT>(&stages, status, worst);
+        group.respond::<WANT, SLID>(stages, status);
+        if group.any_invalid::<WANT>(stages) {
+            if R::ALONE {
+                block.keep_old_state_of_one(parts::<WANT>());
+            }
+            group.report::<WANT>(stages, status, worst);
         }
         if WANT & (STATE | ANY) != 0 {
-            group.store::<WANT>(&stages, active);
+            group.store::<WANT, SLID>(stages, active);
         }
         if wants_tangent::<T, WANT>(block) {
             for k in 0..count {
@@ -335,14 +404,17 @@ impl<T: Scalar, R: Lanes<T>, A: GroupAxes<R>> Group<'_, T, R, A> {
     unsafe fn images(&self, stages: &Stages<'_, R, Kept<R, A>>, k: usize) -> [[R; 3]; 3] {
         // SAFETY: see above.
         unsafe {
+            if R::ALONE {
+                return *stages.slides.vectors.get(k);
+            }
             let (n, d) = (self.axes.get(k).0, stages.stretches.get(k));
             n.recall(stages.kept.get(k), &gradient(self.block, self.at(k)), d)
         }
     }
 
-    /// Fibre stretch and section. Returns whether any fibres have slipped far.
+    /// Fibre stretch and section.
     #[inline(always)]
-    unsafe fn kinematics(&self, stages: &mut Stages<'_, R, Kept<R, A>>) -> bool {
+    unsafe fn kinematics<const WANT: u8, const SLID: u8>(&self, stages: &mut Stages<'_, R, Kept<R, A>>) {
         let mut slipped = R::never();
         // SAFETY: see above.
         unsafe {
@@ -350,27 +422,76 @@ impl<T: Scalar, R: Lanes<T>, A: GroupAxes<R>> Group<'_, T, R, A> {
                 let n = self.axes.get(k).0;
                 let (stretch, vectors) = Stretch::new(&gradient(self.block, self.at(k)), &n);
                 stages.stretches.put(k, stretch);
-                stages.kept.put(k, n.keep(vectors));
+                match R::ALONE {
+                    true => stages.slides.vectors.put(k, vectors),
+                    false => stages.kept.put(k, n.keep(vectors)),
+                }
             }
             for k in 0..self.count {
-                let (n, d) = (self.axes.get(k).0, stages.stretches.get(k));
-                let (section, vectors) = Section::new(d, self.images(stages, k), &n);
-                slipped = slipped | section.slipped_far(d);
-                stages.sections.put(k, section);
-                stages.images.put(k, vectors);
+                let d = stages.stretches.get(k);
+                let rests = Section::rests(d, self.images(stages, k));
+                self.put_section::<WANT, SLID>(stages, k, rests);
+                slipped = slipped | stages.sections.get(k).slipped_far(stages.stretches.get(k));
             }
             // Far slips are seldom, so that there is one test for all.
-            let any_slipped = R::any(slipped);
-            if any_slipped {
+            if R::any(slipped) {
                 for k in 0..self.count {
                     let (n, d) = (self.axes.get(k).0, stages.stretches.get(k));
                     let far = stages.sections.get(k).slipped_far(d);
-                    let (section, vectors) = Section::orthogonal(d, self.images(stages, k), &n, far);
-                    stages.sections.put(k, section);
-                    stages.images.put(k, vectors);
+                    let rests = Section::orthogonal_rests(d, self.images(stages, k), &n, far);
+                    self.put_section::<WANT, SLID>(stages, k, rests);
                 }
             }
-            any_slipped
+            // The axes of one point take long, and fewer operations wait for them if all that need none come before.
+            if R::ALONE && SLID == BEFORE {
+                let (whole, rests) = (*stages.sections.get(0), *stages.slides.rests.get(0));
+                self.put_slid(stages, 0, &whole, rests);
+            }
+        }
+    }
+
+    /// The section of register k, from δ2 and δ3, which one point alone keeps for [`put_slid`](Self::put_slid).
+    #[inline(always)]
+    unsafe fn put_section<const WANT: u8, const SLID: u8>(
+        &self,
+        stages: &mut Stages<'_, R, Kept<R, A>>,
+        k: usize,
+        rests: [[R; 3]; 2],
+    ) {
+        // SAFETY: see above.
+        unsafe {
+            let (n, d) = (self.axes.get(k).0, stages.stretches.get(k));
+            let (section, vectors) = Section::from_rests(d, rests, &n);
+            stages.sections.put(k, section);
+            if !(WANT & FRICTION != 0 && stages.have_slid::<SLID>()) {
+                stages.images.put(k, vectors);
+                return;
+            }
+            if needs_whole::<WANT>() {
+                stages.slides.images.put(k, vectors);
+            }
+            match R::ALONE {
+                true => stages.slides.rests.put(k, rests),
+                false => self.put_slid(stages, k, &section, rests),
+            }
+        }
+    }
+
+    /// What is left of a section whose fibres have slid.
+    #[inline(always)]
+    unsafe fn put_slid(
+        &self,
+        stages: &mut Stages<'_, R, Kept<R, A>>,
+        k: usize,
+        whole: &Section<R>,
+        rests: [[R; 3]; 2],
+    ) {
+        // SAFETY: see above.
+        unsafe {
+            let (n, d) = (self.axes.get(k).0, stages.stretches.get(k));
+            let (section, vectors) = whole.referred_to(stages.slides.axes.get(k), d, rests, &n);
+            stages.slides.sections.put(k, section);
+            stages.images.put(k, vectors);
         }
     }
 
@@ -382,59 +503,57 @@ impl<T: Scalar, R: Lanes<T>, A: GroupAxes<R>> Group<'_, T, R, A> {
         // SAFETY: see above.
         unsafe {
             for k in 0..self.count {
-                slid = slid | remembered::<T, R>(self.block, self.at(k)).is_any();
+                let old = remembered::<T, R>(self.block, self.at(k));
+                if R::ALONE {
+                    stages.slides.old.put(k, old);
+                }
+                slid = slid | old.0.is_any();
             }
             stages.slides.any_before = R::any(slid);
             if stages.slides.any_before {
                 for k in 0..self.count {
-                    stages.slides.axes.put(k, remembered::<T, R>(self.block, self.at(k)).axes());
+                    stages.slides.axes.put(k, self.old(stages, k).0.axes());
                 }
             }
         }
     }
 
-    /// The section that is left of the whole one where the fibres have slid.
+    /// What register k has remembered.
     #[inline(always)]
-    unsafe fn refer_to_slip(&self, stages: &mut Stages<'_, R, Kept<R, A>>, any_slipped: bool) {
-        if !stages.slides.any_before {
-            return;
-        }
+    unsafe fn old(&self, stages: &Stages<'_, R, Kept<R, A>>, k: usize) -> (Slip<R>, R) {
         // SAFETY: see above.
-        unsafe {
-            for k in 0..self.count {
-                let (n, d, &whole) = (self.axes.get(k).0, stages.stretches.get(k), stages.sections.get(k));
-                let vectors = self.images(stages, k);
-                let rests = match any_slipped {
-                    true => Section::orthogonal_rests(d, vectors, &n, whole.slipped_far(d)),
-                    false => Section::rests(d, vectors),
-                };
-                let (section, vectors) = whole.referred_to(stages.slides.axes.get(k), d, rests, &n);
-                stages.slides.sections.put(k, whole);
-                stages.slides.images.put(k, *stages.images.get(k));
-                stages.sections.put(k, section);
-                stages.images.put(k, vectors);
-            }
-        }
+        unsafe { if R::ALONE { *stages.slides.old.get(k) } else { remembered::<T, R>(self.block, self.at(k)) } }
     }
 
     /// The invariants, and the power of the compaction.
     #[inline(always)]
-    unsafe fn strains<const WANT: u8>(&self, stages: &mut Stages<'_, R, Kept<R, A>>) {
+    unsafe fn strains<const WANT: u8, const SLID: u8>(&self, stages: &mut Stages<'_, R, Kept<R, A>>) {
         let (law, block) = (self.law.elastic, self.block);
         let (state, stride) = (WANT & (STATE | ANY) != 0, block.leading_dimension);
         // SAFETY: see above.
         unsafe {
             for k in 0..self.count {
-                let mut logarithms = Logarithms::new(stages.stretches.get(k), stages.sections.get(k));
-                if WANT & FRICTION != 0 && stages.slides.any_before {
-                    let distortion = logarithms.beside(stages.slides.sections.get(k));
-                    stages.slides.distortions.put(k, distortion);
+                let (d, section) = (stages.stretches.get(k), stages.elastic::<SLID>().get(k));
+                if R::ALONE && SLID == BEFORE {
+                    // Both distortions side by side.
+                    let logarithms = Logarithms::of_both(d, section, stages.sections.get(k));
+                    let (strain, whole) = Strain::of_both(d, section, &logarithms);
+                    stages.strains.put(k, strain);
+                    stages.slides.i_td.put(k, whole);
+                    continue;
+                }
+                let mut logarithms = Logarithms::new(d, section);
+                if WANT & FRICTION != 0 && stages.have_slid::<SLID>() {
+                    let distortion = logarithms.beside(stages.sections.get(k));
+                    stages.slides.distortions.put(k, distortion.alone());
                 }
                 stages.steps.put(k, Step { logarithms });
             }
             for k in 0..self.count {
-                let logarithms = &stages.steps.get(k).logarithms;
-                stages.strains.put(k, Strain::new(stages.stretches.get(k), stages.sections.get(k), logarithms));
+                if !(R::ALONE && SLID == BEFORE) {
+                    let (d, section) = (stages.stretches.get(k), stages.elastic::<SLID>().get(k));
+                    stages.strains.put(k, Strain::new(d, section, &stages.steps.get(k).logarithms));
+                }
                 if !R::ALONE {
                     for column in block.stress {
                         R::prefetch(column.wrapping_add(self.at(k)));
@@ -458,28 +577,30 @@ impl<T: Scalar, R: Lanes<T>, A: GroupAxes<R>> Group<'_, T, R, A> {
 
     /// What friction holds of the distortion, and the slip where it holds less.
     #[inline(always)]
-    unsafe fn hold(&self, stages: &mut Stages<'_, R, Kept<R, A>>) {
+    unsafe fn hold<const SLID: u8>(&self, stages: &mut Stages<'_, R, Kept<R, A>>) {
         let Yarn { elastic: law, friction } = self.law;
         let mut sliding = R::never();
         // SAFETY: see above.
         unsafe {
             for k in 0..self.count {
-                let (section, strain) = (stages.sections.get(k), stages.strains.get(k));
-                let factors = law.kirchhoff(stages.stretches.get(k), strain, stages.steps.get(k).powered);
-                let hold = friction.hold(law, section, strain, &factors);
+                let (d, powered) = (stages.stretches.get(k), stages.steps.get(k).powered);
+                let section = *stages.elastic::<SLID>().get(k);
+                let factors = law.kirchhoff(d, stages.strains.get(k), powered);
+                let hold = friction.hold(law, &section, stages.strains.get_mut(k), &factors);
                 sliding = sliding | hold.slides;
-                let strain = friction.held(&hold, strain);
-                stages.strains.put(k, strain);
                 stages.slides.holds.put(k, hold);
             }
             stages.slides.any = R::any(sliding);
             if stages.slides.any {
                 for k in 0..self.count {
-                    let old = remembered::<T, R>(self.block, self.at(k));
-                    let (section, hold) = (stages.sections.get(k), stages.slides.holds.get(k));
-                    let slip = friction.slid(law, &old, stages.whole().0.get(k), section, hold);
+                    let (old, old_i_te) = self.old(stages, k);
+                    let (whole, section) = (stages.sections.get(k), stages.elastic::<SLID>().get(k));
+                    let (i_te, hold) = (stages.strains.get(k).i_td, stages.slides.holds.get(k));
+                    let slip = friction.slid(law, (&old, old_i_te), whole, section, i_te, hold);
                     stages.slides.slips.put(k, slip);
                 }
+            } else if R::ALONE {
+                stages.slides.slips.put(0, self.old(stages, 0).0);
             }
         }
     }
@@ -500,7 +621,7 @@ impl<T: Scalar, R: Lanes<T>, A: GroupAxes<R>> Group<'_, T, R, A> {
 
     /// Stress, modes, wave speed and tangent, and a status of 0.
     #[inline(always)]
-    unsafe fn respond<const WANT: u8>(&self, stages: &mut Stages<'_, R, Kept<R, A>>, status: *mut i32) {
+    unsafe fn respond<const WANT: u8, const SLID: u8>(&self, stages: &mut Stages<'_, R, Kept<R, A>>, status: *mut i32) {
         let zero = R::splat(0.0);
         // SAFETY: see above.
         unsafe {
@@ -514,18 +635,18 @@ impl<T: Scalar, R: Lanes<T>, A: GroupAxes<R>> Group<'_, T, R, A> {
                 let &[a, b] = stages.images.get(k);
                 let mut kinematics = Kinematics {
                     stretch: stages.stretches.get(k),
-                    section: stages.sections.get(k),
+                    section: stages.elastic::<SLID>().get(k),
                     images: [fibre, a, b],
                     strain,
                     slid: None,
                 };
                 let slid;
                 if WANT & FRICTION != 0 {
-                    let (old, (sections, images)) = (remembered::<T, R>(self.block, self.at(k)), stages.whole());
-                    nan_if_invalid = (old.i_te + old.lost).mul_add(zero, nan_if_invalid);
+                    let (old, old_i_te) = self.old(stages, k);
+                    nan_if_invalid = (old_i_te + old.lost).mul_add(zero, nan_if_invalid);
                     slid = Slid {
-                        whole: sections.get(k),
-                        images: *images.get(k),
+                        whole: stages.sections.get(k),
+                        images: *stages.whole_images::<WANT, SLID>().get(k),
                         axes: old.axes(),
                         slides: stages.slides.holds.get(k).slides,
                         mu: self.law.friction.mu(),
@@ -545,6 +666,11 @@ impl<T: Scalar, R: Lanes<T>, A: GroupAxes<R>> Group<'_, T, R, A> {
     #[inline(always)]
     #[allow(clippy::eq_op)] // A number minus itself is 0, unless it is NaN or infinite.
     unsafe fn any_invalid<const WANT: u8>(&self, stages: &Stages<'_, R, Kept<R, A>>) -> bool {
+        if R::ALONE {
+            // What it has remembered is not needed but where it is kept.
+            // SAFETY: see above.
+            return unsafe { stages.outcomes.get(0).is_kept() };
+        }
         let mut check = R::splat(0.0);
         for k in 0..self.count {
             // SAFETY: see above.
@@ -581,7 +707,7 @@ impl<T: Scalar, R: Lanes<T>, A: GroupAxes<R>> Group<'_, T, R, A> {
 
     /// The new state, and which points are active.
     #[inline(always)]
-    unsafe fn store<const WANT: u8>(&self, stages: &Stages<'_, R, Kept<R, A>>, active: *mut T) {
+    unsafe fn store<const WANT: u8, const SLID: u8>(&self, stages: &Stages<'_, R, Kept<R, A>>, active: *mut T) {
         // SAFETY: see above.
         unsafe {
             for k in 0..self.count {
@@ -593,9 +719,10 @@ impl<T: Scalar, R: Lanes<T>, A: GroupAxes<R>> Group<'_, T, R, A> {
                 };
                 if WANT & FRICTION != 0 {
                     let slides = &*stages.slides;
-                    let slip = if slides.any { Some(slides.slips.get(k)) } else { None };
-                    let i_td = match slides.any_before {
-                        true => slides.distortions.get(k).finish().0,
+                    let slip = if slides.any || R::ALONE { Some(slides.slips.get(k)) } else { None };
+                    let i_td = match stages.have_slid::<SLID>() {
+                        true if R::ALONE => *slides.i_td.get(k),
+                        true => slides.distortions.get(k).finish(),
                         false => slides.holds.get(k).trial,
                     };
                     point.friction = Some(Remembered { i_td, slip });

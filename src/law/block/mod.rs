@@ -49,5 +49,5 @@ pub use dispatch::Precision;
 pub(crate) use kernel::least_code;
 pub(crate) use layout::{MOST, check_layout, distances, parts};
 pub use layout::{components, components_mut};
-pub use points::{Has, PARTS, Points, Strides};
+pub use points::{Has, OnePoint, PARTS, Points, Strides};
 pub(crate) use run::{Kernels, at_fault, evaluate_one, evaluate_points};

@@ -16,21 +16,21 @@ use crate::law::status;
 use crate::law::tangent::{Measure, may_overflow};
 use crate::law::wave_speed;
 
-/// What a point with friction has remembered; 0 without an old state.
+/// What a point with friction has remembered, and its I_te; 0 without an old state.
 ///
 /// # Safety
 /// As for [`sweep`](super::kernel::sweep), for the lanes from i on.
 #[inline(always)]
-pub(super) unsafe fn remembered<T: Scalar, R: Lanes<T>>(block: &Points<T>, i: usize) -> Slip<R> {
+pub(super) unsafe fn remembered<T: Scalar, R: Lanes<T>>(block: &Points<T>, i: usize) -> (Slip<R>, R) {
     let old = block.state_old[FAILURE];
     if old.is_null() {
         let zero = R::splat(0.0);
-        return Slip { d: [zero; 2], i_te: zero, lost: zero };
+        return (Slip { d: [zero; 2], lost: zero }, zero);
     }
     // SAFETY: the old state of friction is not null; its components have n ≥ i + COUNT values.
     unsafe {
         let row = |row: usize| R::load(old.add(row * block.leading_dimension + i));
-        Slip { d: [row(SLIP), row(SLIP + 1)], i_te: row(I_TE), lost: row(LOST) }
+        (Slip { d: [row(SLIP), row(SLIP + 1)], lost: row(LOST) }, row(I_TE))
     }
 }
 
@@ -88,6 +88,14 @@ pub(super) struct Outcome<R: Real> {
     /// The old latch, and the same but NaN where the point cannot be evaluated.
     latch: R,
     pub latch_or_nan: R,
+}
+
+impl<R: Real> Outcome<R> {
+    /// Whether a point keeps its old state.
+    #[inline(always)]
+    pub fn is_kept(&self) -> bool {
+        R::any(!self.updated)
+    }
 }
 
 /// Computes and stores the stress, modes, wave speed and tangent; those of invalid points are reset later. The state is
@@ -397,7 +405,7 @@ pub(super) unsafe fn status_code<T: Scalar, R: Lanes<T>, const WANT: u8>(
     if WANT & FRICTION != 0 {
         // Read although no new state may be wanted.
         // SAFETY: an old state has the lanes from i on.
-        let Slip { d: [d1, d2], i_te, lost } = unsafe { remembered::<T, R>(block, i) };
+        let (Slip { d: [d1, d2], lost }, i_te) = unsafe { remembered::<T, R>(block, i) };
         finite = finite & (((d1 + d2) + (i_te + lost)) * zero).le(zero);
     }
     // SAFETY: F has the lanes from i on, and so has what the points have of their own.

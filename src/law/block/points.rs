@@ -15,6 +15,7 @@ use crate::law::linear_elastic::{Criterion, Rotation};
 use crate::law::number::level::Level;
 use crate::law::number::real::{Real, Scalar};
 use crate::law::response::Request;
+use crate::law::state::FRICTIONAL_PARTS;
 use crate::law::state::part::{ENERGIES, FAILURE, INVARIANTS};
 use crate::law::status;
 use crate::law::tangent::Measure;
@@ -86,6 +87,46 @@ pub struct Points<T> {
     pub criterion: Criterion,
     /// The instructions to use, or the best that the processor has if those are lower; `None` for the best.
     pub level: Option<Level>,
+}
+
+/// A point of the law with friction as most callers have it: each array is its own numbers next to each other, and all
+/// but `fibre` are there.
+///
+/// # Safety
+/// As for [`Points`].
+#[derive(Clone, Copy, Debug)]
+pub struct OnePoint<T> {
+    pub f: *const T,
+    /// Null for that of the properties.
+    pub fibre: *const T,
+    pub state_old: *const T,
+    pub state_new: *mut T,
+    pub stress: *mut T,
+}
+
+impl<T: Scalar> OnePoint<T> {
+    /// The point as a block of one.
+    #[inline(always)]
+    pub(super) fn points(&self) -> Points<T> {
+        let &OnePoint { f, fibre, state_old, state_new, stress } = self;
+        let mut points = Points::without_arrays(1, 1);
+        // Loops and no closures, which would be called.
+        for (c, place) in points.f_new.iter_mut().enumerate() {
+            *place = f.wrapping_add(c);
+        }
+        for (c, place) in points.stress.iter_mut().enumerate() {
+            *place = stress.wrapping_add(c);
+        }
+        if !fibre.is_null() {
+            points.fibre = [fibre, fibre.wrapping_add(1), fibre.wrapping_add(2)];
+        }
+        let (second, third) = const { (FRICTIONAL_PARTS[0], FRICTIONAL_PARTS[0] + FRICTIONAL_PARTS[1]) };
+        points.state_old = [state_old, state_old.wrapping_add(second), state_old.wrapping_add(third)];
+        // SAFETY: part of an array that is there.
+        unsafe { core::hint::assert_unchecked(!points.state_old[2].is_null()) };
+        points.state_new = [state_new, state_new.wrapping_add(second), state_new.wrapping_add(third)];
+        points
+    }
 }
 
 /// The distance from one point to the next in each group of arrays; what has one number for a point (wave speed,

@@ -1,9 +1,10 @@
 //! The requests that a kernel is compiled for, so that its loops contain no branches about them: sums of these flags.
 
-use super::points::Points;
+use super::points::{PARTS, Points};
 use crate::law::hyperelastic::Hyperelastic;
 use crate::law::number::real::Real;
 use crate::law::response::Request;
+use crate::law::state::{FRICTIONAL_PARTS, HYPERELASTIC_PARTS};
 
 /// The stress alone; the other flags are added to this.
 #[cfg_attr(not(target_arch = "x86_64"), allow(dead_code))]
@@ -28,6 +29,11 @@ pub(super) const SLIP: usize = 2;
 /// The place of the failure index in the last part of the state, before latch and flag.
 pub(super) const fn index_row<const WANT: u8>() -> usize {
     if WANT & FRICTION != 0 { 4 } else { 0 }
+}
+
+/// The number of state variables in each part.
+pub(super) const fn parts<const WANT: u8>() -> &'static [usize; PARTS] {
+    if WANT & FRICTION != 0 { &FRICTIONAL_PARTS } else { &HYPERELASTIC_PARTS }
 }
 
 /// Whether the law has a longitudinal shear stiffness and the kernel is compiled for it.

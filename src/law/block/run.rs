@@ -13,6 +13,7 @@ use crate::law::frictional::Frictional;
 use crate::law::hyperelastic::Hyperelastic;
 use crate::law::interface::Law;
 use crate::law::linear_elastic::{LinearElastic, Rotation};
+use crate::law::number::level::Level;
 use crate::law::number::real::{Scalar, WIDEST};
 use crate::law::state::{FRICTIONAL_STATE, HYPERELASTIC_STATE, LINEAR_ELASTIC_STATE};
 use crate::law::status;
@@ -32,6 +33,8 @@ const LINEAR_ELSE: usize = 9 + 3 + 9;
 pub(crate) unsafe trait Kernels<T: Precision>: Law<T> {
     /// Whether they want the old state in the arrays of the new one, or a copy of it there.
     const IN_PLACE: bool;
+    /// Whether those of one point above the baseline read its old state wherever it is.
+    const ALONE: bool;
     /// An array of the numbers of a point that not every law has, besides state and modes: F at the start, directions,
     /// axes.
     type Else: Copy;
@@ -46,6 +49,7 @@ pub(crate) unsafe trait Kernels<T: Precision>: Law<T> {
 // SAFETY: F at the end and a fibre are all that points of this law have.
 unsafe impl<T: Precision> Kernels<T> for Hyperelastic<T> {
     const IN_PLACE: bool = true;
+    const ALONE: bool = false;
     type Else = [T; 0];
 
     #[inline(always)]
@@ -58,6 +62,7 @@ unsafe impl<T: Precision> Kernels<T> for Hyperelastic<T> {
 // SAFETY: as of the hyperelastic law.
 unsafe impl<T: Precision> Kernels<T> for Frictional<T> {
     const IN_PLACE: bool = true;
+    const ALONE: bool = true;
     type Else = [T; 0];
 
     #[inline(always)]
@@ -70,6 +75,7 @@ unsafe impl<T: Precision> Kernels<T> for Frictional<T> {
 // SAFETY: as many as F at the start, a second axis and axes.
 unsafe impl<T: Precision> Kernels<T> for LinearElastic<T> {
     const IN_PLACE: bool = false;
+    const ALONE: bool = false;
     type Else = [T; LINEAR_ELSE];
 
     unsafe fn run(&self, points: &Points<T>) -> i32 {
@@ -114,17 +120,9 @@ impl<T: Scalar> Points<T> {
     /// # Safety
     /// The points are valid, there is one, and it has an old state, see [`has_old_state`](Self::has_old_state).
     #[inline(always)]
-    unsafe fn keep_old_state_of_one(&self, parts: &[usize; PARTS]) {
-        let mut part = 0;
-        while part < PARTS {
-            let (old, new, mut c) = (self.state_old[part], self.state_new[part], 0);
-            while c < parts[part] && !new.is_null() {
-                // SAFETY: of a valid point both arrays have the component c.
-                unsafe { *new.add(c * self.leading_dimension) = *old.add(c * self.leading_dimension) };
-                c += 1;
-            }
-            part += 1;
-        }
+    pub(super) unsafe fn keep_old_state_of_one(&self, parts: &[usize; PARTS]) {
+        // SAFETY: as the caller promises.
+        unsafe { keep_old_state(self.state_old, self.state_new, self.leading_dimension, parts) }
     }
 
     /// Copies the old state, or zeros where there is none, to the arrays of the new one: for kernels that work in
@@ -149,6 +147,30 @@ impl<T: Scalar> Points<T> {
                 }
             }
             *old = new;
+        }
+    }
+}
+
+/// The copy of [`Points::keep_old_state_of_one`]. It takes the arrays and not the points, which then need not be in
+/// memory for it.
+///
+/// # Safety
+/// As there.
+#[cold]
+#[inline(never)]
+unsafe fn keep_old_state<T: Copy>(
+    old: [*const T; PARTS],
+    new: [*mut T; PARTS],
+    leading_dimension: usize,
+    parts: &[usize; PARTS],
+) {
+    for ((old, new), &components) in old.into_iter().zip(new).zip(parts) {
+        if new.is_null() || old == new.cast_const() {
+            continue;
+        }
+        for c in 0..components {
+            // SAFETY: of a valid point both arrays have the component c.
+            unsafe { *new.add(c * leading_dimension) = *old.add(c * leading_dimension) };
         }
     }
 }
@@ -210,7 +232,9 @@ pub(crate) unsafe fn evaluate_one<T: Precision, L: Kernels<T>>(law: &L, point: &
                 fresh.copy_old_state(parts);
                 return law.run(&fresh);
             }
-            point.keep_old_state_of_one(parts);
+            if !L::ALONE || point.level() == Level::Baseline {
+                point.keep_old_state_of_one(parts);
+            }
         }
         law.run(point)
     }

@@ -156,11 +156,38 @@ impl<R: Real> Asinh<R> {
     /// ½a and ½a/s.
     #[inline(always)]
     pub fn finish(&self) -> (R, R) {
-        let square = self.w * self.w;
+        let (a, series) = self.alone().with_series();
         // ½ artanh w = w · series, and w/s = 1/t where k = 0.
-        let series = square.mul_add(polynomial(R::HALF_ARTANH, square), R::splat(0.5));
-        let a = self.k.mul_add(R::splat(0.25 * LN_2), self.w * series);
         (a, R::select(self.small, series, a) / self.divisor)
+    }
+
+    /// What a needs, and a/s does not.
+    #[inline(always)]
+    pub fn alone(&self) -> AsinhAlone<R> {
+        AsinhAlone { k: self.k, w: self.w }
+    }
+}
+
+/// What is left of [`Asinh`] if a/s is not asked for.
+#[derive(Clone, Copy)]
+pub struct AsinhAlone<R> {
+    k: R,
+    w: R,
+}
+
+impl<R: Real> AsinhAlone<R> {
+    /// ½a.
+    #[inline(always)]
+    pub fn finish(&self) -> R {
+        self.with_series().0
+    }
+
+    /// ½a, and ½ (artanh w)/w.
+    #[inline(always)]
+    fn with_series(&self) -> (R, R) {
+        let square = self.w * self.w;
+        let series = square.mul_add(polynomial(R::HALF_ARTANH, square), R::splat(0.5));
+        (self.k.mul_add(R::splat(0.25 * LN_2), self.w * series), series)
     }
 }
 
@@ -331,11 +358,17 @@ pub fn sinh_and_exp_of_minus<R: Real>(u: R) -> (R, R) {
     let (high, low) = ln_2_in_parts::<R>();
     let n = (u * R::splat(LOG2_E)).round();
     let r = n.mul_add(R::splat(-low), n.mul_add(R::splat(-high), u));
-    // eᵘ − 1 = 2^n (eʳ − 1) + (2^n − 1).
-    let power = one.times_power_of_two(n);
-    let growth = power.mul_add((r * r).mul_add(polynomial(R::EXP, r), r), power - one);
-    let decay = one / (one + growth);
-    (R::splat(0.5) * growth.mul_add(decay, growth), decay)
+    // Both powers of two do not wait for r, and no exponential for the reciprocal of the other.
+    let half = R::splat(0.5);
+    let (power, inverse) = (half.times_power_of_two(n), half.times_power_of_two(-n));
+    let (sum, difference) = (power + inverse, power - inverse);
+    // cosh r − 1 and sinh r, by the even and the odd terms of eʳ.
+    let square = r * r;
+    let [even, odd] = R::EXP_BY_PARITY;
+    let (cosh_less_one, sinh) = (square * polynomial(even, square), (r * square).mul_add(polynomial(odd, square), r));
+    // The large term last: where it and sinh r cancel, their difference is exact.
+    let of_both = difference + sum.mul_add(sinh, difference * cosh_less_one);
+    (of_both, (inverse + inverse) * (one + (cosh_less_one - sinh)))
 }
 
 /// x^q for |q| up to 1000: ∞ and 0 where it is beyond the numbers that [`power`] has; 0^q is 0, 1 or ∞; NaN for x < 0.

@@ -82,6 +82,9 @@ pub trait Real:
     const LN: &'static [f64];
     #[doc(hidden)]
     const EXP: &'static [f64];
+    #[doc(hidden)]
+    /// Those of the exponential, of even and of odd powers.
+    const EXP_BY_PARITY: [&'static [f64]; 2];
 
     /// A mask that holds nowhere.
     #[inline(always)]

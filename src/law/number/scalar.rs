@@ -1,7 +1,9 @@
 //! f32 and f64 as number types, without a fused multiply-add: every processor gives the same results.
 
 use super::real::{Lanes, Real};
-use super::series::{EXP_F32, EXP_F64, HALF_ARTANH_F32, HALF_ARTANH_F64, LN_F32, LN_F64};
+use super::series::{
+    EXP_BY_PARITY_F32, EXP_BY_PARITY_F64, EXP_F32, EXP_F64, HALF_ARTANH_F32, HALF_ARTANH_F64, LN_F32, LN_F64,
+};
 
 /// A product and its rounding error, without a fused multiply-add (Dekker, Numer. Math. 18, 1971).
 #[inline(always)]
@@ -30,7 +32,7 @@ fn root(x: f64) -> f64 {
 use libm::sqrt as root;
 
 macro_rules! scalar {
-    ($t:ident, $bits:ident, $sqrt:path, $fabs:path, squares: $squares:expr, wide_range: $wide_range:expr, difference: $difference:expr, series: $artanh:expr, $ln:expr, $exp:expr) => {
+    ($t:ident, $bits:ident, $sqrt:path, $fabs:path, squares: $squares:expr, wide_range: $wide_range:expr, difference: $difference:expr, series: $artanh:expr, $ln:expr, $exp:expr, $parity:expr) => {
         impl Real for $t {
             type Mask = bool;
             const MIN_POSITIVE: f64 = $t::MIN_POSITIVE as f64;
@@ -41,6 +43,7 @@ macro_rules! scalar {
             const HALF_ARTANH: &'static [f64] = &$artanh;
             const LN: &'static [f64] = &$ln;
             const EXP: &'static [f64] = &$exp;
+            const EXP_BY_PARITY: [&'static [f64]; 2] = [&$parity.0, &$parity.1];
 
             #[inline(always)]
             fn splat(x: f64) -> Self {
@@ -140,10 +143,10 @@ scalar!(
         let ((p, p_error), (q, q_error)) = (two_product(a, b), two_product(c, d));
         (p - q) + (p_error - q_error)
     },
-    series: HALF_ARTANH_F64, LN_F64, EXP_F64
+    series: HALF_ARTANH_F64, LN_F64, EXP_F64, EXP_BY_PARITY_F64
 );
 scalar!(
     f32, u32, libm::sqrtf, f32::abs, squares: (1e-10, 1e15), wide_range: false,
     difference: |a, b, c, d| (f64::from(a) * f64::from(b) - f64::from(c) * f64::from(d)) as f32,
-    series: HALF_ARTANH_F32, LN_F32, EXP_F32
+    series: HALF_ARTANH_F32, LN_F32, EXP_F32, EXP_BY_PARITY_F32
 );

@@ -53,3 +53,17 @@ pub(super) const EXP_F64: [f64; 10] = [
 ];
 pub(super) const EXP_F32: [f64; 5] =
     [0.5000000095185461, 0.1666651883965976, 0.04166620580112459, 0.008368889354403867, 0.0013950491223541559];
+
+/// Their coefficients of even and of odd powers, each in powers of r²: (cosh r − 1)/r² and (sinh r − r)/r³.
+pub(super) const EXP_BY_PARITY_F64: ([f64; 5], [f64; 5]) = (every_other(EXP_F64, 0), every_other(EXP_F64, 1));
+pub(super) const EXP_BY_PARITY_F32: ([f64; 3], [f64; 2]) = (every_other(EXP_F32, 0), every_other(EXP_F32, 1));
+
+/// Every other coefficient, from the first on.
+const fn every_other<const N: usize, const M: usize>(c: [f64; N], first: usize) -> [f64; M] {
+    let (mut chosen, mut j) = ([0.0; M], 0);
+    while j < M {
+        chosen[j] = c[first + 2 * j];
+        j += 1;
+    }
+    chosen
+}

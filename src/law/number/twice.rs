@@ -60,6 +60,7 @@ impl<R: Real> Real for Twice<R> {
     const HALF_ARTANH: &'static [f64] = R::HALF_ARTANH;
     const LN: &'static [f64] = R::LN;
     const EXP: &'static [f64] = R::EXP;
+    const EXP_BY_PARITY: [&'static [f64]; 2] = R::EXP_BY_PARITY;
 
     forwarded! {
         mul_add(a, b);

@@ -116,6 +116,7 @@ macro_rules! register {
             const HALF_ARTANH: &'static [f64] = &$artanh;
             const LN: &'static [f64] = &$ln;
             const EXP: &'static [f64] = &$exp;
+            const EXP_BY_PARITY: [&'static [f64]; 2] = <$t as Real>::EXP_BY_PARITY;
 
             #[inline(always)]
             fn splat(x: f64) -> Self {

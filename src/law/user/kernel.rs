@@ -188,6 +188,7 @@ fn determinant<R: Real>(f: &Matrix<R>) -> R {
 // SAFETY: as many numbers as F at the start has, all that points of such a law may have besides.
 unsafe impl<M: UserMaterial, T: Precision> Kernels<T> for User<M, T> {
     const IN_PLACE: bool = false;
+    const ALONE: bool = false;
     type Else = [T; 9];
 
     unsafe fn run(&self, points: &Points<T>) -> i32 {
