@@ -278,21 +278,35 @@ impl Arguments<'_> {
         let own = self.own::<L>()?;
         let mut answer = Answer::new(old);
         let (mut cauchy, mut entries) = ([0.0; 6], [[0.0; 6]; 6]);
-        let point = Points {
-            f_old: components(f_old.as_ptr(), 1),
-            f_new: components(f_new.as_ptr(), 1),
-            circumstances: self.circumstances,
-            state_old: L::parts(old.as_ref().as_ptr(), 1),
-            state_new: L::parts_mut(answer.state.as_mut().as_mut_ptr(), 1),
-            stress: components_mut(cauchy.as_mut_ptr(), 1),
-            tangent: entries.as_mut_ptr().cast(),
-            measure: Measure::Material,
-            ..own.point::<L>()
-        };
-        // SAFETY: the arrays have the sizes of one point, and outputs overlap nothing.
-        answer.status = unsafe { law.step(&point) }?;
-        let [s11, s22, s33, s12, s23, s31] = second_piola_kirchhoff(&cauchy, self.f);
-        answer.stress = [s11, s22, s33, s12, s31, s23];
+        let nowhere = [f64::NAN; 9];
+        let mut overflows = false;
+        loop {
+            // The state must not advance where the second Piola-Kirchhoff stress alone overflows: the law then leaves it
+            // as at any point without an F.
+            let f_new = if overflows { &nowhere } else { f_new };
+            let point = Points {
+                f_old: components(f_old.as_ptr(), 1),
+                f_new: components(f_new.as_ptr(), 1),
+                circumstances: self.circumstances,
+                state_old: L::parts(old.as_ref().as_ptr(), 1),
+                state_new: L::parts_mut(answer.state.as_mut().as_mut_ptr(), 1),
+                stress: components_mut(cauchy.as_mut_ptr(), 1),
+                tangent: entries.as_mut_ptr().cast(),
+                measure: Measure::Material,
+                ..own.point::<L>()
+            };
+            // SAFETY: the arrays have the sizes of one point, and outputs overlap nothing.
+            answer.status = unsafe { law.step(&point) }?;
+            let [s11, s22, s33, s12, s23, s31] = second_piola_kirchhoff(&cauchy, self.f);
+            answer.stress = [s11, s22, s33, s12, s31, s23];
+            if nan_unless_finite(&answer.stress) == 0.0 {
+                break;
+            }
+            overflows = true;
+        }
+        if overflows {
+            answer.status = status::OVERFLOW;
+        }
         // The symmetric part, its upper triangle by rows. Halves first: a sum might overflow.
         let columns: [[f64; 6]; 6] =
             core::array::from_fn(|c| entries.map(|row| row.get(c).copied().unwrap_or_default()));
@@ -301,15 +315,6 @@ impl Arguments<'_> {
         let pairs = pairs.flat_map(|(r, (row, column))| row.iter().zip(column).skip(r));
         upper.iter_mut().zip(pairs).for_each(|(entry, (x, y))| *entry = 0.5 * x + 0.5 * y);
         answer.stiffness = by_columns(upper);
-        if nan_unless_finite(&answer.stress) != 0.0 {
-            // The state must not advance without its stress: the law leaves it as at any point without an F.
-            answer = Answer { status: status::OVERFLOW, ..Answer::new(old) };
-            let nowhere = [f64::NAN; 9];
-            let state_new = L::parts_mut(answer.state.as_mut().as_mut_ptr(), 1);
-            let point = Points { f_new: components(nowhere.as_ptr(), 1), state_new, ..point };
-            // SAFETY: as above.
-            unsafe { law.step(&point) }?;
-        }
         if L::DESCRIPTION.reads.old_gradient {
             answer.kept = Some(if answer.status == status::OK { *f_new } else { f_old });
         }

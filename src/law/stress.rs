@@ -165,15 +165,16 @@ pub fn pulled_back(truesdell: &[[f64; 6]; 6], f: &Matrix3<f64>) -> Option<[[f64;
             *entry = if i == j { one } else { one + inverse[(a, j)] * inverse[(b, i)] };
         }
     }
+    let jacobian = f.determinant();
     let mut material = [[0.0; 6]; 6];
     for (row, left) in material.iter_mut().zip(&t) {
+        // A row of T c.
+        let mut moved = [0.0; 6];
+        for (moduli, x) in truesdell.iter().zip(left) {
+            moved.iter_mut().zip(moduli).for_each(|(entry, modulus)| *entry += x * modulus);
+        }
         for (entry, right) in row.iter_mut().zip(&t) {
-            for (moduli, x) in truesdell.iter().zip(left) {
-                for (modulus, y) in moduli.iter().zip(right) {
-                    *entry += x * modulus * y;
-                }
-            }
-            *entry *= f.determinant();
+            *entry = jacobian * moved.iter().zip(right).map(|(x, y)| x * y).sum::<f64>();
         }
     }
     Some(material)
