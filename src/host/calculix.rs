@@ -279,11 +279,10 @@ impl Arguments<'_> {
         let mut answer = Answer::new(old);
         let (mut cauchy, mut entries) = ([0.0; 6], [[0.0; 6]; 6]);
         let nowhere = [f64::NAN; 9];
+        // The state must not advance where the second Piola-Kirchhoff stress alone overflows: the law then leaves it as
+        // at any point without an F.
         let mut overflows = false;
-        loop {
-            // The state must not advance where the second Piola-Kirchhoff stress alone overflows: the law then leaves it
-            // as at any point without an F.
-            let f_new = if overflows { &nowhere } else { f_new };
+        for f_new in [f_new, &nowhere] {
             let point = Points {
                 f_old: components(f_old.as_ptr(), 1),
                 f_new: components(f_new.as_ptr(), 1),
@@ -305,7 +304,7 @@ impl Arguments<'_> {
             overflows = true;
         }
         if overflows {
-            answer.status = status::OVERFLOW;
+            (answer.status, answer.stress) = (status::OVERFLOW, [0.0; 6]);
         }
         // The symmetric part, its upper triangle by rows. Halves first: a sum might overflow.
         let columns: [[f64; 6]; 6] =

@@ -272,3 +272,10 @@ impl<R: Real> Friction<R> {
         }
     }
 }
+
+/// 0 for −0. Which of them comes out depends on whether fibres in the same register have slid before, and the bits of a
+/// point must not.
+#[inline(always)]
+pub(super) fn unsigned_zero<R: Real>(x: R) -> R {
+    x + R::splat(0.0)
+}

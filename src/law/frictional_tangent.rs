@@ -2,6 +2,7 @@
 //! makes them unsymmetric where the fibres slide (`docs/reference/theory.md`).
 
 use super::axes::FibreFrame;
+use super::frictional::unsigned_zero;
 use super::hyperelastic::{Deformed, Hyperelastic, Kirchhoff};
 use super::kinematics::{Kinematics, Section, Slid};
 use super::number::real::Real;
@@ -58,7 +59,7 @@ impl<R: Real> Deformed<'_, R> {
         tangent
     }
 
-    /// D and P, pulled back to the reference placement.
+    /// D and Π, pulled back to the reference placement.
     #[inline(always)]
     fn pulled_back_deviator(self, n: &FibreFrame<R>, shape: &Shape<R>) -> ([R; 6], [R; 6]) {
         let kinematics = self.kinematics;
@@ -143,11 +144,4 @@ fn add_dyad<R: Real>(a: &mut [[R; 6]; 6], s: R, d: &[R; 6], p: &[R; 6]) {
             *entry = unsigned_zero((s * x).mul_add(y, *entry));
         }
     }
-}
-
-/// 0 for −0. Which of them comes out depends on whether fibres in the same register have slid before, and a point's bits
-/// must not.
-#[inline(always)]
-fn unsigned_zero<R: Real>(x: R) -> R {
-    x + R::splat(0.0)
 }

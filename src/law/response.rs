@@ -3,6 +3,7 @@
 
 use super::axes::FibreFrame;
 use super::failure::Failure;
+use super::frictional::unsigned_zero;
 use super::hyperelastic::{Deformed, Hyperelastic, Kirchhoff};
 use super::kinematics::{Decomposition, Kinematics, Strain, Stretch};
 use super::number::real::{Real, Single};
@@ -108,7 +109,10 @@ impl<R: Real> Deformed<'_, R> {
             let decomposition = Decomposition::new(kinematics);
             if request.modes {
                 modes = law.modes(kinematics, &decomposition, k, frame);
-                for &x in modes.iter().flatten() {
+                for x in modes.iter_mut().flatten() {
+                    if kinematics.slid.is_some() {
+                        *x = unsigned_zero(*x);
+                    }
                     latch_or_nan = x.mul_add(zero, latch_or_nan);
                 }
             }

@@ -184,6 +184,8 @@ fn mistakes_are_refused() {
         ("impact", "units = \"si\"\n[scene]\nrows = 2.5", "impact.scene.rows: no \"integer\""),
         ("impact", "units = \"si\"\n[scene]\nheld = 1", "impact.scene.held: no \"boolean\""),
         ("check", "[[expect]]\nsource = \"by hand\"\nstress = [1.0]", "check.expect[0]: strain is missing"),
+        ("check", "[[expect]]\nstrain = [1.0]\nstress = [1.0]", "check.expect[0]: source is missing"),
+        ("check", "defgrad = \"R\"", "check.defgrad: String(\"R\") is none of [\"RU\",\"U\"]"),
         ("check", "[allow]\ntangent = 0.0", "check.allow.tangent: 0 against exclusiveMinimum 0"),
     ] {
         assert_eq!(fault(kind, text), wanted, "{text}");

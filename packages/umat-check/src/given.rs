@@ -16,17 +16,19 @@ pub struct Expect {
     /// The material that it is of, by name. Default: all.
     pub material: Option<String>,
     /// Where the numbers are from. Required.
+    #[cfg_attr(feature = "schema", schemars(required))]
     source: Option<Spanned<String>>,
     /// The end of a path of logarithmic strain, shears twice the tensor's, or a list of its corners; `"free"` where
     /// there is no stress.
     strain: Spanned<Path>,
     /// Cauchy's at the end of the path; `"any"` where it is not known.
     stress: Spanned<Vec<Entry>>,
-    /// Of the largest stress. Default: 1e-3.
+    /// How far the stress may be from it, as a part of the largest component. Default: 1e-3.
     tolerance: Option<Positive>,
-    /// From corner to corner, up to 100000. Default: 20.
+    /// How many increments lead from corner to corner, up to 100000. Default: 20.
+    #[cfg_attr(feature = "schema", schemars(range(min = 1, max = 100_000)))]
     increments: Option<Spanned<usize>>,
-    /// From corner to corner. Default: 1.
+    /// The time from corner to corner. Default: 1.
     time: Option<Positive>,
 }
 
@@ -36,7 +38,15 @@ pub struct Expect {
 #[serde(untagged, expecting = "expected a number, \"free\" or \"any\"")]
 enum Entry {
     Number(f64),
-    Word(String),
+    Word(Word),
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "lowercase")]
+enum Word {
+    Free,
+    Any,
 }
 
 /// The end of a path from the undeformed state, or its corners.
@@ -61,10 +71,11 @@ pub fn expected(source: &Source, given: &Expect, components: usize) -> Result<Ex
         let allowed = format!("{components} numbers, or \"free\" where there is no stress, or a list of such corners");
         source.error(given.strain.span(), &format!("strain is no path; allowed: {allowed}"))
     };
-    let path = corners.iter().map(|corner| numbers(corner, "free", components));
+    let path = corners.iter().map(|corner| numbers(corner, Word::Free, components));
     let path: Vec<[Option<f64>; 6]> =
         path.collect::<Option<Vec<_>>>().filter(|path| !path.is_empty()).ok_or_else(wrong_strain)?;
-    let stress = numbers(given.stress.get_ref(), "any", components).filter(|stress| stress.iter().any(Option::is_some));
+    let stress =
+        numbers(given.stress.get_ref(), Word::Any, components).filter(|stress| stress.iter().any(Option::is_some));
     let stress = stress.ok_or_else(|| {
         let allowed = format!("{components} numbers, or \"any\" where it is not known, at least one of them a number");
         source.error(given.stress.span(), &format!("stress is no answer; allowed: {allowed}"))
@@ -92,17 +103,17 @@ pub fn expected(source: &Source, given: &Expect, components: usize) -> Result<Ex
 }
 
 /// Of so many entries the numbers, where the word does not stand; none where there is anything else.
-fn numbers(entries: &[Entry], word: &str, components: usize) -> Option<[Option<f64>; 6]> {
+fn numbers(entries: &[Entry], word: Word, components: usize) -> Option<[Option<f64>; 6]> {
     let mut numbers = [Some(0.0); 6];
     for (number, entry) in numbers.iter_mut().zip(entries) {
         *number = match entry {
             Entry::Number(value) if value.is_finite() => Some(*value),
-            Entry::Word(known) if known == word => None,
+            Entry::Word(known) if *known == word => None,
             Entry::Number(_) | Entry::Word(_) => return None,
         };
     }
     for number in &mut numbers[components..] {
-        *number = if word == "any" { None } else { Some(0.0) };
+        *number = if word == Word::Any { None } else { Some(0.0) };
     }
     (entries.len() == components).then_some(numbers)
 }

@@ -37,7 +37,7 @@ pub struct File {
     plane: Option<Plane>,
     /// The range of principal stretches, lowest and highest: what the law is for. Default: `[0.9, 1.1]`.
     stretch: Option<Spanned<Vec<f64>>>,
-    /// Of a cohesive element: the largest, as STRAN has it. Default: none.
+    /// The largest separation of a cohesive element, as STRAN has it. Default: none.
     separation: Option<Positive>,
     /// The norm of the logarithmic strain of one increment; with `separation` of the separation. Default: 0.01.
     increment: Option<Positive>,
@@ -55,13 +55,14 @@ pub struct File {
     nlgeom: Option<bool>,
     /// Directions of three numbers in the reference configuration. Default: none.
     fibres: Option<Spanned<Vec<Vec<f64>>>>,
-    /// Of the random states. Default: 1.
+    /// The seed of the random states. Default: 1.
     seed: Option<u64>,
     /// Of a VUMAT: of the undeformed material. Default: 2, by which energies per mass and per volume are told apart.
     density: Option<Positive>,
     /// Of a VUMAT: DELETE of `*DEPVAR`, the state variable that is 0 where the point is deleted. Default: none.
     deletion: Option<Spanned<usize>>,
     /// Of a VUMAT: what defgradOld and defgradNew are, R U (`"RU"`) or U (`"U"`). Default: `"RU"`.
+    #[cfg_attr(feature = "schema", schemars(extend("enum" = ["RU", "U"])))]
     defgrad: Option<Spanned<String>>,
     /// [Known answers](reference/check-lines.md#expect). Default: none.
     #[serde(default)]

@@ -25,10 +25,11 @@ use crate::law::status;
 ///
 /// # Safety
 /// The block is valid, see [`Points`], with at least COUNT points next to each other, one alone for lanes that are
-/// [`ALONE`](Lanes::ALONE); its old state is in the arrays of the new one, or copied there; `WANT` requests nothing
-/// that the block has no array for; the processor has the lanes' instructions. The other functions of this file are
-/// called for such a block, and for the lanes from a point i on with i + COUNT ≤ n, as [`place`] gives them: the
-/// components of every array that is not null, and of every one that WANT requests, have COUNT values from i on.
+/// [`ALONE`](Lanes::ALONE); its old state is in the arrays of the new one, or copied there, or, for lanes that are
+/// ALONE, read from its own; `WANT` requests nothing that the block has no array for; the processor has the lanes'
+/// instructions. The other functions of this file are called for such a block, and for the lanes from a point i on with
+/// i + COUNT ≤ n, as [`place`] gives them: the components of every array that is not null, and of every one that WANT
+/// requests, have COUNT values from i on.
 #[inline(always)]
 pub(super) unsafe fn sweep<T: Scalar, R: Lanes<T>, const WANT: u8>(
     law: &Hyperelastic<T>,
@@ -265,8 +266,8 @@ const NEVER: u8 = 0;
 const BEFORE: u8 = 1;
 const LOOKED_UP: u8 = 2;
 
-/// Whether a and b of a section as the deformation makes it are needed besides those of its axes that have slid: for the
-/// stress by mode, the wave speed, the longitudinal shear and the tangent.
+/// Whether a and b of a section as the deformation makes it are needed besides those of its axes that have slid: for
+/// the stress by mode, the wave speed, the longitudinal shear and the tangent.
 const fn needs_whole<const WANT: u8>() -> bool {
     WANT & (ANY | EXPLICIT | SHEAR) != 0
 }
@@ -390,7 +391,8 @@ unsafe fn evaluate<T: Scalar, R: Lanes<T>, A: GroupAxes<R>, const WANT: u8, cons
 /// The stages. For all of them:
 ///
 /// # Safety
-/// As for [`evaluate_group`], after those that stand before it; k < count ≤ STAGED in every loop, and at(k) + COUNT ≤ n.
+/// As for [`evaluate_group`], after those that stand before it; k < count ≤ STAGED in every loop, and at(k) + COUNT ≤
+/// n.
 impl<T: Scalar, R: Lanes<T>, A: GroupAxes<R>> Group<'_, T, R, A> {
     /// The first point of register k.
     #[inline(always)]

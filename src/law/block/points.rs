@@ -95,6 +95,7 @@ pub struct Points<T> {
 /// # Safety
 /// As for [`Points`].
 #[derive(Clone, Copy, Debug)]
+#[doc(hidden)]
 pub struct OnePoint<T> {
     pub f: *const T,
     /// Null for that of the properties.

@@ -20,7 +20,8 @@ pub(super) const ANY: u8 = 4;
 pub(super) const SHEAR: u8 = 8;
 /// The law with friction between the fibres. The last part of its state begins with four variables of its own.
 pub(super) const FRICTION: u8 = 16;
-/// What explicit solvers ask beside the state, where the block has it: the wave speed, and failure limits of the points.
+/// What explicit solvers ask beside the state, where the block has it: the wave speed, and failure limits of the
+/// points.
 pub(super) const EXPLICIT: u8 = 32;
 pub(super) const LOST: usize = 0;
 pub(super) const I_TE: usize = 1;

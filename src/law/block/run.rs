@@ -216,8 +216,8 @@ pub(crate) unsafe fn evaluate_points<T: Precision, L: Kernels<T>>(law: &L, point
     }
 }
 
-/// Evaluates a law at one point of which [`evaluate_points`] need find out nothing: as it has been checked, or as a host makes
-/// it of its own structure for one point. Returns its status code.
+/// Evaluates a law at one point of which [`evaluate_points`] need find out nothing: as it has been checked, or as a
+/// host makes it of its own structure for one point. Returns its status code.
 ///
 /// # Safety
 /// The points are valid, see [`Points`], with n = 1 and strides of 1, and [`Points::check`] finds nothing wrong.

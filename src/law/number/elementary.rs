@@ -358,7 +358,7 @@ pub fn sinh_and_exp_of_minus<R: Real>(u: R) -> (R, R) {
     let (high, low) = ln_2_in_parts::<R>();
     let n = (u * R::splat(LOG2_E)).round();
     let r = n.mul_add(R::splat(-low), n.mul_add(R::splat(-high), u));
-    // Both powers of two do not wait for r, and no exponential for the reciprocal of the other.
+    // eᵘ and e^−u by one series: their powers of two do not wait for r, and neither needs a division by the other.
     let half = R::splat(0.5);
     let (power, inverse) = (half.times_power_of_two(n), half.times_power_of_two(-n));
     let (sum, difference) = (power + inverse, power - inverse);
