@@ -182,7 +182,8 @@ fn tangents_of_elements<T: Functions>(
     if *code == status::NO_DEFORMATION_GRADIENT && lacks_gradient(case, 0) {
         return Ok(());
     }
-    let asked = with::TANGENT | with::STATUS | with::STATE;
+    // What the routine evaluates itself; a stress may be beyond the format.
+    let asked = with::TANGENT | with::STATUS | with::STATE | with::STRESS;
     let mut further = Case { host: Host::None, with: asked, old: Old::Apart, measure: 1, ..case.clone() };
     for (i, point) in further.points.iter_mut().enumerate() {
         (point.state, point.f_old) = (outcome.state.row(i), point.f);
