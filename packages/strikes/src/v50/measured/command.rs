@@ -1,5 +1,6 @@
 //! `toron v50 --analyse TABLE`: the curve of shots that somebody has measured, and of two tables their difference.
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use super::compare::Difference;
@@ -163,10 +164,16 @@ fn cells(found: &Difference, [name, unit]: [&str; 2]) -> Vec<(String, String)> {
     .to_vec()
 }
 
+/// The files' names without their folders, unless two are the same.
+fn short_names<'a>(paths: impl Iterator<Item = &'a str> + Clone) -> Vec<String> {
+    let name = |path: &str| Path::new(path).file_name().map_or(String::new(), |name| name.display().to_string());
+    let names: Vec<String> = paths.clone().map(name).collect();
+    let distinct: BTreeSet<&String> = names.iter().collect();
+    if distinct.len() == names.len() { names } else { paths.map(str::to_string).collect() }
+}
+
 fn draw(output: &Path, tables: &[Measured], told: &[Analysis]) -> Result<(), Error> {
-    let name =
-        |table: &Measured| Path::new(&table.name).file_name().map_or(String::new(), |name| name.display().to_string());
-    let names: Vec<String> = tables.iter().map(name).collect();
+    let names = short_names(tables.iter().map(|table| table.name.as_str()));
     let shown: Vec<Shown> = tables
         .iter()
         .zip(told)
@@ -238,5 +245,16 @@ impl Measurements {
         let only: Result<Vec<(String, String)>, Error> = self.only.iter().map(pair).collect();
         let [speed, outcome, through] = [&self.speed, &self.outcome, &self.through].map(Clone::clone);
         Ok(Choice { speed, outcome, through, only: only? })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::short_names;
+
+    #[test]
+    fn tables_of_one_name_are_told_apart_by_their_folders() {
+        assert_eq!(short_names(["a/shots.csv", "b/gun.csv"].into_iter()), ["shots.csv", "gun.csv"]);
+        assert_eq!(short_names(["a/shots.csv", "b/shots.csv"].into_iter()), ["a/shots.csv", "b/shots.csv"]);
     }
 }
