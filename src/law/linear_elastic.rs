@@ -17,8 +17,8 @@ use super::error::Error;
 use super::failure::Failure;
 use super::number::real::Real;
 use super::number::vector::{
-    Matrix, along, cofactors, cross, difference, dot, image, is_finite, product, scale, scaled, selected, square_norm,
-    sum, transposed, unit,
+    Matrix, along, cofactors, cross, difference, dot, image, is_finite, product, scale, scaled, select, selected,
+    square_norm, sum, transposed, unit,
 };
 use super::resistance::Resistance;
 use super::state::{LINEAR_ALIVE, LINEAR_ELASTIC_STATE, LINEAR_FAILED, LINEAR_LARGEST, LINEAR_STRESS, LINEAR_WORK};
@@ -484,10 +484,12 @@ pub(super) fn axes_of<R: Real>(frame: &FibreFrame<R>, second: [R; 3]) -> (Matrix
     let (n, usable) = FibreFrame::new(second);
     let across = along(n.m, -dot(frame.m, n.m), frame.m);
     let (n, apart) = FibreFrame::new(across);
-    let usable = usable & apart & R::splat(1e-6).lt(dot(across, across));
+    let square = dot(across, across);
+    let usable = usable & apart & R::splat(1e-6).lt(square);
     // Of an axis near the fibre the difference has few digits, so that it is made orthogonal once more.
-    let n = FibreFrame { m: along(n.m, -dot(frame.m, n.m), frame.m), ..n };
-    let chosen = [frame.m, n.m, cross(frame.m, n.m)];
+    let once_more = along(n.m, -dot(frame.m, n.m), frame.m);
+    let second = select(square.lt(R::splat(1.0 / 16.0)), once_more, n.m);
+    let chosen = [frame.m, second, cross(frame.m, second)];
     (selected(any, &[frame.m, frame.t1, frame.t2], &chosen), any | usable)
 }
 
