@@ -72,7 +72,11 @@ const ARROWS: [Arrows; 28] = [
         ],
         &[],
     ),
-    ("toron-keys", &["toron-materials", "toron-parameters", "toron-shared", "toron-strikes"], &["toron-test-support"]),
+    (
+        "toron-keys",
+        &["toron-materials", "toron-parameters", "toron-shared", "toron-strikes", "umat-check"],
+        &["toron-test-support"],
+    ),
     ("toron-benches", &[], &["toron", "toron-materials", "toron-pictures", "toron-test-support"]),
     ("xtask", &[], &[]),
     // `examples/own_law`.
