@@ -481,8 +481,9 @@ static void point_outputs(int32_t rotation, int with_tangent)
 
 /* ---- Directions of a point's own */
 
-/* They give, bit for bit, what a law gives that has been prepared with these directions: both go through the same operations. Only
- * with a tangent in single precision the law's are rounded first, and a point's are not. */
+/* They give what a law gives that has been prepared with these directions, bit for bit where the axes have the same bits: a law's are
+ * computed without fused multiply-add, a point's with it, and in the frame of these directions no rounding differs. Only with a tangent
+ * in single precision the law's are rounded first, and a point's are not. */
 static void directions(int32_t rotation, int with_tangent)
 {
     const double fibre[3] = {0.6, -2, 0.3}, second[3] = {0.5, 0.1, 3}, f[9] = {1.01, 0.02, 0, 0.3, 0.9, 0.1, 0, -0.1, 1.1};

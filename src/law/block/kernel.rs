@@ -261,7 +261,7 @@ impl<R: Real, K> Stages<'_, R, K> {
     }
 }
 
-/// Whether fibres have slid before: one point goes different ways through all stages, a block looks it up in each.
+/// Whether fibres have slid before: a group goes one of two ways through all stages, or looks it up in each.
 const NEVER: u8 = 0;
 const BEFORE: u8 = 1;
 const LOOKED_UP: u8 = 2;
@@ -327,19 +327,17 @@ unsafe fn staged<T: Scalar, R: Lanes<T>, A: GroupAxes<R>, const WANT: u8>(group:
     };
     // SAFETY: as the caller promises.
     unsafe {
-        if const { WANT & FRICTION != 0 } {
-            group.recall_slip(&mut stages);
-            if R::ALONE || WANT & ANY == 0 {
-                return match stages.slides.any_before {
-                    true => evaluate::<T, R, A, WANT, BEFORE>(group, &mut stages, worst),
-                    false => evaluate::<T, R, A, WANT, NEVER>(group, &mut stages, worst),
-                };
-            }
+        if const { WANT & FRICTION == 0 } {
+            return evaluate::<T, R, A, WANT, NEVER>(group, &mut stages, worst);
         }
-        if const { WANT & FRICTION != 0 } {
-            evaluate::<T, R, A, WANT, LOOKED_UP>(group, &mut stages, worst);
-        } else {
-            evaluate::<T, R, A, WANT, NEVER>(group, &mut stages, worst);
+        group.recall_slip(&mut stages);
+        // The kernel for any request is large, and compiled once for both ways.
+        if const { !R::ALONE && WANT & ANY != 0 } {
+            return evaluate::<T, R, A, WANT, LOOKED_UP>(group, &mut stages, worst);
+        }
+        match stages.slides.any_before {
+            true => evaluate::<T, R, A, WANT, BEFORE>(group, &mut stages, worst),
+            false => evaluate::<T, R, A, WANT, NEVER>(group, &mut stages, worst),
         }
     }
 }
