@@ -35,12 +35,12 @@ def version() -> str:
     sys.exit("Cargo.toml has no version")
 
 
-def need_cargo() -> None:
+def need_cargo(otherwise: str) -> None:
     """Ends where there is no cargo."""
     if not shutil.which("cargo"):
         sys.exit(
             "The package contains a library in Rust, and cargo, which builds it, is not installed. Install Rust 1.89 or later "
-            "(https://rustup.rs), or set TORON_LIBRARY to a libtoron.so that has been built."
+            f"(https://rustup.rs){otherwise}."
         )
 
 
@@ -51,7 +51,7 @@ def shared_library() -> Path:
         if not Path(given).is_file():
             sys.exit(f"TORON_LIBRARY is {given}, which is no file; allowed: the absolute path of a libtoron.so that has been built")
         return Path(given)
-    need_cargo()
+    need_cargo(", or set TORON_LIBRARY to a libtoron.so that has been built")
     command = ["cargo", "build", "--release", "--locked", "-p", "toron-c", "--message-format=json-render-diagnostics"]
     built = subprocess.run(command, cwd=ROOT, stdout=subprocess.PIPE, check=False)
     if built.returncode != 0:
@@ -95,7 +95,7 @@ class BuildWithLibrary(build_py):
 
 def crates(folder: Path) -> None:
     """Writes the crates of the library and a workspace for them."""
-    need_cargo()
+    need_cargo("")
     packages = [option for crate in CRATES for option in ("--package", crate)]
     subprocess.run(["cargo", "package", "--quiet", "--no-verify", "--locked", *packages], cwd=ROOT, check=True)
     metadata = subprocess.run(["cargo", "metadata", "--no-deps", "--format-version=1"], cwd=ROOT, stdout=subprocess.PIPE, check=True)
