@@ -648,8 +648,11 @@ fn the_readme_s_figures_of_the_panel_are_those_of_the_results() {
     );
 }
 
-/// The summary of a scene's cases: a line for each, with the titles in the first.
-struct Summary(Vec<Vec<String>>);
+/// The summary of a scene's cases, a record for each.
+struct Summary {
+    titles: csv::StringRecord,
+    cases: Vec<csv::StringRecord>,
+}
 
 impl Summary {
     /// That of `toron impact SCENE`, whose files go to the folder of this name.
@@ -657,22 +660,14 @@ impl Summary {
         let output = folder(name);
         let mut program = Command::new(env!("CARGO_BIN_EXE_toron"));
         run(program.arg("impact").arg(scene).arg("-o").arg(&output).current_dir(ROOT), "");
-        let summary = std::fs::read_to_string(output.join("summary.csv")).expect("the summary");
-        // A text in quotes may have commas.
-        let fields = |line: &str| {
-            let mut quoted = false;
-            let comma = |c: char| {
-                quoted ^= c == '"';
-                c == ',' && !quoted
-            };
-            line.split(comma).map(String::from).collect()
-        };
-        Summary(summary.lines().map(fields).collect())
+        let mut reader = csv::Reader::from_path(output.join("summary.csv")).expect("the summary");
+        let titles = reader.headers().expect("titles").clone();
+        Summary { titles, cases: reader.records().map(|case| case.expect("a case")).collect() }
     }
 
     fn value(&self, case: &str, column: &str) -> &str {
-        let place = self.0[0].iter().position(|title| title == column).expect(column);
-        &self.0.iter().find(|line| line[0] == case).expect(case)[place]
+        let place = self.titles.iter().position(|title| title == column).expect(column);
+        &self.cases.iter().find(|record| &record[0] == case).expect(case)[place]
     }
 }
 
@@ -691,114 +686,53 @@ fn the_readme_s_figure_of_the_yarn_is_what_its_command_gives() {
     assert!(read("results/impact.md").contains(&format!("{speed:.1}")), "{speed}");
 }
 
-/// A row of a table of the struck yarn: its scene, the heading over the table, and for each cell the column's title,
-/// the case, and the column of the summary.
-struct Row {
-    scene: &'static str,
-    heading: &'static str,
-    row: &'static str,
-    cells: &'static [(&'static str, &'static str, &'static str)],
-}
+const AT_END: &str = "speed_at_end (mm/ms)";
+const W_EL: &str = "w_el_at_end (mJ/mm³)";
+const W_TC: &str = "w_tc_at_end (mJ/mm³)";
+const W_TD: &str = "w_td_at_end (mJ/mm³)";
 
-const ROWS_OF_THE_YARN: [Row; 11] = [
-    Row {
-        scene: "table_4_5",
-        heading: "## Residual speeds, Tab. 4.5",
-        row: "`toron impact`",
-        cells: &[
-            ("MF 100", "mf-100", RESIDUAL_SPEED),
-            ("MF 120", "mf-120", RESIDUAL_SPEED),
-            ("UF 120", "uf-120", RESIDUAL_SPEED),
-            ("UF 140", "uf-140", RESIDUAL_SPEED),
-            ("linear 100", "linear-100", RESIDUAL_SPEED),
-            ("linear 120", "linear-120", RESIDUAL_SPEED),
-        ],
-    },
-    Row {
-        scene: "margins",
-        heading: "### Cases near the limit",
-        row: "no viscosity",
-        cells: &[
-            ("MF 120", "mf-120-no-viscosity", RESIDUAL_SPEED),
-            ("MF 100", "mf-100-no-viscosity", "speed_at_end (mm/ms)"),
-            ("UF 140", "uf-140-no-viscosity", RESIDUAL_SPEED),
-        ],
-    },
-    Row {
-        scene: "margins",
-        heading: "### Cases near the limit",
-        row: "hourglass 1.0",
-        cells: &[
-            ("MF 120", "mf-120-stiff-hourglass", RESIDUAL_SPEED),
-            ("MF 100", "mf-100-stiff-hourglass", RESIDUAL_SPEED),
-            ("UF 140", "uf-140-stiff-hourglass", RESIDUAL_SPEED),
-        ],
-    },
-    Row {
-        scene: "margins",
-        heading: "### Cases near the limit",
-        row: "50 layers",
-        cells: &[
-            ("MF 120", "mf-120-50-layers", RESIDUAL_SPEED),
-            ("MF 100", "mf-100-50-layers", RESIDUAL_SPEED),
-            ("UF 140", "uf-140-50-layers", RESIDUAL_SPEED),
-        ],
-    },
-    Row {
-        scene: "margins_linear",
-        heading: "### Cases near the limit",
-        row: "no viscosity",
-        cells: &[("linear 100", "linear-100-no-viscosity", RESIDUAL_SPEED)],
-    },
-    Row {
-        scene: "margins_linear",
-        heading: "### Cases near the limit",
-        row: "hourglass 1.0",
-        cells: &[("linear 100", "linear-100-stiff-hourglass", RESIDUAL_SPEED)],
-    },
-    Row {
-        scene: "margins_linear",
-        heading: "### Cases near the limit",
-        row: "50 layers",
-        cells: &[("linear 100", "linear-100-50-layers", RESIDUAL_SPEED)],
-    },
-    Row {
-        scene: "no_failure",
-        heading: "## Energy densities at 30 µs are within 11 % of the thesis",
-        row: "6 × 2",
-        cells: &[
-            ("W_el", "hyperelastic", "w_el_at_end (mJ/mm³)"),
-            ("W_tc", "hyperelastic", "w_tc_at_end (mJ/mm³)"),
-            ("W_td", "hyperelastic", "w_td_at_end (mJ/mm³)"),
-        ],
-    },
-    Row {
-        scene: "no_failure",
-        heading: "## Energy densities at 30 µs are within 11 % of the thesis",
-        row: "12 × 4",
-        cells: &[
-            ("W_el", "section-12x4", "w_el_at_end (mJ/mm³)"),
-            ("W_tc", "section-12x4", "w_tc_at_end (mJ/mm³)"),
-            ("W_td", "section-12x4", "w_td_at_end (mJ/mm³)"),
-        ],
-    },
-    Row {
-        scene: "mesh",
-        heading: "## Convergence",
-        row: "34.0",
-        cells: &[("150 elements", "half", RESIDUAL_SPEED), ("9600", "double", RESIDUAL_SPEED)],
-    },
-    Row {
-        scene: "contact",
-        heading: "## Convergence",
-        row: "34.0",
-        cells: &[
-            ("contact 1e4", "k-1e4", RESIDUAL_SPEED),
-            ("1e5", "k-1e5", RESIDUAL_SPEED),
-            ("1e6, usual", "k-1e6", RESIDUAL_SPEED),
-            ("1e7", "k-1e7", RESIDUAL_SPEED),
-        ],
-    },
+/// The scenes of the struck yarn, with the headings over the tables of their figures.
+const SCENES_OF_THE_YARN: [(&str, &str); 6] = [
+    ("table_4_5", "## Residual speeds, Tab. 4.5"),
+    ("margins", "### Cases near the limit"),
+    ("margins_linear", "### Cases near the limit"),
+    ("no_failure", "## Energy densities at 30 µs are within 11 % of the thesis"),
+    ("mesh", "## Convergence"),
+    ("contact", "## Convergence"),
+];
+
+/// Their cells: scene, row, the column's title, the case, and the column of the summary.
+const CELLS_OF_THE_YARN: [(&str, &str, &str, &str, &str); 30] = [
+    ("table_4_5", "`toron impact`", "MF 100", "mf-100", RESIDUAL_SPEED),
+    ("table_4_5", "`toron impact`", "MF 120", "mf-120", RESIDUAL_SPEED),
+    ("table_4_5", "`toron impact`", "UF 120", "uf-120", RESIDUAL_SPEED),
+    ("table_4_5", "`toron impact`", "UF 140", "uf-140", RESIDUAL_SPEED),
+    ("table_4_5", "`toron impact`", "linear 100", "linear-100", RESIDUAL_SPEED),
+    ("table_4_5", "`toron impact`", "linear 120", "linear-120", RESIDUAL_SPEED),
+    ("margins", "no viscosity", "MF 120", "mf-120-no-viscosity", RESIDUAL_SPEED),
+    ("margins", "no viscosity", "MF 100", "mf-100-no-viscosity", AT_END),
+    ("margins", "no viscosity", "UF 140", "uf-140-no-viscosity", RESIDUAL_SPEED),
+    ("margins", "hourglass 1.0", "MF 120", "mf-120-stiff-hourglass", RESIDUAL_SPEED),
+    ("margins", "hourglass 1.0", "MF 100", "mf-100-stiff-hourglass", RESIDUAL_SPEED),
+    ("margins", "hourglass 1.0", "UF 140", "uf-140-stiff-hourglass", RESIDUAL_SPEED),
+    ("margins", "50 layers", "MF 120", "mf-120-50-layers", RESIDUAL_SPEED),
+    ("margins", "50 layers", "MF 100", "mf-100-50-layers", RESIDUAL_SPEED),
+    ("margins", "50 layers", "UF 140", "uf-140-50-layers", RESIDUAL_SPEED),
+    ("margins_linear", "no viscosity", "linear 100", "linear-100-no-viscosity", RESIDUAL_SPEED),
+    ("margins_linear", "hourglass 1.0", "linear 100", "linear-100-stiff-hourglass", RESIDUAL_SPEED),
+    ("margins_linear", "50 layers", "linear 100", "linear-100-50-layers", RESIDUAL_SPEED),
+    ("no_failure", "6 × 2", "W_el", "hyperelastic", W_EL),
+    ("no_failure", "6 × 2", "W_tc", "hyperelastic", W_TC),
+    ("no_failure", "6 × 2", "W_td", "hyperelastic", W_TD),
+    ("no_failure", "12 × 4", "W_el", "section-12x4", W_EL),
+    ("no_failure", "12 × 4", "W_tc", "section-12x4", W_TC),
+    ("no_failure", "12 × 4", "W_td", "section-12x4", W_TD),
+    ("mesh", "34.0", "150 elements", "half", RESIDUAL_SPEED),
+    ("mesh", "34.0", "9600", "double", RESIDUAL_SPEED),
+    ("contact", "34.0", "contact 1e4", "k-1e4", RESIDUAL_SPEED),
+    ("contact", "34.0", "1e5", "k-1e5", RESIDUAL_SPEED),
+    ("contact", "34.0", "1e6, usual", "k-1e6", RESIDUAL_SPEED),
+    ("contact", "34.0", "1e7", "k-1e7", RESIDUAL_SPEED),
 ];
 
 /// The tables of the struck yarn have what their scenes give, to the digits that they show; NP: not penetrated.
@@ -807,20 +741,20 @@ const ROWS_OF_THE_YARN: [Row; 11] = [
 fn the_tables_of_the_yarn_are_what_its_scenes_give() {
     const PAGE: &str = "results/impact.md";
     let mut wrong = Vec::new();
-    for Row { scene, heading, row, cells } in ROWS_OF_THE_YARN {
-        // Of the scene's cases those of the row alone.
+    for (scene, heading) in SCENES_OF_THE_YARN {
+        let cells: Vec<_> = CELLS_OF_THE_YARN.into_iter().filter(|cell| cell.0 == scene).collect();
+        // Of the scene's cases those that the page shows.
         let file = Path::new(ROOT).join(format!("examples/yarn_impact/{scene}.toml"));
         let text = std::fs::read_to_string(&file).expect(scene);
         let mut parts = text.split("[[case]]");
         let common = parts.next().expect("what all cases share");
-        let wanted = |part: &&str| cells.iter().any(|(_, case, _)| part.contains(&format!("name = \"{case}\"")));
+        let wanted = |part: &&str| cells.iter().any(|cell| part.contains(&format!("name = \"{}\"", cell.3)));
         let cases: Vec<_> = parts.filter(wanted).collect();
-        assert_eq!(cases.len(), cells.iter().map(|cell| cell.1).collect::<BTreeSet<_>>().len(), "{scene}, {row}");
-        let place = folder("documents-yarn");
-        let file = place.join("scene.toml");
+        assert_eq!(cases.len(), cells.iter().map(|cell| cell.3).collect::<BTreeSet<_>>().len(), "{scene}");
+        let file = folder("documents-yarn").join("scene.toml");
         std::fs::write(&file, [&[common][..], &cases].concat().join("[[case]]")).expect("a scene");
         let summary = Summary::of(&file, "documents-yarn-results");
-        for &(title, case, column) in cells {
+        for (_, row, title, case, column) in cells {
             let (shown, value) = (cell(PAGE, heading, row, title), summary.value(case, column));
             let number = shown.split(' ').next().expect("a word");
             let digits = number.split_once('.').map_or(0, |(_, decimals)| decimals.len());
@@ -842,7 +776,11 @@ fn the_tables_of_the_yarn_are_what_its_scenes_give() {
 fn the_shares_of_intervals_that_hold_are_what_the_commands_print() {
     const PAGE: &str = "results/v50.md";
     const COMMAND: &str = "v50 examples/fabric_impact/v50.toml --simulate 1000 --firth";
-    const CURVES: [(&str, &str); 2] = [("logit", "without correction"), ("logit, Firth", "with Firth's correction")];
+    // A curve, and the titles of its shares in both tables.
+    const CURVES: [(&str, [&str; 2]); 2] = [
+        ("logit", ["V5, V50, V95, without correction", "without correction"]),
+        ("logit, Firth", ["with Firth's correction"; 2]),
+    ];
     let printed = |more: &str| {
         let mut program = Command::new(env!("CARGO_BIN_EXE_toron"));
         let output = run(program.args(COMMAND.split(' ')).args(more.split_whitespace()).current_dir(ROOT), "");
@@ -856,15 +794,14 @@ fn the_shares_of_intervals_that_hold_are_what_the_commands_print() {
         line[names.len()..names.len() + 3].join(", ")
     };
     let (flat, steep) = (printed(""), printed("--truth 41.2 0.75"));
-    for (curve, title) in CURVES {
+    for (curve, [title, title_of_separated]) in CURVES {
         for design in ["even", "langlie", "up-and-down", "d-optimal", "3pod"] {
-            let title = if curve == "logit" { "V5, V50, V95, without correction" } else { title };
             let shown = cell(PAGE, "## How often the intervals hold", design, title);
             assert_eq!(shown, shares(&flat, design, curve), "{design}, {curve}");
         }
         for (text, row) in [(&flat, "6.25 m/s"), (&steep, "0.75 m/s")] {
             let (_, separated) = text.split_once("separated (").expect("a table of the separated");
-            let shown = cell(PAGE, "### Where no zone of mixed results is left", row, title);
+            let shown = cell(PAGE, "### Where no zone of mixed results is left", row, title_of_separated);
             assert_eq!(shown, shares(separated, "even", curve), "{row}, {curve}");
         }
     }
