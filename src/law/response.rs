@@ -87,7 +87,12 @@ impl<R: Real> Deformed<'_, R> {
         // A latch that is NaN counts as failed.
         let mut latch_or_nan = latch + nan_if_invalid;
         let intact = Failure::intact(latch_or_nan);
-        let stress = if request.stress { law.cauchy(kinematics, k, intact, shear) } else { [zero; 6] };
+        let mut stress = if request.stress { law.cauchy(kinematics, k, intact, shear) } else { [zero; 6] };
+        if kinematics.slid.is_some() {
+            for x in &mut stress {
+                *x = unsigned_zero(*x);
+            }
+        }
 
         // A product with zero is NaN for a result that is not finite. With the bounds of the properties the invariants,
         // the index and the energies are finite wherever the kinematics are valid, except the energy of the
