@@ -102,7 +102,8 @@ impl<R: Real> Hyperelastic<R> {
             half * self.k_el * elongation * elongation,
             k.compaction_energy,
             half * self.k_td * strain.i_td * strain.i_td,
-            if shear { half * self.k_ld * i_ld * i_ld } else { zero },
+            // Half of the smallest stiffness is 0, and the slip may be large.
+            if shear { self.k_ld * i_ld * (half * i_ld) } else { zero },
         ]
     }
 
