@@ -75,7 +75,8 @@ fn held(case: &Case, state: &[f64]) -> f64 {
 fn energies<T: Number>(case: &Case, state: &[f64]) -> Checked {
     let k = |index| property::<T>(case, index);
     let [i_el, i_tc, i_td, i_ld] = [state[4], state[5], held(case, state), state[7]];
-    let half_square = |k: f64, i: f64| 0.5 * k * i * i;
+    // Half of the smallest number is 0.
+    let half_square = |k: f64, i: f64| k * i * (0.5 * i);
     let expected = [
         half_square(k(0), i_el.max(0.0)),
         k(1) * (-i_tc).max(0.0).powf(k(2)),

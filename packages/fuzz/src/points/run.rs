@@ -3,6 +3,7 @@
 use std::cell::RefCell;
 use std::panic::{self, AssertUnwindSafe};
 use std::sync::Once;
+use std::time::{Duration, Instant};
 
 use fastrand::Rng;
 use toron::status;
@@ -345,13 +346,14 @@ fn is_no_limit(limit: f64) -> bool {
 
 /// The smallest case, as far as it is found, that still fails.
 pub fn smallest(found: Found, fault: Option<Fault>) -> Found {
-    /// Then it is small enough.
+    /// Then it is small enough, or a case of many points takes too long.
     const MOST_PASSES: usize = 4;
-    let mut found = found;
+    const MOST_TIME: Duration = Duration::from_secs(60);
+    let (mut found, start) = (found, Instant::now());
     for _ in 0..MOST_PASSES {
         let (mut place, before) = (0, found.case.to_string());
         let mut cases = smaller(&found.case);
-        while let Some(case) = cases.get(place) {
+        while let Some(case) = cases.get(place).filter(|_| start.elapsed() < MOST_TIME) {
             match replay(case, fault) {
                 Err(why) => {
                     found = Found { case: case.clone(), why };
@@ -366,6 +368,9 @@ pub fn smallest(found: Found, fault: Option<Fault>) -> Found {
     }
     found
 }
+
+/// Numbers are made simpler in cases of no more points.
+const MOST_POINTS: usize = 16;
 
 /// Cases that are smaller: fewer points, plainer arrays, fewer requests, simpler numbers.
 fn smaller(case: &Case) -> Vec<Case> {
@@ -407,7 +412,8 @@ fn smaller(case: &Case) -> Vec<Case> {
             add(&|case| case.properties[place] = simple);
         }
     }
-    for point in 0..n {
+    // Each is a copy of the case, which must be small for so many.
+    for point in 0..if n > MOST_POINTS { 0 } else { n } {
         let count = numbers(&mut case.points[point].clone()).count();
         for place in 0..count {
             let value = *numbers(&mut case.points[point].clone()).nth(place).expect("a number");
