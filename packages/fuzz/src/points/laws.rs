@@ -139,12 +139,14 @@ pub fn condition(f: &[f64; 9]) -> f64 {
     f.try_inverse().map_or(f64::INFINITY, |inverse| f.norm() * inverse.norm())
 }
 
-/// The largest component of a stress 11 22 33 12 23 31, and the stress over it, of which no square underflows.
+/// The largest component of a stress 11 22 33 12 23 31, and the stress over it. What is so small that its square
+/// underflows is 0: nalgebra's eigenvalues beside such a component are NaN.
 fn scaled(component: impl Fn(usize) -> f64) -> (f64, nalgebra::Matrix3<f64>) {
     let [s11, s22, s33, s12, s23, s31] = std::array::from_fn(component);
     let stress = nalgebra::Matrix3::new(s11, s12, s31, s12, s22, s23, s31, s23, s33);
     let unit = stress.amax();
-    if unit > 0.0 { (unit, stress / unit) } else { (1.0, stress) }
+    let part = |x: f64| if x.abs() < 1e-100 * unit { 0.0 } else { x / unit };
+    if unit > 0.0 { (unit, stress.map(part)) } else { (1.0, stress) }
 }
 
 fn linear<T: Functions>(case: &Case, outcome: &Outcome<T>, i: usize, state: &[f64], own_limit: f64) -> Checked {
