@@ -139,8 +139,8 @@ pub fn condition(f: &[f64; 9]) -> f64 {
     f.try_inverse().map_or(f64::INFINITY, |inverse| f.norm() * inverse.norm())
 }
 
-/// The largest component of a stress 11 22 33 12 23 31, and the stress over it. What is so small that its square
-/// underflows is 0: nalgebra's eigenvalues beside such a component are NaN.
+/// The largest component of a stress 11 22 33 12 23 31, and the stress over it, in which what is below 1e-100 counts as
+/// 0: beside a component of 1e-149 nalgebra's eigenvalues are NaN.
 fn scaled(component: impl Fn(usize) -> f64) -> (f64, nalgebra::Matrix3<f64>) {
     let [s11, s22, s33, s12, s23, s31] = std::array::from_fn(component);
     let stress = nalgebra::Matrix3::new(s11, s12, s31, s12, s22, s23, s31, s23, s33);

@@ -413,7 +413,8 @@ fn smaller(case: &Case) -> Vec<Case> {
         }
     }
     // Each is a copy of the case, which must be small for so many.
-    for point in 0..if n > MOST_POINTS { 0 } else { n } {
+    let points = if n > MOST_POINTS { 0 } else { n };
+    for point in 0..points {
         let count = numbers(&mut case.points[point].clone()).count();
         for place in 0..count {
             let value = *numbers(&mut case.points[point].clone()).nth(place).expect("a number");
