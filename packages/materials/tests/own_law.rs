@@ -26,6 +26,7 @@ use toron_materials::material::laws::{LawName, Laws};
 use toron_materials::material::model::{Law, Material, Origin};
 use toron_materials::material::own_law::OwnLaw;
 use toron_materials::{deck, params};
+use toron_test_support::library::{ROOT, share_build};
 
 const MU: f64 = 2.0;
 const LAMBDA: f64 = 3.0;
@@ -184,10 +185,11 @@ fn a_new_law_is_the_example_under_its_own_name() {
     }
     let library = std::fs::read_to_string(folder.join("double/src/lib.rs")).expect("the library");
     assert!(library.contains("maxwell_yarn::MaxwellYarn as \"MAXWELL_YARN\", user 7;"), "{library}");
+    // As the example's libraries are built, and what they are built on is compiled once.
+    std::fs::copy(Path::new(ROOT).join("examples/own_law/Cargo.lock"), folder.join("Cargo.lock")).expect("a copy");
     let mut cargo = Command::new(env!("CARGO"));
-    cargo
-        .args(["check", "--quiet", "--offline", "--package", "maxwell-yarn-double", "--target-dir"])
-        .arg(folder.join("target"));
+    share_build(&mut cargo);
+    cargo.args(["check", "--quiet", "--release", "--package", "maxwell-yarn-double"]);
     let checked = cargo.current_dir(&folder).output().expect("cargo runs");
     assert!(checked.status.success(), "{}", String::from_utf8_lossy(&checked.stderr));
     let header = std::fs::read_to_string(folder.join("maxwell-yarn.h")).expect("the build has written the header");

@@ -22,19 +22,21 @@ pub fn flags() -> String {
     std::env::var("RUSTFLAGS").unwrap_or_default() + " -Csymbol-mangling-version=v0"
 }
 
+/// Has cargo build in one folder with the same flags: what several libraries are built on is then compiled once.
+pub fn share_build(command: &mut Command) {
+    command.env("RUSTFLAGS", flags()).env_remove("CARGO_ENCODED_RUSTFLAGS");
+    command.env("CARGO_TARGET_DIR", &*BUILD).env("CARGO_NET_OFFLINE", "true");
+}
+
 /// The library as a user installs it, from today's source, but for the names of functions inside; the libraries that
 /// solvers load by themselves are with it.
 pub static INSTALLED: LazyLock<PathBuf> = LazyLock::new(|| {
     let installed = BUILD.join("installed");
-    let environment = |command: &mut Command| {
-        command.env("RUSTFLAGS", flags()).env_remove("CARGO_ENCODED_RUSTFLAGS");
-        command.env("CARGO_TARGET_DIR", &*BUILD).env("CARGO_NET_OFFLINE", "true");
-    };
     let mut install = Command::new(Path::new(ROOT).join("install.sh"));
-    environment(&mut install);
+    share_build(&mut install);
     run(install.arg(format!("--prefix={}", installed.display())), "cargo");
     let mut cargo = Command::new(env!("CARGO"));
-    environment(&mut cargo);
+    share_build(&mut cargo);
     cargo.args(["build", "--release", "--locked", "--manifest-path"]).arg(Path::new(ROOT).join("Cargo.toml"));
     let packages = [
         "toron-abaqus",
@@ -61,7 +63,8 @@ pub static OWN_LAW: LazyLock<PathBuf> = LazyLock::new(|| {
     cargo
         .args(["build", "--release", "--locked", "--manifest-path"])
         .arg(Path::new(ROOT).join("examples/own_law/Cargo.toml"));
-    run(cargo.env("CARGO_TARGET_DIR", &*BUILD).env("CARGO_NET_OFFLINE", "true"), "cargo");
+    share_build(&mut cargo);
+    run(&mut cargo, "cargo");
     BUILD.join("release")
 });
 
