@@ -77,7 +77,15 @@ fn shown(line: &Value) -> String {
 fn each_case_is_told_as_what_it_is() {
     let Cases { case: cases } = parse("cases.toml");
     assert!(cases.len() > 10);
-    let differences: String = cases.iter().enumerate().map(|(number, case)| case.differences(number)).collect();
+    let threads = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
+    let differences_of = &|first: usize| {
+        let own = (first..cases.len()).step_by(threads);
+        own.map(|number| cases[number].differences(number)).collect::<String>()
+    };
+    let differences: String = std::thread::scope(|scope| {
+        let running: Vec<_> = (0..threads).map(|first| scope.spawn(move || differences_of(first))).collect();
+        running.into_iter().map(|thread| thread.join().expect("no case panics")).collect()
+    });
     assert!(differences.is_empty(), "{differences}");
 }
 
