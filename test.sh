@@ -55,4 +55,6 @@ ffi-tests/calculix/build.sh >/dev/null
 for requirements in python/tests ffi-tests/felupe ffi-tests/fedoo ffi-tests/akantu ffi-tests/lammps ffi-tests/meshio ffi-tests/pytexgen; do
     ffi-tests/python/environment.sh "$requirements/requirements.txt" >/dev/null
 done
+# What is compiled once is compiled faster without records for the next time.
+export CARGO_INCREMENTAL="${CARGO_INCREMENTAL:-0}"
 cargo test --locked --workspace --no-fail-fast "$@"
