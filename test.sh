@@ -1,6 +1,6 @@
 #!/bin/sh
 # Runs the tests on a fresh machine: installs the compilers, tools and solvers that they call, where they are missing, then
-# `cargo test --workspace`. Arguments go to `cargo test`. It takes about 20 minutes on a quiet machine of two cores, and 3.6 GB of
+# `cargo test --workspace`. Arguments go to `cargo test`. It takes about 20 minutes on a quiet machine of two cores, and 3 GB of
 # disk. Tests that take minutes to half an hour are ignored here and run by `.ci/long`.
 set -eu
 cd "$(dirname "$0")"

@@ -4,22 +4,21 @@
 use std::path::Path;
 use std::process::{Command, Output};
 
-use toron_test_support::library::{BUILD, ROOT, flags, folder, run};
+use toron_test_support::library::{BUILD, ROOT, folder, run, share_build};
 
 /// Builds the package with these options, with the versions of the crates that the library itself has.
 fn build(options: &[&str]) -> Output {
     let root = Path::new(ROOT);
     let package = root.join("ffi-tests/freestanding");
     std::fs::copy(root.join("Cargo.lock"), package.join("Cargo.lock")).expect("Cargo.lock can be copied");
-    Command::new(env!("CARGO"))
-        .args(["rustc", "--release", "--offline", "--crate-type=cdylib", "--manifest-path"])
+    let mut cargo = Command::new(env!("CARGO"));
+    share_build(&mut cargo);
+    cargo
+        .args(["rustc", "--release", "--crate-type=cdylib", "--manifest-path"])
         .arg(package.join("Cargo.toml"))
-        .args(["--target-dir".as_ref(), BUILD.as_os_str()])
         .args(options)
         // The standard library's part of unwinding, which is never called.
         .args(["--", "-C", "link-arg=-Wl,--no-undefined", "-C", "link-arg=-Wl,--defsym=rust_eh_personality=0"])
-        .env("RUSTFLAGS", flags())
-        .env_remove("CARGO_ENCODED_RUSTFLAGS")
         .output()
         .expect("cargo runs")
 }

@@ -185,7 +185,7 @@ fn a_new_law_is_the_example_under_its_own_name() {
     }
     let library = std::fs::read_to_string(folder.join("double/src/lib.rs")).expect("the library");
     assert!(library.contains("maxwell_yarn::MaxwellYarn as \"MAXWELL_YARN\", user 7;"), "{library}");
-    // As the example's libraries are built, and what they are built on is compiled once.
+    // With the flags and versions of the example's libraries: what both are built on is compiled once.
     std::fs::copy(Path::new(ROOT).join("examples/own_law/Cargo.lock"), folder.join("Cargo.lock")).expect("a copy");
     let mut cargo = Command::new(env!("CARGO"));
     share_build(&mut cargo);

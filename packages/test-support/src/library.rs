@@ -16,15 +16,11 @@ pub static BUILD: LazyLock<PathBuf> = LazyLock::new(|| {
 /// What the static library needs of the system.
 pub const SYSTEM: [&str; 3] = ["-lpthread", "-ldl", "-lm"];
 
-/// The compiler's flags for the library: those of this run of the tests, and names that tell what a kernel is built
-/// for.
-pub fn flags() -> String {
-    std::env::var("RUSTFLAGS").unwrap_or_default() + " -Csymbol-mangling-version=v0"
-}
-
-/// Has cargo build in one folder with the same flags: what several libraries are built on is then compiled once.
+/// Has cargo build in one folder with the same flags: what several libraries are built on is then compiled once. The flags
+/// are those of this run of the tests, and names that tell what a kernel is built for.
 pub fn share_build(command: &mut Command) {
-    command.env("RUSTFLAGS", flags()).env_remove("CARGO_ENCODED_RUSTFLAGS");
+    let flags = std::env::var("RUSTFLAGS").unwrap_or_default() + " -Csymbol-mangling-version=v0";
+    command.env("RUSTFLAGS", flags).env_remove("CARGO_ENCODED_RUSTFLAGS");
     command.env("CARGO_TARGET_DIR", &*BUILD).env("CARGO_NET_OFFLINE", "true");
 }
 
