@@ -5,6 +5,7 @@ use std::time::{Duration, Instant};
 use serde::{Deserialize, Serialize};
 
 use super::element::{Measures, Shapes};
+use super::global_estimate::{Deformed, resist};
 use super::instructions::{Loops, run_widest};
 use super::lanes::{LANES, Lanes, Number, largest};
 use super::medium::{Entry, Medium};
@@ -31,6 +32,9 @@ pub const BLOCK: usize = 128;
 pub struct Scratch<T> {
     deformation_gradient: Vec<T>,
     modal: Vec<T>,
+    /// Of a trial motion: its gradient by columns, then what resists it, and its hourglass modes.
+    trial: Vec<T>,
+    trial_modal: Vec<T>,
     stress: Vec<T>,
     /// P by columns.
     nominal: Vec<T>,
@@ -49,6 +53,8 @@ impl<T: Number> Default for Scratch<T> {
         Scratch {
             deformation_gradient: array(9),
             modal: array(12),
+            trial: array(9),
+            trial_modal: array(12),
             stress: array(6),
             nominal: array(9),
             measures: Measures::new(BLOCK),
@@ -74,8 +80,11 @@ pub struct StepOptions {
     pub shortest: f64,
     /// Whether elements have failed: from then on those of a law of one's own may, of which it is not known before.
     pub has_failed: bool,
-    /// The stable step at which damping is taken for a stiffness: the last one.
+    /// The stable step at which damping is taken for a stiffness: the last one by the elements' bound.
     pub reference: f64,
+    /// That of an iteration of the [global estimate](super::global_estimate): the last stable step; without, there is none
+    /// in this step.
+    pub trial: Option<f64>,
 }
 
 /// Sums over the blocks in a step.
@@ -95,6 +104,15 @@ pub struct Sums {
     pub law: Duration,
 }
 
+/// Numbers of a body's nodes: where they are and what forces are added up there, and the same of a trial motion in a
+/// step with an iteration.
+pub struct Nodal<'a, T> {
+    pub displacement: &'a [[T; 3]],
+    pub forces: &'a mut [[T; 3]],
+    pub trial: &'a [[T; 3]],
+    pub resisted: &'a mut [[T; 3]],
+}
+
 /// Before the law is called: from displacements to deformation gradients and hourglass modes.
 struct Deform<'a, T> {
     shapes: &'a Shapes<T>,
@@ -111,6 +129,8 @@ struct Forces<'a, T> {
     options: StepOptions,
     sums: &'a mut Sums,
     forces: &'a mut [[T; 3]],
+    trial: &'a [[T; 3]],
+    resisted: &'a mut [[T; 3]],
 }
 
 impl<T: Number> Loops for Deform<'_, T> {
@@ -124,7 +144,7 @@ impl<T: Number> Loops for Deform<'_, T> {
 impl<T: Number> Loops for Forces<'_, T> {
     #[inline(always)]
     fn run(self) {
-        let Forces { block, medium, scratch, options, sums, forces } = self;
+        let Forces { block, medium, scratch, options, sums, forces, trial, resisted } = self;
         block.shapes.measure(&scratch.deformation_gradient, &mut scratch.measures);
         let StepOptions { step, .. } = options;
         let ElementBlock { shapes, history, .. } = &mut *block;
@@ -146,6 +166,9 @@ impl<T: Number> Loops for Forces<'_, T> {
         nominal_stress(block.shapes.stride, &point, &mut scratch.nominal);
         let History { intact, slid, .. } = &block.history;
         block.shapes.forces(&scratch.nominal, &scratch.modal, intact, slid, forces);
+        if let Some(reference) = options.trial {
+            block.resist(medium, scratch, reference, trial, resisted);
+        }
     }
 }
 
@@ -222,8 +245,7 @@ impl<T: Number> ElementBlock<T> {
     pub fn advance(
         &mut self,
         medium: &Medium<T>,
-        displacement: &[[T; 3]],
-        forces: &mut [[T; 3]],
+        Nodal { displacement, forces, trial, resisted }: Nodal<'_, T>,
         scratch: &mut Scratch<T>,
         options: StepOptions,
         sums: &mut Sums,
@@ -239,7 +261,7 @@ impl<T: Number> ElementBlock<T> {
         self.delete(medium, scratch, sums, |block, scratch, i| scratch.status[i] != status::OK && block.is_intact(i));
         sums.collapsed += sums.deleted.len() - others;
         self.limit_shear(medium, scratch);
-        run_widest(Forces { block: self, medium, scratch, options, sums, forces });
+        run_widest(Forces { block: self, medium, scratch, options, sums, forces, trial, resisted });
         let (latch, stride) = (medium.state().1, self.shapes.stride);
         self.delete(medium, scratch, sums, |block, _, i| {
             block.history.state[latch * stride + i] != T::default() && block.is_intact(i)
@@ -429,6 +451,25 @@ impl<T: Number> ElementBlock<T> {
         }
     }
 
+    /// Adds to what resists a trial motion of the nodes, by the forms of stiffness and damping that bound the law's and
+    /// viscosity's, and hourglass control.
+    #[inline(always)]
+    fn resist(
+        &self,
+        medium: &Medium<T>,
+        scratch: &mut Scratch<T>,
+        reference: f64,
+        motion: &[[T; 3]],
+        resisted: &mut [[T; 3]],
+    ) {
+        let (shapes, History { intact, slid, .. }) = (&self.shapes, &self.history);
+        let Scratch { deformation_gradient: f, trial, trial_modal, stress, measures, wave_speed, .. } = scratch;
+        shapes.deform_further(motion, slid, trial, trial_modal);
+        let of = Deformed { f, stress, measures, wave_speed, intact };
+        resist(medium, shapes.stride, &of, 2.0 / reference, trial);
+        shapes.forces(trial, trial_modal, intact, slid, resisted);
+    }
+
     /// Deletes the selected elements, and sets the latch where the law has not.
     fn delete(
         &mut self,
@@ -473,6 +514,7 @@ impl<T: Number> ElementBlock<T> {
             shortest: 0.0,
             has_failed: false,
             reference: 1.0,
+            trial: None,
         };
         let code = self.clone().call_law(medium, &mut scratch, options);
         let Shapes { n, stride, .. } = self.shapes;

@@ -3,7 +3,8 @@
 use serde::{Deserialize, Serialize};
 
 use super::archive::Archive;
-use super::block::{BLOCK, ElementBlock, Scratch, StepOptions, Sums};
+use super::block::{BLOCK, ElementBlock, Nodal, Scratch, StepOptions, Sums};
+use super::global_estimate::Trial;
 use super::lanes::{Number, largest};
 use super::medium::Medium;
 use super::mesh::Mesh;
@@ -42,6 +43,7 @@ pub struct Body<T> {
     pub springs: Vec<f64>,
     pub most_contact: f64,
     pub limit: StepLimit,
+    pub trial: Trial<T>,
     /// Of the last step.
     pub sums: Sums,
 }
@@ -68,6 +70,8 @@ pub struct BodyState<T> {
     pub lent: Vec<f64>,
     /// Of each element, by how much of its nodes it is in need for its volume; empty where all are alike.
     pub needs: Vec<f64>,
+    /// The motion by which the largest eigenvalue is estimated; empty before the first.
+    pub trial: Vec<[T; 3]>,
 }
 
 impl<T: Number> Body<T> {
@@ -88,6 +92,7 @@ impl<T: Number> Body<T> {
                 released: 0.0,
                 lent: Vec::new(),
                 needs: Vec::new(),
+                trial: Vec::new(),
             },
             forces: vec![[T::default(); 3]; count],
             mobility: Vec::new(),
@@ -100,6 +105,7 @@ impl<T: Number> Body<T> {
             springs: vec![0.0; count],
             most_contact: 0.0,
             limit: StepLimit::default(),
+            trial: Trial::default(),
             sums: Sums::default(),
             mesh,
         };
@@ -213,10 +219,19 @@ impl<T: Number> Body<T> {
     pub fn compute_forces(&mut self, media: &[Medium<T>], scratch: &mut Scratch<T>, options: StepOptions) {
         self.forces.fill([T::default(); 3]);
         self.springs.fill(0.0);
+        if options.trial.is_some() {
+            self.trial.start(&mut self.state.trial, self.forces.len());
+        }
         self.sums = Sums::default();
         for block in &mut self.blocks {
             let medium = &media[block.medium];
-            block.advance(medium, &self.state.displacement, &mut self.forces, scratch, options, &mut self.sums);
+            let nodal = Nodal {
+                displacement: &self.state.displacement,
+                forces: &mut self.forces,
+                trial: &self.state.trial,
+                resisted: &mut self.trial.resisted,
+            };
+            block.advance(medium, nodal, scratch, options, &mut self.sums);
         }
     }
 

@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::friction::coulomb_return;
+use super::global_estimate::CONTACT;
 use super::lanes::Number;
 use super::vector::{Vector, add, dot, times};
 
@@ -64,6 +65,8 @@ struct Node {
     friction: Vector,
     /// Energy in its penetration and its sticking.
     stored: f64,
+    /// Whether it touches, or may do so soon.
+    counts: bool,
 }
 
 /// Where a body's nodes are, and how they got there.
@@ -90,6 +93,8 @@ pub struct Contact {
     released: f64,
     /// Nothing touches before body and striker have moved so far.
     clear: f64,
+    /// Whether something touches, or may do so soon.
+    is_near: bool,
     /// Sum of the stiffnesses of the nodes that are touched.
     pub touching: f64,
 }
@@ -103,9 +108,19 @@ impl Contact {
             stiffness: striker.stiffness * surface[i],
             friction: [0.0; 3],
             stored: 0.0,
+            counts: false,
         };
         let nodes = met.map(node).collect();
-        Contact { striker, nodes, stored: 0.0, dissipated: 0.0, released: 0.0, clear: 0.0, touching: 0.0 }
+        Contact {
+            striker,
+            nodes,
+            stored: 0.0,
+            dissipated: 0.0,
+            released: 0.0,
+            clear: 0.0,
+            is_near: false,
+            touching: 0.0,
+        }
     }
 
     /// Removes the nodes that belong to no element any more; the energy balance keeps what they have stored.
@@ -132,8 +147,10 @@ impl Contact {
         // What may touch in the next steps counts in their length before it does.
         let soon = AHEAD * motion + SOON * self.striker.radius;
         if self.clear > soon {
+            self.is_near = false;
             return 0.0;
         }
+        self.is_near = true;
         let (mut total, mut deepest, mut held) = (0.0, f64::NEG_INFINITY, false);
         for node in &mut self.nodes {
             let number = node.number as usize;
@@ -143,7 +160,8 @@ impl Contact {
             let step = times(body.step, [x.into(), y.into(), z.into()]);
             let (depth, normal) = self.striker.meet(centre, place);
             deepest = if depth > deepest { depth } else { deepest };
-            if depth > -soon {
+            node.counts = depth > -soon;
+            if node.counts {
                 springs[number] += node.stiffness;
             }
             let (pressing, dissipated) = node.update(&self.striker, moved, depth, normal, step);
@@ -162,6 +180,16 @@ impl Contact {
         // Not above 0 where a node is inside.
         self.clear = if held { 0.0 } else { -deepest };
         total
+    }
+
+    /// Adds to what resists a trial motion of the body, as if nodes stuck to a striker at rest.
+    pub fn resist<T: Number>(&self, motion: &[[T; 3]], resisted: &mut [[T; 3]]) {
+        for node in self.nodes.iter().filter(|node| self.is_near && node.counts) {
+            let (number, stiffness) = (node.number as usize, T::from_f64(CONTACT * node.stiffness));
+            for i in 0..3 {
+                resisted[number][i] -= stiffness * motion[number][i];
+            }
+        }
     }
 }
 

@@ -245,8 +245,20 @@ impl<T: Number> Shapes<T> {
     /// [sliding](super::sliding), or empty.
     #[inline(always)]
     pub fn deform(&self, displacement: &[[T; 3]], slid: &Rows<T>, f: &mut [T], modal: &mut [T]) {
+        self.add_gradient(1.0, displacement, slid, f, modal);
+    }
+
+    /// What a velocity adds to them: its gradient by X instead of F.
+    #[inline(always)]
+    pub fn deform_further(&self, velocity: &[[T; 3]], slid: &Rows<T>, gradient: &mut [T], modal: &mut [T]) {
+        self.add_gradient(0.0, velocity, slid, gradient, modal);
+    }
+
+    /// The gradient on top of this many times F at rest.
+    #[inline(always)]
+    fn add_gradient(&self, rest: f64, displacement: &[[T; 3]], slid: &Rows<T>, f: &mut [T], modal: &mut [T]) {
         let stride = self.stride;
-        let (zero, one) = (Lanes::zero(), Lanes::constant(1.0));
+        let (zero, one) = (Lanes::zero(), Lanes::constant(rest));
         for group in 0..stride / LANES {
             let first = group * LANES;
             let nodes = &self.nodes[first..first + LANES];
@@ -256,7 +268,7 @@ impl<T: Number> Shapes<T> {
             let mut axes = [zero, zero, zero, zero, zero, zero, zero, zero, zero];
             if self.axes.is_empty() {
                 (axes[0], axes[4], axes[8]) = (one, one, one);
-            } else {
+            } else if rest > 0.0 {
                 axes = self.axes.at(0, first);
             }
             for i in 0..3 {
@@ -470,6 +482,8 @@ pub struct Measures<T> {
     pub damping_across: Vec<T>,
     /// The sum over the corners of that across, each alone.
     pub damping_at_corners: Vec<T>,
+    /// 3: the kinematic viscosities along the fibre, and of the section in area and in shape.
+    pub viscosities: Vec<T>,
 }
 
 impl<T: Number> Measures<T> {
@@ -488,6 +502,7 @@ impl<T: Number> Measures<T> {
             damping_along: array(1),
             damping_across: array(1),
             damping_at_corners: array(1),
+            viscosities: array(3),
         }
     }
 

@@ -14,6 +14,7 @@ pub mod control_keys;
 pub mod element;
 pub mod energies;
 pub mod friction;
+pub mod global_estimate;
 pub mod hexahedron;
 pub mod instructions;
 pub mod judgement;

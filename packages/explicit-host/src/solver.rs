@@ -10,6 +10,7 @@ use super::archive::Archive;
 use super::block::{Scratch, StepOptions};
 use super::body::Body;
 use super::energies::{Cost, Energies};
+use super::global_estimate::{Estimate, iterate};
 use super::lanes::Number;
 use super::medium::Medium;
 use super::mutual_contact::MutualContact;
@@ -67,8 +68,11 @@ pub struct Solver<T> {
 pub struct SolverState {
     pub time: f64,
     step: f64,
-    /// The last stable step, without what is kept for safety.
+    /// The last stable step, without what is kept for safety: by the elements' bound, and by that or the global
+    /// estimate.
+    bound: Option<f64>,
     stable: Option<f64>,
+    pub estimate: Estimate,
     /// The first one.
     first_step: Option<f64>,
     /// When the first element failed: one that was deleted by its law, and not since it had collapsed.
@@ -162,11 +166,16 @@ impl<T: Number> Solver<T> {
             time: self.state.time,
             shortest,
             has_failed: self.state.failed.is_some(),
-            reference: self.state.stable.unwrap_or(f64::INFINITY),
+            reference: self.state.bound.unwrap_or(f64::INFINITY),
+            trial: self.state.stable.filter(|_| self.mutual.is_some() && self.state.estimate.is_due()),
         };
         self.compute_forces(options)?;
         let computed = Instant::now();
         self.apply_contact();
+        if let (Some(reference), Some(mutual)) = (options.trial, &self.mutual) {
+            let growth = iterate(&mut self.bodies, mutual, self.striker.as_ref());
+            self.state.estimate.take(growth, reference);
+        }
         let met = Instant::now();
         self.release_nodes();
         match self.state.first_step {
@@ -204,7 +213,7 @@ impl<T: Number> Solver<T> {
             [body] => body.rate_contact(),
             bodies => bodies.par_iter_mut().for_each(Body::rate_contact),
         }
-        let mut expected = self.state.stable.map_or(0.0, |stable| NEAR * 4.0 / (stable * stable));
+        let mut expected = self.state.bound.map_or(0.0, |bound| NEAR * 4.0 / (bound * bound));
         if self.shred_mass == 0.0 {
             // What limited the last step limits this one, or is not far from what does.
             let now = self.bodies.iter().map(Body::last_worst_rate).fold(0.0, f64::max);
@@ -223,14 +232,15 @@ impl<T: Number> Solver<T> {
         }
         self.limit = limit;
         let rate = limit.rate + self.striker.as_ref().map_or(0.0, Striker::own_rate);
-        let (mut longer, last) = (2.0 / rate.sqrt(), self.state.stable);
+        let (mut longer, last) = (2.0 / rate.sqrt(), self.state.bound);
         if let (true, Some(first)) = (rate == 0.0, self.state.first_step) {
             // Nothing is left that limits it.
             longer = 2.0 * first / SAFETY;
         }
         let stable = last.filter(|&last| longer < last).map_or(longer, |last| longer * longer / last);
         let first = self.state.first_step.unwrap_or(SAFETY * stable);
-        self.state.stable = Some(stable);
+        self.state.bound = Some(stable);
+        self.state.stable = Some(stable.max(self.estimated_step(rate)));
         if rate.is_nan() || SAFETY * stable <= SHORTEST * first {
             let step = SAFETY * stable;
             return Err(Error::Evaluation(format!(
@@ -238,6 +248,15 @@ impl<T: Number> Solver<T> {
             )));
         }
         Ok(())
+    }
+
+    /// The stable step by the global estimate, where the elements' bound is this rate; 0 where that is not larger.
+    /// Torn elements keep their own bound.
+    fn estimated_step(&mut self, bound: f64) -> f64 {
+        let Some(rate) = self.state.estimate.rate(bound) else { return 0.0 };
+        let own = self.striker.as_ref().map_or(0.0, Striker::own_rate);
+        let rate = self.bodies.iter().map(|body| body.torn_rate(rate)).fold(rate, f64::max) + own;
+        self.state.estimate.stable_step(rate)
     }
 
     /// At first there is no step that damping could be held against: it is found by repeating what limits the elements.
@@ -249,21 +268,21 @@ impl<T: Number> Solver<T> {
                 let media = &self.media;
                 self.bodies.par_iter_mut().for_each(|body| body.share_masses(media));
             }
-            let reference = self.state.stable.unwrap_or(f64::INFINITY);
-            self.compute_forces(StepOptions { reference, ..options })?;
+            let reference = self.state.bound.unwrap_or(f64::INFINITY);
+            self.compute_forces(StepOptions { reference, trial: None, ..options })?;
             for (body, (forces, springs)) in self.bodies.iter_mut().zip(&met) {
                 body.forces.clone_from(forces);
                 body.springs.clone_from(springs);
             }
             self.stable_step()?;
         }
-        self.state.first_step = self.state.stable.map(|stable| SAFETY * stable);
+        self.state.first_step = self.state.bound.map(|stable| SAFETY * stable);
         Ok(())
     }
 
     /// Lends mass to what is torn and takes the step below half of the first, up to the part of all mass that may be.
     fn lend_to_shreds(&mut self) {
-        let (Some(first), Some(stable)) = (self.state.first_step, self.state.stable) else { return };
+        let (Some(first), Some(stable)) = (self.state.first_step, self.state.bound) else { return };
         let half = HALF * first / SAFETY;
         if self.shred_mass <= 0.0 || self.state.failed.is_none() || stable >= half {
             return;

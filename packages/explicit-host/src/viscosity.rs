@@ -147,6 +147,9 @@ impl<T: Number> Viscosity<T> {
             let across = half * (sum + (sum * sum - product).max(zero).sqrt());
             across.max(eta * trace).store(&mut measures.damping_across, first);
             sum.store(&mut measures.damping_at_corners, first);
+            damping_along.store(&mut measures.viscosities, first);
+            damping_across.store(&mut measures.viscosities, stride + first);
+            eta.store(&mut measures.viscosities, 2 * stride + first);
             (damping_along * Lanes::at(&measures.spread_along, first)).store(&mut measures.damping_along, first);
             self.history.store(STRESS, first, [t, r22, r33, r23, square, c22, c33, c23]);
         }

@@ -412,7 +412,7 @@ impl MutualContact {
         let sides = &self.sides;
         bodies.par_iter_mut().enumerate().for_each(|(number, body)| {
             for &(other, place) in &sides[number].incoming {
-                let Exerted { corners, force, weights, spring } = sides[other as usize].exerted[place as usize];
+                let Exerted { corners, force, weights, spring, .. } = sides[other as usize].exerted[place as usize];
                 for (weight, corner) in weights.into_iter().zip(corners) {
                     let corner = corner as usize;
                     body.springs[corner] += weight.abs() * spring;
@@ -422,6 +422,34 @@ impl MutualContact {
                 }
             }
         });
+    }
+
+    /// Adds to what resists the bodies' trial motions.
+    pub fn resist<T: Number>(&self, bodies: &mut [Body<T>]) {
+        let sides = &self.sides;
+        let mut resisted: Vec<_> = bodies.iter_mut().map(|body| std::mem::take(&mut body.trial.resisted)).collect();
+        let motion = |body: usize| &bodies[body].state.trial[..];
+        resisted.par_iter_mut().enumerate().for_each(|(number, resisted)| {
+            let Side { exerted, masters, incoming, .. } = &sides[number];
+            for (spring, &master) in exerted.iter().zip(masters) {
+                let force = spring.resist(motion(number), motion(master as usize));
+                for i in 0..3 {
+                    resisted[spring.node as usize][i] -= T::from_f64(force[i]);
+                }
+            }
+            for &(other, place) in incoming {
+                let spring = &sides[other as usize].exerted[place as usize];
+                let force = spring.resist(motion(other as usize), motion(number));
+                for (weight, corner) in spring.weights.into_iter().zip(spring.corners) {
+                    for i in 0..3 {
+                        resisted[corner as usize][i] += T::from_f64(weight * force[i]);
+                    }
+                }
+            }
+        });
+        for (body, resisted) in bodies.iter_mut().zip(resisted) {
+            body.trial.resisted = resisted;
+        }
     }
 
     /// Takes the faces of a body's deleted elements and its loose nodes out; the balance keeps what was stored in them.

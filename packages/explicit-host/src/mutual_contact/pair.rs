@@ -7,7 +7,9 @@ use super::motion::Motion;
 use super::surface::{Surface, fetch};
 use super::{Parameters, Scene};
 use crate::friction::coulomb_return;
-use crate::vector::{Vector, add, dot};
+use crate::global_estimate::CONTACT;
+use crate::lanes::Number;
+use crate::vector::{Vector, add, dot, times};
 
 /// A node that is no farther from a face's surface than this many times its motion against it in the last step may
 /// touch it soon, and counts in the length of steps before it does.
@@ -63,11 +65,27 @@ pub struct OnFace {
 /// What a pair gives to the corners of its face in a step.
 #[derive(Clone, Copy, Debug)]
 pub struct Exerted {
+    pub node: u32,
     pub corners: [u32; 4],
     pub force: Vector,
     pub weights: [f64; 4],
-    /// The stiffness over the part that the face has of what bounds the spring's frequency.
+    pub stiffness: f64,
+    /// That over the part that the face has of what bounds the spring's frequency.
     pub spring: f64,
+}
+
+impl Exerted {
+    /// What its spring resists of a trial motion of the node and of the face's body, as if it stuck.
+    #[inline(always)]
+    pub fn resist<T: Number>(&self, node: &[[T; 3]], face: &[[T; 3]]) -> Vector {
+        let [x, y, z] = node[self.node as usize];
+        let mut apart = [x.into(), y.into(), z.into()];
+        for (weight, corner) in self.weights.into_iter().zip(self.corners) {
+            let [x, y, z] = face[corner as usize];
+            apart = add(apart, -weight, [x.into(), y.into(), z.into()]);
+        }
+        times(CONTACT * self.stiffness, apart)
+    }
 }
 
 /// How long a pair is not looked at, and whose face it is near: kept beside the pairs, of most of which a step asks
@@ -291,7 +309,8 @@ impl Pair {
         // Tied nodes have no mass of their own.
         let ratio = if node > 0.0 && per_mass.is_finite() { (node * per_mass).clamp(0.1, 10.0) } else { 1.0 };
         let spring = self.stiffness * (1.0 + 1.0 / ratio);
-        (self.stiffness * (1.0 + ratio), Exerted { corners, force, weights, spring })
+        let Pair { node, stiffness, .. } = *self;
+        (stiffness * (1.0 + ratio), Exerted { node, corners, force, weights, stiffness, spring })
     }
 
     /// Lets go for good; returns what was stored.
