@@ -29,8 +29,9 @@ pub struct Met {
 
 /// Newton's steps, of which a point that has moved little since the last call needs one or two.
 const STEPS: usize = 8;
-/// A step this short is the last one: the next one of Newton's would be as long as its square.
-const CLOSE: f64 = 1e-5;
+/// A step this short is the last one. The next one of Newton's would be as long as its square, and the depth, which is
+/// least at the nearest place, is off by the square of that.
+const CLOSE: f64 = 1e-3;
 /// A point that has moved far is followed over this many faces.
 const MOVES: usize = 6;
 /// What lies beyond a surface's border by this is still on it: nodes on a plane of symmetry are, but for rounding.
