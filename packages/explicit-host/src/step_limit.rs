@@ -121,15 +121,25 @@ impl Histogram {
     }
 }
 
-/// The least rate r, but for the last step's rounding, at which an element and the contact at its corners have mass
-/// enough: of each corner contact takes the part c/r, and what is left makes the element's own rate no more than own +
-/// corner Σ c/(r − c), since a lighter corner adds what it resists alone. No more is needed than own and the worst c.
+/// What an element and the contact at its corners need together at a rate r: of each corner contact takes the part c/r,
+/// and what is left makes the element's own rate no more than own + corner Σ c/(r − c), since a lighter corner adds what
+/// it resists alone.
+#[inline(always)]
+fn needed(own: f64, corner: f64, contact: &[f64; 8], rate: f64) -> f64 {
+    let mut sum = 0.0;
+    for c in contact {
+        sum += c / (rate - c);
+    }
+    own + corner * sum
+}
+
+/// The least rate, but for the last step's rounding, at which they have mass enough. No more is needed than own and the
+/// worst c.
 fn with_contact(own: f64, corner: f64, contact: &[f64; 8], worst: f64) -> f64 {
-    let needed = |rate: f64| own + corner * contact.iter().map(|c| c / (rate - c)).sum::<f64>();
     let (mut low, mut high) = (own.max(worst), own + worst);
     for _ in 0..HALVINGS {
         let middle = 0.5 * (low + high);
-        if needed(middle) <= middle { high = middle } else { low = middle }
+        if needed(own, corner, contact, middle) <= middle { high = middle } else { low = middle }
     }
     high
 }
@@ -203,18 +213,24 @@ impl<T: Number> Body<T> {
         worst
     }
 
-    /// Whether it is seen at once that an element's rate is no larger than this.
+    /// Whether an element's rate beside the contact at its nodes is no larger than this.
     #[inline(always)]
     fn fits(&self, block: &ElementBlock<T>, i: usize, limit: f64) -> bool {
         let own: f64 = block.rates[i].into();
-        let (mut worst, mut sum): (f64, f64) = (0.0, 0.0);
+        let (contact, worst) = self.contact_at(&block.shapes.nodes[i]);
+        own + worst <= limit || worst < limit && needed(own, block.corners[i].into(), &contact, limit) <= limit
+    }
+
+    /// The rates of contact at nodes, and the largest of them.
+    #[inline(always)]
+    fn contact_at(&self, nodes: &[u32; 8]) -> ([f64; 8], f64) {
+        let (mut contact, mut worst) = ([0.0; 8], 0.0);
         for corner in 0..8 {
-            let rate = self.springs[block.shapes.nodes[i][corner] as usize];
-            sum += rate;
+            let rate = self.springs[nodes[corner] as usize];
+            contact[corner] = rate;
             worst = if rate > worst { rate } else { worst };
         }
-        let corner: f64 = block.corners[i].into();
-        own + worst <= limit || own < limit && worst < limit && corner * sum <= (limit - own) * (limit - worst)
+        (contact, worst)
     }
 
     /// An element's rate beside the contact at its nodes; 0 where it is deleted.
@@ -224,15 +240,8 @@ impl<T: Number> Body<T> {
         if own == 0.0 {
             return 0.0;
         }
-        let mut contact = [0.0; 8];
-        let (mut worst, mut sum): (f64, f64) = (0.0, 0.0);
-        for corner in 0..8 {
-            let rate = self.springs[block.shapes.nodes[i][corner] as usize];
-            contact[corner] = rate;
-            sum += rate;
-            worst = if rate > worst { rate } else { worst };
-        }
-        if sum == 0.0 { own } else { with_contact(own, block.corners[i].into(), &contact, worst) }
+        let (contact, worst) = self.contact_at(&block.shapes.nodes[i]);
+        if worst == 0.0 { own } else { with_contact(own, block.corners[i].into(), &contact, worst) }
     }
 
     /// Whether an element has lost a neighbour at one of its nodes.
