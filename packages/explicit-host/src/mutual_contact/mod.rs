@@ -86,7 +86,7 @@ struct Side {
 }
 
 /// Pairs that are worked on together: what one needs is then still in the processor's nearest memory.
-const AT_ONCE: usize = 128;
+const AT_ONCE: usize = 48;
 
 impl Side {
     /// Takes over how long its pairs wait.

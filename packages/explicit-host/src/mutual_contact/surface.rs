@@ -146,14 +146,23 @@ impl Surface {
 
     /// Takes the nodes' places over.
     pub fn follow<T: Number>(&mut self, body: &Body<T>) {
-        self.moved_by_slab.fill(Bounds::EMPTY);
-        for &node in &self.state.nodes {
+        let Surface { state: SurfaceState { nodes, points, .. }, slab_of_node, moved_by_slab, .. } = self;
+        moved_by_slab.fill(Bounds::EMPTY);
+        // Nodes that follow one another mostly lie in one slab: its bounds are written once.
+        let (mut slab, mut bounds) = (0, Bounds::EMPTY);
+        for &node in &*nodes {
             let node = node as usize;
             let now = body.position(node);
-            let moved = minus(now, self.state.points[node].position);
-            self.state.points[node] = Point { position: now, moved, mass: body.mass[node] };
-            self.moved_by_slab[self.slab_of_node[node] as usize].take(moved);
+            let moved = minus(now, points[node].position);
+            points[node] = Point { position: now, moved, mass: body.mass[node] };
+            let of_node = usize::from(slab_of_node[node]);
+            if of_node != slab {
+                moved_by_slab[slab] = moved_by_slab[slab].with(bounds);
+                (slab, bounds) = (of_node, Bounds::EMPTY);
+            }
+            bounds.take(moved);
         }
+        moved_by_slab[slab] = moved_by_slab[slab].with(bounds);
     }
 
     /// Where the nodes of each slab and the corners of its faces are.
