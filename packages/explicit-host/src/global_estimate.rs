@@ -32,7 +32,7 @@ const LEAST: f64 = 1e-2;
 /// Iterations until the motion has settled, from noise; until then there is one in every step, and no estimate.
 const SETTLED: u64 = 20;
 /// Steps from one iteration to the next.
-const EVERY: u64 = 16;
+const EVERY: u64 = 32;
 /// If the elements' bound is so many times what it was at the last iteration, the next step has one.
 const JUMP: f64 = 1.1;
 /// The estimate falls no faster in an iteration.
