@@ -291,16 +291,20 @@ impl<T: Number> Body<T> {
                 }
             }
         }
-        for (((v, f), mobility), &mass) in
-            self.state.velocity.iter_mut().zip(&self.forces).zip(&self.mobility).zip(&self.mass)
-        {
-            let old = *v;
-            for i in 0..3 {
-                v[i] += dt * f[i] * mobility[i];
-            }
-            if measured {
+        let (velocity, forces) = (&mut self.state.velocity, &self.forces);
+        if measured {
+            for (((v, f), mobility), &mass) in velocity.iter_mut().zip(forces).zip(&self.mobility).zip(&self.mass) {
+                let old = *v;
+                for i in 0..3 {
+                    v[i] += dt * f[i] * mobility[i];
+                }
                 // What central differences conserve is the product of the velocities before and after.
                 kinetic += 0.5 * mass * (0..3).map(|i| old[i].into() * v[i].into()).sum::<f64>();
+            }
+        } else {
+            let components = velocity.as_flattened_mut().iter_mut().zip(forces.as_flattened());
+            for ((v, f), mobility) in components.zip(self.mobility.as_flattened()) {
+                *v += dt * *f * *mobility;
             }
         }
         for tie in &self.ties {
