@@ -14,7 +14,7 @@ use super::global_estimate::{Estimate, iterate};
 use super::lanes::Number;
 use super::medium::Medium;
 use super::mutual_contact::MutualContact;
-use super::step_limit::{Histogram, Limiter, StepLimit};
+use super::step_limit::{BETWEEN_LOOKS, Histogram, Limiter, StepLimit};
 use super::striker::Striker;
 use toron::law::status;
 use toron_shared::error::Error;
@@ -187,7 +187,7 @@ impl<T: Number> Solver<T> {
         let before = self.state.step;
         // Equal steps to the end, rather than a very short last one.
         self.state.step = left / (left / stable.min(self.longest)).ceil();
-        self.count_step(stable, measured);
+        self.count_step(stable);
         if let Some(ramp) = self.ramp {
             let speed = (ramp.share(self.state.time + self.state.step) - ramp.share(self.state.time)) / self.state.step;
             self.bodies.iter_mut().for_each(|body| body.set_speed(speed));
@@ -296,10 +296,11 @@ impl<T: Number> Solver<T> {
     }
 
     /// Counts what limits the step that is coming, and now and then what the elements' own steps are.
-    fn count_step(&mut self, stable: f64, measured: bool) {
+    fn count_step(&mut self, stable: f64) {
         let limiter = if self.state.step < NEARLY * stable { Limiter::Other } else { self.limit.limiter() };
         self.state.limited[limiter as usize] += self.state.step;
-        let Some(first) = self.state.first_step.filter(|_| measured) else { return };
+        let looks = self.state.cost.steps.is_multiple_of(BETWEEN_LOOKS);
+        let Some(first) = self.state.first_step.filter(|_| looks) else { return };
         self.state.histogram.look(stable / first);
         for body in &self.bodies {
             self.state.histogram.add(body, first / SAFETY);

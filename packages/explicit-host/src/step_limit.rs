@@ -81,6 +81,10 @@ pub const BINS: usize = 24;
 const LOWEST: f64 = -4.0;
 const PER_OCTAVE: f64 = 4.0;
 
+/// So many steps lie between two looks at the elements' own steps, which cost as much as all that is measured of a
+/// panel beside them.
+pub const BETWEEN_LOOKS: u64 = 64;
+
 /// How many elements have which step of their own, whole ones and torn ones, summed over looks at the run.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Histogram {
