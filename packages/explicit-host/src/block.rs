@@ -490,10 +490,12 @@ impl<T: Number> ElementBlock<T> {
         }
     }
 
+    #[inline]
     pub fn is_intact(&self, i: usize) -> bool {
         self.history.intact[i] != T::default()
     }
 
+    #[inline]
     fn variable(&self, row: usize, i: usize) -> f64 {
         self.history.state[row * self.shapes.stride + i].into()
     }

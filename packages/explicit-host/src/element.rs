@@ -221,6 +221,7 @@ impl<T: Number> Shapes<T> {
     }
 
     /// Reference volume.
+    #[inline]
     pub fn volume(&self, element: usize) -> f64 {
         self.constants.number(VOLUME, element).into()
     }

@@ -30,6 +30,7 @@ impl<T: Number> Rows<T> {
         (element / LANES * self.rows + row) * LANES + element % LANES
     }
 
+    #[inline]
     pub fn number(&self, row: usize, element: usize) -> T {
         self.values[self.place(row, element)]
     }

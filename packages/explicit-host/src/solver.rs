@@ -391,8 +391,9 @@ impl<T: Number> Solver<T> {
     fn other_energies(&self) -> Energies {
         let striker = self.striker.as_ref();
         let mutual = self.mutual.as_ref();
+        let internal: Vec<f64> = self.bodies.par_iter().map(|body| body.internal_energy(&self.media)).collect();
         Energies {
-            internal: self.bodies.iter().map(|body| body.internal_energy(&self.media)).sum(),
+            internal: internal.iter().sum(),
             hourglass: self.bodies.iter().map(|body| body.sums.hourglass + body.state.released).sum(),
             friction: striker.map_or(0.0, Striker::dissipated) + mutual.map_or(0.0, |contact| contact.state.dissipated),
             fibres: self.bodies.iter().map(|body| body.lost_energy(&self.media)).sum(),

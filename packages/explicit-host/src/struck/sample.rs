@@ -61,17 +61,20 @@ impl Sample<()> {
     fn of_body<T: Number>(body: &Body<T>, media: &[Medium<T>], whole: f64) -> Self {
         let (deleted, collapsed) = (body.state.deleted.len(), body.state.collapsed);
         let mut sample = Sample { deleted, collapsed, ..Sample::default() };
-        for i in 0..body.mesh.elements.len() {
-            let densities = body.energy_densities(media, i);
-            let volume = whole * body.volume(i);
-            for (part, density) in sample.parts.iter_mut().zip(densities) {
-                *part += density * volume;
-            }
-            if body.is_intact(i) {
-                for (most, density) in sample.largest.iter_mut().zip(densities) {
-                    *most = largest(*most, density);
+        for block in &body.blocks {
+            let medium = &media[block.medium];
+            for i in 0..block.shapes.n {
+                let densities = block.energies(medium, i);
+                let volume = whole * block.shapes.volume(i);
+                for (part, density) in sample.parts.iter_mut().zip(densities) {
+                    *part += density * volume;
                 }
-                sample.index = largest(sample.index, body.failure_index(media, i));
+                if block.is_intact(i) {
+                    for (most, density) in sample.largest.iter_mut().zip(densities) {
+                        *most = largest(*most, density);
+                    }
+                    sample.index = largest(sample.index, block.failure_index(medium, i));
+                }
             }
         }
         sample
