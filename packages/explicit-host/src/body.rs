@@ -386,6 +386,11 @@ impl<T: Number> Body<T> {
         block.is_intact(i)
     }
 
+    /// Of each element, whether it has not been deleted.
+    pub fn intact(&self) -> Vec<bool> {
+        self.blocks.iter().flat_map(|block| (0..block.shapes.n).map(|i| block.is_intact(i))).collect()
+    }
+
     /// Energy densities in an element, as [`ENERGY_NAMES`](super::medium::ENERGY_NAMES) has them.
     pub fn energy_densities(&self, media: &[Medium<T>], number: usize) -> [f64; 5] {
         let (block, i) = self.element(number);

@@ -70,13 +70,13 @@ impl command::Scene for Scene {
         summary::columns()
     }
 
-    fn before(&self, StruckPanel { case, panel }: &StruckPanel<'_>) -> Vec<Finding> {
+    fn before(&self, StruckPanel { case, panel, .. }: &StruckPanel<'_>) -> Vec<Finding> {
         before(&self.units, case, panel)
     }
 
     fn finish<'a>(
         &'a self,
-        StruckPanel { case, panel }: StruckPanel<'a>,
+        StruckPanel { case, panel, .. }: StruckPanel<'a>,
         outcome: Outcome,
         output: &Path,
     ) -> Result<Self::Result<'a>, Error> {

@@ -8,10 +8,11 @@ use serde::{Deserialize, Serialize};
 use crate::weave::model::{Grid, Model, Piece, Yarn};
 use crate::weave::torn;
 use toron_explicit_host::body::Body;
-use toron_explicit_host::hexahedron::{Edges, solid_corners};
+use toron_explicit_host::hexahedron::Edges;
 use toron_explicit_host::lanes::{Number, largest, smallest};
 use toron_explicit_host::solver::Solver;
 use toron_explicit_host::struck;
+use toron_explicit_host::vector::Vector;
 
 /// What a sample of a panel has besides the quantities of all scenes.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -56,49 +57,40 @@ impl OfPanel {
     ///
     /// The front of the transverse wave is where the panel has come down by `threshold`, more than crimp gives when
     /// yarns are stretched straight before it comes.
-    pub fn of<T: Number>(panel: &Model, solver: &Solver<T>, threshold: f64) -> OfPanel {
-        let yarns: Vec<OfPanel> =
-            panel.yarns.par_iter().zip(&solver.bodies).map(|(yarn, body)| OfPanel::of_yarn(yarn, body)).collect();
+    pub fn of<T: Number>(panel: &Model, at_rest: &[AtRest], solver: &Solver<T>, threshold: f64) -> OfPanel {
+        let yarns = panel.yarns.par_iter().zip(at_rest).zip(&solver.bodies);
+        let yarns: Vec<OfPanel> = yarns.map(|((yarn, at_rest), body)| OfPanel::of_yarn(yarn, at_rest, body)).collect();
         OfPanel { front: front(panel, solver, threshold), ..yarns.iter().fold(OfPanel::default(), OfPanel::with) }
     }
 
     /// A yarn's part of what is summed, and its largest and smallest values.
-    fn of_yarn<T: Number>(yarn: &Yarn, body: &Body<T>) -> OfPanel {
-        let torn = torn::is_torn(yarn, &body.mesh.elements, |i| body.is_intact(i));
+    fn of_yarn<T: Number>(yarn: &Yarn, at_rest: &AtRest, body: &Body<T>) -> OfPanel {
+        let (elements, intact) = (&body.mesh.elements, body.intact());
+        let nodes: Vec<Vector> = (0..body.mesh.nodes.len()).map(|node| body.position(node)).collect();
+        let torn = torn::is_torn(yarn, elements, |i| intact[i]);
         let mut sample = OfPanel { torn: usize::from(torn), ..OfPanel::default() };
-        for i in (0..body.mesh.elements.len()).filter(|&i| body.is_intact(i)) {
-            let nodes = body.mesh.elements[i].map(|node| node as usize);
-            for node in nodes.into_iter().filter(|_| !torn) {
-                sample.deflection = largest(sample.deflection, -body.state.displacement[node][2].into());
-            }
-            let (mut at_rest, mut now) = ([[0.0; 3]; 8], [[0.0; 3]; 8]);
-            for corner in 0..8 {
-                at_rest[corner] = body.mesh.nodes[nodes[corner]];
-                now[corner] = body.position(nodes[corner]);
-            }
-            let (at_rest, now) = (Edges::of(&at_rest), Edges::of(&now));
-            sample.least_volume_ratio = smallest(sample.least_volume_ratio, now.volume() / at_rest.volume());
-            sample.least_scaled_jacobian = smallest(
-                sample.least_scaled_jacobian,
-                now.least_scaled_jacobian(solid_corners(&body.mesh.elements[i])),
-            );
+        for node in (0..nodes.len()).filter(|&node| !torn && !body.is_loose(node)) {
+            sample.deflection = largest(sample.deflection, -body.state.displacement[node][2].into());
         }
-        yarn.pieces.iter().for_each(|piece| sample.measure_sections(yarn, piece, body));
+        for i in (0..elements.len()).filter(|&i| intact[i]) {
+            let now = edges(&elements[i], 0, &nodes);
+            sample.least_volume_ratio = smallest(sample.least_volume_ratio, now.volume() / at_rest.volumes[i]);
+            sample.least_scaled_jacobian = now.least_scaled_jacobian(&elements[i], sample.least_scaled_jacobian);
+        }
+        for (piece, at_rest) in yarn.pieces.iter().zip(&at_rest.pieces) {
+            sample.measure_sections(piece, at_rest, &sections(yarn, piece, &nodes), &intact);
+        }
         sample
     }
 
     /// Of the sections whose elements are all there.
-    fn measure_sections<T: Number>(&mut self, yarn: &Yarn, piece: &Piece, body: &Body<T>) {
-        let Piece { grid, first_node, first_element, .. } = piece;
-        let whole_at = |layer: usize| grid.layer(layer).all(|element| body.is_intact(first_element + element));
-        let at_rest = Sections::of(grid, |node| Vector3::from(body.mesh.nodes[first_node + node]));
-        let now = Sections::of(grid, |node| Vector3::from(body.position(first_node + node)));
-        for section in 0..=grid.layers {
+    fn measure_sections(&mut self, piece: &Piece, at_rest: &[Section], now: &[Section], intact: &[bool]) {
+        let Piece { grid, first_element, .. } = piece;
+        let whole_at = |layer: usize| grid.layer(layer).all(|element| intact[first_element + element]);
+        for (section, (at_rest, now)) in at_rest.iter().zip(now).enumerate() {
             if (section.saturating_sub(1)..(section + 1).min(grid.layers)).all(whole_at) {
-                let at_rest = at_rest.tilt_and_slip(section, yarn.halved);
-                let now = now.tilt_and_slip(section, yarn.halved);
-                self.tilt = largest(self.tilt, (now.0 - at_rest.0).abs());
-                self.slip = largest(self.slip, (now.1 - at_rest.1).abs());
+                self.tilt = largest(self.tilt, (now.tilt - at_rest.tilt).abs());
+                self.slip = largest(self.slip, (now.slip - at_rest.slip).abs());
             }
         }
     }
@@ -130,36 +122,67 @@ fn front<T: Number>(panel: &Model, solver: &Solver<T>, threshold: f64) -> f64 {
     farthest
 }
 
-/// The sections of a yarn, in the places that `position` gives its nodes.
-struct Sections<'a, P> {
-    grid: &'a Grid,
-    position: P,
-    means: Vec<Vector3<f64>>,
+/// What of a yarn at rest it is measured against.
+#[derive(Debug)]
+pub struct AtRest {
+    /// Of its elements.
+    volumes: Vec<f64>,
+    pieces: Vec<Vec<Section>>,
 }
 
-impl<'a, P: Fn(usize) -> Vector3<f64>> Sections<'a, P> {
-    fn of(grid: &'a Grid, position: P) -> Self {
-        let sum = |section: usize| grid.section(section).map(&position).sum::<Vector3<f64>>();
-        let means = (0..=grid.layers).map(|section| sum(section) / grid.nodes_per_section() as f64).collect();
-        Sections { grid, position, means }
+impl AtRest {
+    /// Of each yarn.
+    pub fn of(panel: &Model) -> Vec<AtRest> {
+        let of_yarn = |yarn: &Yarn| {
+            let (nodes, elements) = (&panel.nodes[yarn.nodes.clone()], &panel.elements[yarn.elements.clone()]);
+            AtRest {
+                volumes: elements.iter().map(|element| edges(element, yarn.nodes.start, nodes).volume()).collect(),
+                pieces: yarn.pieces.iter().map(|piece| sections(yarn, piece, nodes)).collect(),
+            }
+        };
+        panel.yarns.par_iter().map(of_yarn).collect()
     }
+}
 
-    /// The angle by which a section's height leans along the yarn, in degrees, and how far its middle is ahead of its
-    /// upper and lower side along the yarn.
-    fn tilt_and_slip(&self, section: usize, halved: bool) -> (f64, f64) {
-        let Grid { rows, columns, layers } = *self.grid;
-        let (before, after) = (section.saturating_sub(1), (section + 1).min(layers));
-        let along = (self.means[after] - self.means[before]).normalize();
-        let first = self.grid.section(section).start;
-        let node = |column: usize, row: usize| (self.position)(first + column * (rows + 1) + row);
+/// The edges of an element whose numbers of nodes begin at `first`.
+fn edges(element: &[u32; 8], first: usize, nodes: &[Vector]) -> Edges {
+    let mut corners = [[0.0; 3]; 8];
+    for corner in 0..8 {
+        corners[corner] = nodes[element[corner] as usize - first];
+    }
+    Edges::of(&corners)
+}
+
+/// The angle by which a section's height leans along the yarn, in degrees, and how far its middle is ahead of its upper
+/// and lower side along the yarn.
+#[derive(Debug)]
+struct Section {
+    tilt: f64,
+    slip: f64,
+}
+
+/// The sections of a piece, the yarn's nodes in these places.
+fn sections(yarn: &Yarn, Piece { grid, first_node, .. }: &Piece, nodes: &[Vector]) -> Vec<Section> {
+    let Grid { rows, columns, layers } = *grid;
+    let nodes = &nodes[*first_node..];
+    let mean = |section: usize| {
+        let nodes = &nodes[grid.section(section)];
+        nodes.iter().map(|&node| Vector3::from(node)).sum::<Vector3<f64>>() / nodes.len() as f64
+    };
+    let means: Vec<Vector3<f64>> = (0..=layers).map(mean).collect();
+    let of = |section: usize| {
+        let along = (means[(section + 1).min(layers)] - means[section.saturating_sub(1)]).normalize();
+        let first = grid.section(section).start;
+        let node = |column: usize, row: usize| Vector3::from(nodes[first + column * (rows + 1) + row]);
         let height = |column: usize| node(column, rows) - node(column, 0);
         // The axis of a yarn that a plane of symmetry halves is at the side where it is highest.
-        let axis = if halved { [0, columns] } else { [columns / 2, columns.div_ceil(2)] };
+        let axis = if yarn.halved { [0, columns] } else { [columns / 2, columns.div_ceil(2)] };
         let column = if height(axis[0]).norm() > height(axis[1]).norm() { axis[0] } else { axis[1] };
         let upright = height(column);
         let tilt = (along.dot(&upright) / upright.norm()).clamp(-1.0, 1.0).asin().to_degrees();
         let core = 0.5 * (node(column, rows / 2) + node(column, rows.div_ceil(2)));
         let sides = 0.5 * (node(column, rows) + node(column, 0));
-        (tilt, along.dot(&(core - sides)))
-    }
+        Section { tilt, slip: along.dot(&(core - sides)) }
+    };
+    (0..=layers).map(of).collect()
 }

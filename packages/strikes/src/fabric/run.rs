@@ -1,7 +1,7 @@
 //! A panel as it is struck: its solver, what is measured of it, and when the sphere has gone through.
 
 use super::fate::{self, Fate};
-use super::measure::{OfPanel, Sample};
+use super::measure::{AtRest, OfPanel, Sample};
 use super::model::{self, share};
 use super::scene::Case;
 use crate::weave::model::Model;
@@ -19,6 +19,7 @@ pub type Outcome = run::Outcome<OfPanel, Fate>;
 pub struct StruckPanel<'a> {
     pub case: &'a Case,
     pub panel: Model,
+    at_rest: Vec<AtRest>,
 }
 
 impl<'a> StruckPanel<'a> {
@@ -27,7 +28,8 @@ impl<'a> StruckPanel<'a> {
     pub fn new(case: &'a Case) -> Result<Self, Error> {
         let panel = case.cloth.model();
         model::check(case, &panel)?;
-        Ok(StruckPanel { case, panel })
+        let at_rest = AtRest::of(&panel);
+        Ok(StruckPanel { case, panel, at_rest })
     }
 }
 
@@ -64,7 +66,7 @@ impl Struck for StruckPanel<'_> {
 
     fn sample<T: Number>(&self, solver: &Solver<T>, start: f64) -> Sample {
         let [_, height] = self.case.cloth.yarn_heights();
-        let own = OfPanel::of(&self.panel, solver, height);
+        let own = OfPanel::of(&self.panel, &self.at_rest, solver, height);
         Sample { own, ..Sample::of(solver, 1.0 / share(self.case), start) }
     }
 

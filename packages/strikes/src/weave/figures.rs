@@ -60,7 +60,7 @@ impl Figures {
             let jacobians = edges.jacobians().into_iter().zip(solid_corners(element)).filter(|(_, solid)| *solid);
             figures.least_jacobian = jacobians.fold(figures.least_jacobian, |least, (jacobian, _)| least.min(jacobian));
             figures.least_scaled_jacobian =
-                figures.least_scaled_jacobian.min(edges.least_scaled_jacobian(solid_corners(element)));
+                figures.least_scaled_jacobian.min(edges.least_scaled_jacobian(element, 1.0));
             let lengths = edges.lengths().into_iter().flatten().filter(|length| *length > 0.0);
             figures.shortest_edge = lengths.fold(figures.shortest_edge, f64::min);
         }
