@@ -7,7 +7,7 @@ use std::sync::Arc;
 use super::file::{PanelKeys, Rim, SceneFile, ShapeName};
 use super::scene::{Case, Scene, StrikerDensity};
 use crate::layers::{self, Case as CaseTables};
-use crate::scene_keys::keys::{Reader, Table, read_cases};
+use crate::scene_keys::keys::{Precision, Reader, Table, read_cases};
 use crate::scene_keys::shots::read_shots;
 use crate::weave::cloth::Cloth;
 use crate::weave::cloth::read_cloth;
@@ -147,7 +147,7 @@ impl Reader<'_> {
             control: Control { by_direction: true, ..self.control() },
             shred_mass: self.shred_mass(file)?,
             plan,
-            single_precision: keys.is_single_precision(),
+            single_precision: keys.precision != Some(Precision::F64),
             name,
         })
     }

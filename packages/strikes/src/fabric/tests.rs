@@ -132,6 +132,20 @@ fn every_example_is_valid() {
     assert!(cases > 25, "{cases}");
 }
 
+#[test]
+fn a_panel_is_in_single_precision_unless_it_says_otherwise() {
+    let is_single = |key: &str| {
+        let text = format!(
+            "units = \"mm-g-ms\"\n[weave]\npreset = \"kevlar-s706\"\nalong = 4\ncolumns = 4\n\
+             [weave.panel]\nshape = \"circle\"\nradius = 2.0\npart = \"whole\"\n\
+             [scene]\nspeed = 100.0\nmass = 0.01\nradius = 0.8\ncontact-stiffness = 1e5\nend = 1.0\n{key}\n"
+        );
+        Scene::parse("scene.toml", &text).expect("a scene").cases[0].single_precision
+    };
+    let found = ["", "precision = \"f32\"", "precision = \"f64\""].map(is_single);
+    assert_eq!(found, [true, true, false]);
+}
+
 /// A sphere that is smaller than the distance of nodes meets the one inside a yarn that it stands around.
 #[test]
 fn the_sphere_meets_what_stands_inside_a_yarn() {
@@ -216,6 +230,8 @@ fn a_panel_is_struck_where_it_is_aimed_at() {
         let scene = struck(aim, "whole").expect("a scene");
         let case = &scene.cases[0];
         let mut solver: Solver<f64> = model::solver(case, &case.cloth.model()).expect("a panel");
+        // Shorter than stable: the estimate of the stable step begins with noise, which is no mirror image.
+        solver.longest = 5e-6;
         while solver.state.time < 2e-3 {
             solver.accelerate(false, 1.0).expect("stable");
             solver.displace();

@@ -5,7 +5,7 @@ use std::path::Path;
 use super::file::{MOST_ELEMENTS, SceneFile, SectionName, StrikerName, YarnKeys};
 use super::scene::{Abscissa, Case, Outputs, Scene, Striker};
 use crate::layers;
-use crate::scene_keys::keys::{Reader, Table, read_cases};
+use crate::scene_keys::keys::{Precision, Reader, Table, read_cases};
 use crate::scene_keys::shots::read_shots;
 use crate::strength::scatter::Strength;
 use toron_explicit_host::contact::{RigidSurface, Shape};
@@ -101,7 +101,7 @@ impl Reader<'_> {
             control: self.control(),
             zones,
             yarn,
-            single_precision: self.keys.is_single_precision(),
+            single_precision: self.keys.precision == Some(Precision::F32),
             outputs: file.outputs.unwrap_or(Outputs::Full),
         })
     }

@@ -109,7 +109,7 @@ pub struct Keys {
     pub frames: Option<Whole<0, MOST_FILES>>,
     /// How many checkpoints are written, at equal intervals, and one more if the run ends before. Default: 0.
     pub checkpoints: Option<Whole<0, MOST_FILES>>,
-    /// Of the computation. Default: `f64`.
+    /// [Of the computation](results/fabric.md#single-precision). Default: `f64` of a yarn, `f32` of a panel.
     pub precision: Option<Precision>,
 }
 
@@ -150,10 +150,6 @@ impl Keys {
     pub fn law(&self) -> LawName {
         let default = if self.material.is_some() { LawName::Own } else { LawName::Hyperelastic };
         self.law.unwrap_or(default)
-    }
-
-    pub fn is_single_precision(&self) -> bool {
-        self.precision == Some(Precision::F32)
     }
 
     /// The materials' tables, by their law.
