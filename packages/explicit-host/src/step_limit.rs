@@ -6,8 +6,6 @@
 //! the contact at its worst node together may be more than 4/Δt²: not the worst element of the body with the worst node
 //! of another one.
 
-#![expect(clippy::needless_range_loop, reason = "what is inlined for certain: see Lanes")]
-
 use serde::{Deserialize, Serialize};
 
 use super::block::ElementBlock;
