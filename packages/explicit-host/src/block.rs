@@ -82,8 +82,8 @@ pub struct StepOptions {
     pub has_failed: bool,
     /// The stable step at which damping is taken for a stiffness: the last one by the elements' bound.
     pub reference: f64,
-    /// That of an iteration of the [global estimate](super::global_estimate): the last stable step; without, there is none
-    /// in this step.
+    /// In a step with an iteration of the [global estimate](super::global_estimate), the last stable step: there damping is
+    /// taken for a stiffness at it.
     pub trial: Option<f64>,
 }
 
@@ -464,7 +464,7 @@ impl<T: Number> ElementBlock<T> {
     ) {
         let (shapes, History { intact, slid, .. }) = (&self.shapes, &self.history);
         let Scratch { deformation_gradient: f, trial, trial_modal, stress, measures, wave_speed, .. } = scratch;
-        shapes.deform_further(motion, slid, trial, trial_modal);
+        shapes.gradient_of(motion, slid, trial, trial_modal);
         let of = Deformed { f, stress, measures, wave_speed, intact };
         resist(medium, shapes.stride, &of, 2.0 / reference, trial);
         shapes.forces(trial, trial_modal, intact, slid, resisted);

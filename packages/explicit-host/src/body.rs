@@ -52,6 +52,8 @@ pub struct Body<T> {
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct BodyState<T> {
     pub displacement: Vec<[T; 3]>,
+    /// What rounding has left of it, to be added in the next step; empty in double precision.
+    rest: Vec<[T; 3]>,
     pub velocity: Vec<[T; 3]>,
     /// No node has moved farther in the last step.
     pub farthest: f64,
@@ -82,6 +84,7 @@ impl<T: Number> Body<T> {
             blocks: Vec::new(),
             state: BodyState {
                 displacement: vec![[T::default(); 3]; count],
+                rest: vec![[T::default(); 3]; if size_of::<T>() < 8 { count } else { 0 }],
                 velocity: vec![[T::default(); 3]; count],
                 farthest: 0.0,
                 speed: 1.0,
@@ -333,11 +336,18 @@ impl<T: Number> Body<T> {
     pub fn displace(&mut self, step: f64) {
         let dt = T::from_f64(step);
         let mut farthest = 0.0;
-        for (u, v) in self.state.displacement.iter_mut().zip(&self.state.velocity) {
+        let BodyState { displacement, rest, velocity, .. } = &mut self.state;
+        for (node, (u, v)) in displacement.iter_mut().zip(velocity).enumerate() {
             let mut square = 0.0;
             for i in 0..3 {
                 let before: f64 = u[i].into();
-                u[i] += dt * v[i];
+                let mut way = dt * v[i];
+                if let Some(rest) = rest.get_mut(node) {
+                    // What is small beside the displacement is not lost (Kahan's sum).
+                    way += rest[i];
+                    rest[i] = way - ((u[i] + way) - u[i]);
+                }
+                u[i] += way;
                 let after: f64 = u[i].into(); // as rounded in f32
                 square += (after - before) * (after - before);
             }

@@ -249,17 +249,17 @@ impl<T: Number> Shapes<T> {
         self.add_gradient(1.0, displacement, slid, f, modal);
     }
 
-    /// What a velocity adds to them: its gradient by X instead of F.
+    /// The same of a motion: its gradient by X instead of F.
     #[inline(always)]
-    pub fn deform_further(&self, velocity: &[[T; 3]], slid: &Rows<T>, gradient: &mut [T], modal: &mut [T]) {
-        self.add_gradient(0.0, velocity, slid, gradient, modal);
+    pub fn gradient_of(&self, motion: &[[T; 3]], slid: &Rows<T>, gradient: &mut [T], modal: &mut [T]) {
+        self.add_gradient(0.0, motion, slid, gradient, modal);
     }
 
     /// The gradient on top of this many times F at rest.
     #[inline(always)]
-    fn add_gradient(&self, rest: f64, displacement: &[[T; 3]], slid: &Rows<T>, f: &mut [T], modal: &mut [T]) {
+    fn add_gradient(&self, at_rest: f64, displacement: &[[T; 3]], slid: &Rows<T>, f: &mut [T], modal: &mut [T]) {
         let stride = self.stride;
-        let (zero, one) = (Lanes::zero(), Lanes::constant(rest));
+        let (zero, unit) = (Lanes::zero(), Lanes::constant(at_rest));
         for group in 0..stride / LANES {
             let first = group * LANES;
             let nodes = &self.nodes[first..first + LANES];
@@ -268,8 +268,8 @@ impl<T: Number> Shapes<T> {
             let slip = self.slip(slid, first);
             let mut axes = [zero, zero, zero, zero, zero, zero, zero, zero, zero];
             if self.axes.is_empty() {
-                (axes[0], axes[4], axes[8]) = (one, one, one);
-            } else if rest > 0.0 {
+                (axes[0], axes[4], axes[8]) = (unit, unit, unit);
+            } else if at_rest > 0.0 {
                 axes = self.axes.at(0, first);
             }
             for i in 0..3 {

@@ -3,14 +3,18 @@
 //!
 //! Bounds element by element ([`step_limit`](super::step_limit)) add the wave along the fibre of an element to the
 //! contact at its nodes, and these have different modes. Here a trial motion x of all nodes becomes M⁻¹A x, one iteration
-//! every few steps. A has the form that bounds the law's stiffness in each element, hourglass control, twice the
+//! every 32 steps. A has the form that bounds the law's stiffness in each element, hourglass control, twice the
 //! viscosity over the step, the springs of contact as if all of them stuck, and the ties.
 //!
 //! Every part of a settled motion grows by the largest eigenvalue in an iteration. The estimate is the largest growth of
-//! any group of nodes, which is no less than the growth of the whole. A new stiff region shows at once in its own group,
-//! before its motion is larger than the others'. For that, no group's motion may become smaller than a part of the
-//! largest one. A group that is lifted to this part grows by less than the largest eigenvalue, so that this does not raise
-//! the estimate once the motion has settled.
+//! any group of nodes, which is no less than the growth of the whole: a stiffer region shows in its own group before its
+//! motion is larger than the others'. For that, no group's motion may become smaller than a part of the largest one. A
+//! group that is lifted to this part grows by less than the largest eigenvalue, so that this does not raise the estimate
+//! once the motion has settled.
+//!
+//! What the iteration may not have seen yet is bounded: no element's own waves and viscosity, and no node's contact, ever
+//! have a higher rate than counts; what the elements' bound has grown by since the last iteration is added; and after a
+//! jump of the bound it holds alone until the motion has settled again.
 
 #![expect(clippy::needless_range_loop, reason = "what is inlined for certain: see Lanes")]
 
@@ -26,17 +30,19 @@ use super::striker::Striker;
 use super::wave_bounds::{Section, bounds_at};
 
 /// Nodes whose growth is looked at together.
-const GROUP: usize = 256;
+const GROUP: usize = 1024;
 /// No group's motion is smaller than this part of the largest one.
 const LEAST: f64 = 1e-2;
 /// Iterations until the motion has settled, from noise; until then there is one in every step, and no estimate.
 const SETTLED: u64 = 20;
 /// Steps from one iteration to the next.
 const EVERY: u64 = 32;
-/// If the elements' bound is so many times what it was at the last iteration, the next step has one.
+/// If the elements' bound is so many times what it was at the last iteration, it holds alone for this many iterations,
+/// one a step.
 const JUMP: f64 = 1.1;
-/// The estimate falls no faster in an iteration.
-const FADE: f64 = 0.97;
+const AFTER_JUMP: u64 = 8;
+/// The estimate falls no faster in an iteration, once it has settled.
+const FADE: f64 = 0.9;
 
 /// Springs of contact count as so many times as stiff: what touches and lets go near its longest stable step makes
 /// energy. The bars of the tests with four times the contact stiffness keep theirs to 1.4e-5 of the work with it, to
@@ -74,33 +80,36 @@ pub struct Estimate {
     /// The stable step that stood for Δt in the damping, and the elements' bound then.
     reference: f64,
     bound: f64,
-    /// Steps since the last iteration, and whether the bound has jumped.
+    /// Steps since the last iteration.
     steps: u64,
-    has_jumped: bool,
 }
 
 impl Estimate {
     /// Whether there is an iteration in the coming step.
     pub fn is_due(&self) -> bool {
-        self.iterations < SETTLED || self.has_jumped || self.steps >= EVERY
+        self.iterations < SETTLED || self.steps >= EVERY
     }
 
     /// Takes an iteration's growth over.
     pub fn take(&mut self, growth: f64, reference: f64) {
         self.iterations += 1;
-        self.rate = largest(growth, FADE * self.rate);
+        let left = if self.iterations > SETTLED { FADE * self.rate } else { 0.0 };
+        self.rate = largest(growth, left);
         (self.reference, self.steps) = (reference, 0);
     }
 
-    /// The rate in a step of this bound of the elements, if it is less: what the bound has grown by since the last
-    /// iteration is added.
-    pub fn rate(&mut self, bound: f64) -> Option<f64> {
+    /// The rate in a step of this bound of the elements, if it is less; no less than what elements and contact have
+    /// alone.
+    pub fn rate(&mut self, bound: f64, alone: f64) -> Option<f64> {
         if self.steps == 0 {
             self.bound = bound;
         }
         self.steps += 1;
-        self.has_jumped = bound > JUMP * self.bound;
-        let rate = self.rate + (bound - self.bound).max(0.0);
+        if bound > JUMP * self.bound {
+            self.bound = bound;
+            self.iterations = self.iterations.min(SETTLED - AFTER_JUMP);
+        }
+        let rate = largest(self.rate + (bound - self.bound).max(0.0), alone);
         (self.iterations >= SETTLED && rate < bound).then_some(rate)
     }
 
@@ -127,6 +136,12 @@ pub fn iterate<T: Number>(bodies: &mut [Body<T>], mutual: &MutualContact, strike
 }
 
 impl<T: Number> Body<T> {
+    /// The largest rate of an element without contact, or of the contact at a node.
+    pub fn rate_alone(&self) -> f64 {
+        let own = self.blocks.iter().flat_map(|block| &block.group_rates);
+        own.fold(self.most_contact, |most, &rate| largest(most, rate.into()))
+    }
+
     /// From what resists the trial motion to the next one, not scaled yet.
     fn iterate(&mut self) {
         let Trial { resisted, sizes, growth } = &mut self.trial;
@@ -215,7 +230,6 @@ pub fn resist<T: Number>(medium: &Medium<T>, stride: usize, of: &Deformed<'_, T>
         let [u, v, w] = [[f0, f1, f2], [f3, f4, f5], [f6, f7, f8]];
         let per_ratio = (one / Lanes::at(&measures.volume_ratio, first)).only_where(active);
         let per_stretch = one / Lanes::at(&measures.stretch_square, first).sqrt();
-        let active = one.only_where(active);
         // Rows of F's inverse.
         let r = [scaled(per_ratio, cross(v, w)), scaled(per_ratio, cross(w, u)), scaled(per_ratio, cross(u, v))];
         let [h0, h1, h2, h3, h4, h5, h6, h7, h8] = load(trial, stride, first);
@@ -238,9 +252,9 @@ pub fn resist<T: Number>(medium: &Medium<T>, stride: usize, of: &Deformed<'_, T>
             let e = less(e, dot(e, m), m);
             let of_fibre = combine(elongation * along * slant, m, tension * slant, turning);
             let section = combine((compaction - distortion) * growth, q, distortion + distortion, e);
-            let p = scaled(active, add(add(of_fibre, section), scaled(all_round, gr)));
+            let p = add(add(of_fibre, section), scaled(all_round, gr));
             for i in 0..3 {
-                p[i].store(trial, (i + 3 * j) * stride + first);
+                p[i].only_where(active).store(trial, (i + 3 * j) * stride + first);
             }
         }
     }

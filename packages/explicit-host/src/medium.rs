@@ -105,6 +105,11 @@ impl<T: Number> Entry<T> {
 }
 
 impl<T: Number> Medium<T> {
+    /// Whether its stiffness is bounded by direction, not by the law's wave speed alone.
+    pub fn is_bounded_by_direction(&self) -> bool {
+        !matches!(self.bounds, WaveBounds::Isotropic)
+    }
+
     /// # Errors
     /// As for the law's entry: a property that is wrong, a law that the host cannot run.
     pub fn new(material: &Material, density: f64, control: Control) -> Result<Self, Error> {

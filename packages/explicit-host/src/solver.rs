@@ -167,14 +167,20 @@ impl<T: Number> Solver<T> {
             shortest,
             has_failed: self.state.failed.is_some(),
             reference: self.state.bound.unwrap_or(f64::INFINITY),
-            trial: self.state.stable.filter(|_| self.mutual.is_some() && self.state.estimate.is_due()),
+            trial: self.state.stable.filter(|_| self.has_estimate() && self.state.estimate.is_due()),
         };
         self.compute_forces(options)?;
         let computed = Instant::now();
         self.apply_contact();
         if let (Some(reference), Some(mutual)) = (options.trial, &self.mutual) {
             let growth = iterate(&mut self.bodies, mutual, self.striker.as_ref());
-            self.state.estimate.take(growth, reference);
+            if growth.is_finite() {
+                self.state.estimate.take(growth, reference);
+            } else {
+                // Begins anew.
+                self.state.estimate = Estimate::default();
+                self.bodies.iter_mut().for_each(|body| body.state.trial.clear());
+            }
         }
         let met = Instant::now();
         self.release_nodes();
@@ -250,10 +256,20 @@ impl<T: Number> Solver<T> {
         Ok(())
     }
 
+    /// Whether the stable step is estimated: contact adds to what elements have alone, and their stiffness is bounded by
+    /// direction.
+    fn has_estimate(&self) -> bool {
+        self.mutual.is_some() && self.media.iter().all(Medium::is_bounded_by_direction)
+    }
+
     /// The stable step by the global estimate, where the elements' bound is this rate; 0 where that is not larger.
     /// Torn elements keep their own bound.
     fn estimated_step(&mut self, bound: f64) -> f64 {
-        let Some(rate) = self.state.estimate.rate(bound) else { return 0.0 };
+        if !self.has_estimate() {
+            return 0.0;
+        }
+        let alone = self.bodies.iter().map(Body::rate_alone).fold(0.0, f64::max);
+        let Some(rate) = self.state.estimate.rate(bound, alone) else { return 0.0 };
         let own = self.striker.as_ref().map_or(0.0, Striker::own_rate);
         let rate = self.bodies.iter().map(|body| body.torn_rate(rate)).fold(rate, f64::max) + own;
         self.state.estimate.stable_step(rate)

@@ -12,10 +12,10 @@ use super::block::ElementBlock;
 use super::body::Body;
 use super::lanes::{LANES, Number};
 
-/// The element that limits the step, and what of it does: squares of frequencies.
+/// The element that bounds the step, and what of it does: squares of frequencies.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct StepLimit {
-    /// 4 over the square of the step.
+    /// 4 over the square of the step that it allows; the [global estimate](super::global_estimate) may allow a longer one.
     pub rate: f64,
     pub viscous: f64,
     pub contact: f64,

@@ -24,7 +24,11 @@ use toron_shared::numbers::number;
 /// A material that the host cannot use, a sphere under which there is nothing, a hybrid panel that has elements of one
 /// law alone.
 pub fn check(case: &Case, panel: &Model) -> Result<(), Error> {
-    media::<f64>(case)?;
+    if case.single_precision {
+        media::<f32>(case).map(drop)?
+    } else {
+        media::<f64>(case).map(drop)?
+    }
     start(case, panel)?;
     check_coarse_radius(case)?;
     let Zones::Two(_, radius) = case.zones else { return Ok(()) };
