@@ -101,14 +101,14 @@ impl Estimate {
     /// The rate in a step of this bound of the elements, if it is less; no less than what elements and contact have
     /// alone.
     pub fn rate(&mut self, bound: f64, alone: f64) -> Option<f64> {
-        if self.steps == 0 {
+        let has_jumped = bound > JUMP * self.bound;
+        if has_jumped {
+            self.iterations = self.iterations.min(SETTLED - AFTER_JUMP);
+        }
+        if has_jumped || self.steps == 0 {
             self.bound = bound;
         }
         self.steps += 1;
-        if bound > JUMP * self.bound {
-            self.bound = bound;
-            self.iterations = self.iterations.min(SETTLED - AFTER_JUMP);
-        }
         let rate = largest(self.rate + (bound - self.bound).max(0.0), alone);
         (self.iterations >= SETTLED && rate < bound).then_some(rate)
     }

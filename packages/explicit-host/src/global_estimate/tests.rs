@@ -338,6 +338,9 @@ fn the_bound_holds_after_a_jump() {
         estimate.take(8.0, 1.0);
     }
     assert_eq!(estimate.rate(12.0, 0.0), Some(8.0));
+    // One in a step with an iteration as well.
+    estimate.take(8.0, 1.0);
+    assert!(estimate.rate(14.0, 0.0).is_none() && estimate.is_due());
 }
 
 #[test]
