@@ -12,9 +12,9 @@
 //! group that is lifted to this part grows by less than the largest eigenvalue, so that this does not raise the estimate
 //! once the motion has settled.
 //!
-//! What the iteration may not have seen yet is bounded: no element's own waves and viscosity, and no node's contact, ever
-//! have a higher rate than counts; what the elements' bound has grown by since the last iteration is added; and after a
-//! jump of the bound it holds alone until the motion has settled again.
+//! What the iteration may not have seen yet is bounded: the step is never longer than what each element's own waves and
+//! viscosity, and the contact at each node, allow without safety; what the elements' bound has grown by since the last
+//! iteration is added; and after a jump of the bound it holds alone until the motion has settled again.
 
 #![expect(clippy::needless_range_loop, reason = "what is inlined for certain: see Lanes")]
 
@@ -98,9 +98,8 @@ impl Estimate {
         (self.reference, self.steps) = (reference, 0);
     }
 
-    /// The rate in a step of this bound of the elements, if it is less; no less than what elements and contact have
-    /// alone.
-    pub fn rate(&mut self, bound: f64, alone: f64) -> Option<f64> {
+    /// The rate in a step of this bound of the elements, if it is less; no less than `least`.
+    pub fn rate(&mut self, bound: f64, least: f64) -> Option<f64> {
         let has_jumped = bound > JUMP * self.bound;
         if has_jumped {
             self.iterations = self.iterations.min(SETTLED - AFTER_JUMP);
@@ -109,7 +108,7 @@ impl Estimate {
             self.bound = bound;
         }
         self.steps += 1;
-        let rate = largest(self.rate + (bound - self.bound).max(0.0), alone);
+        let rate = largest(self.rate + (bound - self.bound).max(0.0), least);
         (self.iterations >= SETTLED && rate < bound).then_some(rate)
     }
 

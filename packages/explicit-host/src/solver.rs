@@ -268,7 +268,8 @@ impl<T: Number> Solver<T> {
         if !self.has_estimate() {
             return 0.0;
         }
-        let alone = self.bodies.iter().map(Body::rate_alone).fold(0.0, f64::max);
+        // The step is no longer than what elements without contact, and contact without elements, allow without safety.
+        let alone = SAFETY * SAFETY * self.bodies.iter().map(Body::rate_alone).fold(0.0, f64::max);
         let Some(rate) = self.state.estimate.rate(bound, alone) else { return 0.0 };
         let own = self.striker.as_ref().map_or(0.0, Striker::own_rate);
         let rate = self.bodies.iter().map(|body| body.torn_rate(rate)).fold(rate, f64::max) + own;

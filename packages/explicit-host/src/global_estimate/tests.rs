@@ -324,9 +324,9 @@ fn an_estimate_adds_what_the_bound_grows_by() {
 }
 
 #[test]
-fn no_element_and_no_contact_has_a_higher_rate_alone() {
+fn a_rate_is_no_less_than_the_least() {
     let mut estimate = settled();
-    assert_eq!([3.0, 7.0].map(|alone| estimate.rate(10.0, alone)), [Some(6.0), Some(7.0)]);
+    assert_eq!([3.0, 7.0].map(|least| estimate.rate(10.0, least)), [Some(6.0), Some(7.0)]);
 }
 
 #[test]
