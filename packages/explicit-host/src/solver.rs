@@ -256,14 +256,13 @@ impl<T: Number> Solver<T> {
         Ok(())
     }
 
-    /// Whether the stable step is estimated: contact adds to what elements have alone, and their stiffness is bounded by
-    /// direction.
+    /// Whether the stable step is estimated: contact adds to what elements have alone, their stiffness is bounded by
+    /// direction, and nothing has failed. After a break longer steps tear more elements and brake a striker more.
     fn has_estimate(&self) -> bool {
-        self.mutual.is_some() && self.media.iter().all(Medium::is_bounded_by_direction)
+        self.mutual.is_some() && self.state.failed.is_none() && self.media.iter().all(Medium::is_bounded_by_direction)
     }
 
     /// The stable step by the global estimate, where the elements' bound is this rate; 0 where that is not larger.
-    /// Torn elements keep their own bound.
     fn estimated_step(&mut self, bound: f64) -> f64 {
         if !self.has_estimate() {
             return 0.0;
@@ -272,8 +271,7 @@ impl<T: Number> Solver<T> {
         let alone = SAFETY * SAFETY * self.bodies.iter().map(Body::rate_alone).fold(0.0, f64::max);
         let Some(rate) = self.state.estimate.rate(bound, alone) else { return 0.0 };
         let own = self.striker.as_ref().map_or(0.0, Striker::own_rate);
-        let rate = self.bodies.iter().map(|body| body.torn_rate(rate)).fold(rate, f64::max) + own;
-        self.state.estimate.stable_step(rate)
+        self.state.estimate.stable_step(rate + own)
     }
 
     /// At first there is no step that damping could be held against: it is found by repeating what limits the elements.

@@ -172,7 +172,7 @@ impl<T: Number> Body<T> {
 
     /// What limits the step of this body, where that is above this rate, by the rates of its contact.
     pub fn limit_step(&mut self, least: f64) {
-        let found = self.worst_element(self.most_contact, least, false);
+        let found = self.worst_element(self.most_contact, least);
         self.state.worst = found.map(|(_, number, i)| (number, i)).or(self.state.worst);
         self.limit = found.map_or(StepLimit::default(), |(rate, number, i)| {
             let block = &self.blocks[number];
@@ -181,16 +181,9 @@ impl<T: Number> Body<T> {
         });
     }
 
-    /// The largest rate of a torn element, or this one where none has more.
-    pub fn torn_rate(&self, least: f64) -> f64 {
-        let is_torn = !self.state.deleted.is_empty();
-        let found = is_torn.then(|| self.worst_element(self.most_contact, least, true)).flatten();
-        found.map_or(least, |(rate, ..)| rate)
-    }
-
-    /// The element with the largest rate above this one, of all or of those that are torn: the rate, block and place;
-    /// `most` is the largest rate of contact.
-    fn worst_element(&self, most: f64, least: f64, torn: bool) -> Option<(f64, usize, usize)> {
+    /// The element with the largest rate above this one: the rate, block and place; `most` is the largest rate of
+    /// contact.
+    fn worst_element(&self, most: f64, least: f64) -> Option<(f64, usize, usize)> {
         let (mut limit, mut worst) = (least, None);
         for (number, block) in self.blocks.iter().enumerate() {
             for group in 0..block.group_rates.len() {
@@ -202,7 +195,7 @@ impl<T: Number> Body<T> {
                     continue;
                 }
                 for i in group * LANES..((group + 1) * LANES).min(block.shapes.n) {
-                    if self.fits(block, i, limit) || torn && !self.is_torn(&block.shapes.nodes[i]) {
+                    if self.fits(block, i, limit) {
                         continue;
                     }
                     let rate = self.rate_of(block, i);
