@@ -82,8 +82,8 @@ pub struct StepOptions {
     pub has_failed: bool,
     /// The stable step at which damping is taken for a stiffness: the last one by the elements' bound.
     pub reference: f64,
-    /// In a step with an iteration of the [global estimate](super::global_estimate), the last stable step: there damping is
-    /// taken for a stiffness at it.
+    /// In a step with an iteration of the [global estimate](super::global_estimate), the last stable step: there damping
+    /// is taken for a stiffness at it.
     pub trial: Option<f64>,
 }
 

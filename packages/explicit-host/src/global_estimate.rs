@@ -2,15 +2,15 @@
 //! on while they move.
 //!
 //! Bounds element by element ([`step_limit`](super::step_limit)) add the wave along the fibre of an element to the
-//! contact at its nodes, and these have different modes. Here a trial motion x of all nodes becomes M⁻¹A x, one iteration
-//! every 32 steps. A has the form that bounds the law's stiffness in each element, hourglass control, twice the
-//! viscosity over the step, the springs of contact as if all of them stuck, and the ties.
+//! contact at its nodes, and these have different modes. Here a trial motion x of all nodes becomes M⁻¹A x, one
+//! iteration every 32 steps. A has the form that bounds the law's stiffness in each element, hourglass control, twice
+//! the viscosity over the step, the springs of contact as if all of them stuck, and the ties.
 //!
-//! Every part of a settled motion grows by the largest eigenvalue in an iteration. The estimate is the largest growth of
-//! any group of nodes, which is no less than the growth of the whole: a stiffer region shows in its own group before its
-//! motion is larger than the others'. For that, no group's motion may become smaller than a part of the largest one. A
-//! group that is lifted to this part grows by less than the largest eigenvalue, so that this does not raise the estimate
-//! once the motion has settled.
+//! Every part of a settled motion grows by the largest eigenvalue in an iteration. The estimate is the largest growth
+//! of any group of nodes, which is no less than the growth of the whole: a stiffer region shows in its own group before
+//! its motion is larger than the others'. For that, no group's motion may become smaller than a part of the largest
+//! one. A group that is lifted to this part grows by less than the largest eigenvalue, so that this does not raise the
+//! estimate once the motion has settled.
 //!
 //! What the iteration may not have seen yet is bounded: the step is never longer than what each element's own waves and
 //! viscosity, and the contact at each node, allow without safety; what the elements' bound has grown by since the last

@@ -15,7 +15,8 @@ use super::lanes::{LANES, Number};
 /// The element that bounds the step, and what of it does: squares of frequencies.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct StepLimit {
-    /// 4 over the square of the step that it allows; the [global estimate](super::global_estimate) may allow a longer one.
+    /// 4 over the square of the step that it allows; the [global estimate](super::global_estimate) may allow a longer
+    /// one.
     pub rate: f64,
     pub viscous: f64,
     pub contact: f64,
