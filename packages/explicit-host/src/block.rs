@@ -67,7 +67,7 @@ impl<T: Number> Default for Scratch<T> {
 }
 
 /// What is computed in a step beside the forces, and the lengths of steps.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub struct StepOptions {
     /// Energies and invariants of the law.
     pub law_outputs: bool,
@@ -508,16 +508,7 @@ impl<T: Number> ElementBlock<T> {
     pub fn stress(&self, medium: &Medium<T>, displacement: &[[T; 3]]) -> Result<Vec<[f64; 6]>, i32> {
         let mut scratch = Scratch::default();
         run_widest(Deform { shapes: &self.shapes, displacement, slid: &self.history.slid, scratch: &mut scratch });
-        let options = StepOptions {
-            law_outputs: false,
-            energy_balance: false,
-            step: 0.0,
-            time: 0.0,
-            shortest: 0.0,
-            has_failed: false,
-            reference: 1.0,
-            trial: None,
-        };
+        let options = StepOptions { reference: 1.0, ..StepOptions::default() };
         let code = self.clone().call_law(medium, &mut scratch, options);
         let Shapes { n, stride, .. } = self.shapes;
         let component = |row: usize, i: usize| -> f64 { scratch.stress[row * stride + i].into() };

@@ -14,7 +14,8 @@
 //!
 //! What the iteration may not have seen yet is bounded: the step is never longer than what each element's own waves and
 //! viscosity, and the contact at each node, allow without safety; what the elements' bound has grown by since the last
-//! iteration is added; and after a jump of the bound it holds alone until the motion has settled again.
+//! iteration is added; and after a jump of the bound it holds alone until the motion has settled again. It also holds
+//! alone once an element has failed.
 
 #![expect(clippy::needless_range_loop, reason = "what is inlined for certain: see Lanes")]
 
@@ -45,8 +46,7 @@ const AFTER_JUMP: u64 = 8;
 const FADE: f64 = 0.9;
 
 /// Springs of contact count as so many times as stiff: what touches and lets go near its longest stable step makes
-/// energy. The bars of the tests with four times the contact stiffness keep theirs to 1.4e-5 of the work with it, to
-/// 2.4e-3 without.
+/// energy.
 pub const CONTACT: f64 = 1.2;
 
 /// What a body knows of its trial motion in a step.

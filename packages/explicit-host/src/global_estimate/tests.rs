@@ -69,16 +69,7 @@ fn pressed(media: &[Medium<f64>]) -> (Vec<Body<f64>>, MutualContact) {
 }
 
 fn add_elements(bodies: &mut [Body<f64>], media: &[Medium<f64>]) {
-    let options = StepOptions {
-        law_outputs: false,
-        energy_balance: false,
-        step: 0.0,
-        time: 0.0,
-        shortest: 0.0,
-        has_failed: false,
-        reference: REFERENCE,
-        trial: Some(REFERENCE),
-    };
+    let options = StepOptions { reference: REFERENCE, trial: Some(REFERENCE), ..StepOptions::default() };
     bodies.iter_mut().for_each(|body| body.compute_forces(media, &mut Scratch::default(), options));
 }
 

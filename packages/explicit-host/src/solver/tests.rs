@@ -14,7 +14,7 @@ fn cube(support_of: impl Fn([f64; 3]) -> Support) -> Solver<f64> {
     cube_of(preset.values.to_vec(), support_of)
 }
 
-fn cube_of(values: Vec<f64>, support_of: impl Fn([f64; 3]) -> Support) -> Solver<f64> {
+fn cube_of<T: Number>(values: Vec<f64>, support_of: impl Fn([f64; 3]) -> Support) -> Solver<T> {
     let preset = parameters::preset("kevlar-km2-600").expect("it exists");
     let law = Law::new(preset.into(), &values, Rotation::Fibre, Criterion::LargestPrincipal).expect("valid");
     let density = preset.density;
@@ -56,6 +56,22 @@ fn short_step(solver: &mut Solver<f64>, longest: f64) -> Energies {
     energies
 }
 
+/// A thousand steps, each a fifth of what a displacement of 10 changes by at least in single precision.
+#[test]
+fn slow_motions_are_not_lost_in_single_precision() {
+    let preset = parameters::preset("kevlar-km2-600").expect("it exists");
+    let mut solver: Solver<f32> = cube_of(preset.values.to_vec(), |_| driven([0.0; 3]));
+    let body = &mut solver.bodies[0];
+    body.state.displacement.fill([10.0, 0.0, 0.0]);
+    body.state.velocity.fill([2.0, 0.0, 0.0]);
+    for _ in 0..1000 {
+        body.displace(1e-7);
+    }
+    for [x, ..] in &body.state.displacement {
+        assert!((f64::from(*x) - 10.0002).abs() < 1e-6, "{x}");
+    }
+}
+
 /// The top is driven through the bottom at 100 m/s.
 fn collapse([_, y, _]: [f64; 3]) -> Support {
     driven([0.0, if y > 0.0 { -100.0 } else { 0.0 }, 0.0])
@@ -84,7 +100,7 @@ fn an_element_that_may_fail_goes_when_it_has_collapsed() {
 fn a_collapsing_element_that_does_not_fail_shortens_the_step_until_there_is_none() {
     let mut values = parameters::preset("kevlar-km2-600").expect("it exists").values.to_vec();
     values[5..8].fill(0.0);
-    let mut solver = cube_of(values, collapse);
+    let mut solver: Solver<f64> = cube_of(values, collapse);
     let (mut first, mut worst, mut steps) = (None, 0.0, 0);
     let error = loop {
         if let Err(error) = solver.accelerate(true, 1.0) {
