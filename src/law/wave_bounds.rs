@@ -12,7 +12,9 @@
 //! u ⊗ n, meets C + D + I at most. `docs/design/law.md` derives them for waves; that they hold for any h is tested where
 //! elements use them. By modes, with the section's area ratio J_t and its distortion a = 2 I_td:
 //!
-//! - elongation: A = k_el, and G is the tension, k_el ln λ ≤ k_el (λ² − 1)/2;
+//! - elongation: A = k_el, and G is the tension, k_el ln λ ≤ k_el (λ² − 1)/2. A slack fibre has neither; it is tense
+//!   again when it is as long as at rest, where the gradient h of the same motion is λ times what it is now: until then
+//!   a step need not be shorter than k_el λ² allows;
 //! - compaction: W″/4 + |W′|. |W′| is the sum of the Kirchhoff stresses across, and W″ = (p − 1) |W′|/|I_tc| is no more
 //!   than (p − 1) |W′| from |I_tc| = 1 on, where |W′| is p k_tc, and less than (p − 1) p k_tc before. C is
 //!   W″/4;
@@ -47,6 +49,8 @@ pub trait Arithmetic: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Outpu
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stiffness<N> {
     pub elongation: N,
+    /// The part of A that a slack fibre meets when it is tense again, λ²; 1 where none is slack.
+    pub returning: N,
     pub tension: N,
     pub compaction: N,
     pub distortion: N,
@@ -167,7 +171,9 @@ impl WaveBounds {
                     all_round = all_round + constant(2.0 * k_ld) * per_square * twice;
                 }
                 let tension = constant(0.5 * k_el) * (stretch_square - one).larger(zero);
-                Some(Stiffness { elongation: constant(k_el), tension, compaction, distortion, all_round })
+                let returning = one - (one - stretch_square).larger(zero);
+                let elongation = constant(k_el);
+                Some(Stiffness { elongation, returning, tension, compaction, distortion, all_round })
             }
             WaveBounds::LinearElastic { along, across } => {
                 let row = |a: usize, b: usize, c: usize| size(stress[a]) + size(stress[b]) + size(stress[c]);
@@ -175,7 +181,14 @@ impl WaveBounds {
                 let j = ratio.larger(one);
                 let all_round = j * (constant(across) + constant(2.0) * largest);
                 let along = constant(along) * j;
-                Some(Stiffness { elongation: along, tension: along, compaction: zero, distortion: zero, all_round })
+                Some(Stiffness {
+                    elongation: along,
+                    returning: one,
+                    tension: along,
+                    compaction: zero,
+                    distortion: zero,
+                    all_round,
+                })
             }
         }
     }

@@ -420,15 +420,17 @@ impl<T: Number> ElementBlock<T> {
             let [spread_along, spread_across] =
                 [Lanes::at(&measures.spread_along, first), Lanes::at(&measures.spread_across, first)];
             let slanting = four * Lanes::at(&measures.slanting, first);
-            let stretching = bounds.elongation * per_density + all_round;
+            let stretching = bounds.returning * bounds.elongation * per_density + all_round;
             let turning = bounds.tension * per_density + all_round;
             let deforming = (bounds.compaction + bounds.distortion) * per_density;
             let trace = Lanes::at(&measures.trace_across, first);
-            let along = Motions {
+            let along = |stretching: Lanes<T>| Motions {
                 stiff: [stretching * spread_along, all_round * spread_across],
                 coupling: stretching * all_round * slanting,
                 damped: [Lanes::at(&measures.damping_along, first), Lanes::zero()],
             };
+            let tense = along(bounds.elongation * per_density + all_round);
+            let along = along(stretching);
             // What deforms couples by no more than √C + √(2 D), the square of which is at most 4 (C + D).
             let across = Motions {
                 stiff: [turning * spread_along, deforming * trace + all_round * spread_across],
@@ -444,8 +446,8 @@ impl<T: Number> ElementBlock<T> {
             let corner_along = along.stiff[0] + all_round * trace + twice * along.damped[0];
             let corner_across = across.stiff[0] + (deforming + all_round) * trace + damped_corners;
             (corner_part * corner_along.max(corner_across) + own).store(&mut self.corners, first);
-            // As in the body's stable step.
-            let most = along.rate(square, twice_shortest).max(across.rate(square, twice_shortest));
+            // As in the body's stable step, but as if the fibre were tense however short it is.
+            let most = tense.rate(square, twice_shortest).max(across.rate(square, twice_shortest));
             let most = (square * own).max(most) + square * shared;
             one.only_where(most.only_where(active) - four).store(&mut scratch.collapsed, first);
         }

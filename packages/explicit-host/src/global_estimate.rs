@@ -221,7 +221,7 @@ pub fn resist<T: Number>(medium: &Medium<T>, stride: usize, of: &Deformed<'_, T>
         let own = speed * speed * density;
         let bounds = bounds_at(&medium.bounds, own, f, stress, &section, stride, first);
         let [nu_m, nu_t, eta] = load(&measures.viscosities, stride, first);
-        let elongation = bounds.elongation + damping * nu_m;
+        let elongation = bounds.returning * bounds.elongation + damping * nu_m;
         let compaction = bounds.compaction + damping * nu_t;
         let distortion = bounds.distortion + damping * eta;
         let (tension, all_round) = (bounds.tension, bounds.all_round);

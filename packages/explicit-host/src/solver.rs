@@ -22,8 +22,7 @@ use toron_shared::error::Error;
 /// A step is this fraction of the longest one that the bounds of frequency and damping allow.
 const SAFETY: f64 = 0.9;
 /// An element that may fail has collapsed, and is deleted, when its own stable step is this fraction of the first one
-/// of all: it is a torn shred, which no neighbours hold any more. Before the break steps fall to 0.67 of the first,
-/// shreds go down to 0.02.
+/// of all, with its fibre taken for tense: before the break steps fall to 0.67 of the first.
 const COLLAPSED: f64 = 0.2;
 /// Torn ends may be lent mass where they take the step below this part of the first one.
 const HALF: f64 = 0.5;

@@ -117,7 +117,9 @@ fn form(body: &Body<f64>, medium: &Medium<f64>, stress: [f64; 6], i: usize) -> f
     let (along, trace) = (m.dot(&(h * m)), section.trace());
     let shape = (section - 0.5 * trace * across).norm_squared();
     volume
-        * ((bounds.elongation + damping * length * CONTROL.linear * medium.wave_speed) * along * along
+        * ((bounds.returning * bounds.elongation + damping * length * CONTROL.linear * medium.wave_speed)
+            * along
+            * along
             + bounds.tension * (across * h * m).norm_squared()
             + (bounds.compaction + damping * breadth * CONTROL.linear * medium.compaction_speed) * trace * trace
             + 2.0 * (bounds.distortion + damping * breadth * CONTROL.shape * medium.distortion_speed) * shape

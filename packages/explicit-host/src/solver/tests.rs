@@ -15,6 +15,16 @@ fn cube(support_of: impl Fn([f64; 3]) -> Support) -> Solver<f64> {
 }
 
 fn cube_of<T: Number>(values: Vec<f64>, support_of: impl Fn([f64; 3]) -> Support) -> Solver<T> {
+    bar(values, 1, false, support_of)
+}
+
+/// A cube of 1 mm of so many elements along the fibre, whose steps are bounded by direction or not.
+fn bar<T: Number>(
+    values: Vec<f64>,
+    layers: usize,
+    by_direction: bool,
+    support_of: impl Fn([f64; 3]) -> Support,
+) -> Solver<T> {
     let preset = parameters::preset("kevlar-km2-600").expect("it exists");
     let law = Law::new(preset.into(), &values, Rotation::Fibre, Criterion::LargestPrincipal).expect("valid");
     let density = preset.density;
@@ -26,9 +36,9 @@ fn cube_of<T: Number>(values: Vec<f64>, support_of: impl Fn([f64; 3]) -> Support
         origin: Origin::default(),
         temperature: None,
     };
-    let control = Control { hourglass: 0.1, linear: 0.06, quadratic: 1.5, shape: 0.2, by_direction: false };
+    let control = Control { hourglass: 0.1, linear: 0.06, quadratic: 1.5, shape: 0.2, by_direction };
     let section = Section::Rectangle;
-    let yarn = Yarn { section, length: 1e-3, height: 1e-3, width: 1e-3, layers: 1, rows: 1, columns: 1 };
+    let yarn = Yarn { section, length: 1e-3, height: 1e-3, width: 1e-3, layers, rows: 1, columns: 1 };
     let medium = Medium::new(&material, density, control).expect("valid");
     let media = vec![medium];
     let mut body = Body::new(yarn.mesh(), &media, |_| 0);
@@ -94,6 +104,43 @@ fn an_element_that_may_fail_goes_when_it_has_collapsed() {
     // Without it nothing limits the step.
     solver.accelerate(true, 1e-5).expect("nothing is left to collapse");
     assert!(solver.state.step > first_step && !solver.bodies[0].is_intact(0));
+}
+
+/// A cube whose fibre is this part of its length at rest, and is drawn out at this speed without viscosity; it does not
+/// fail.
+fn drawn_out(stretch: f64, speed: f64) -> Solver<f64> {
+    let mut values = parameters::preset("kevlar-km2-600").expect("it exists").values.to_vec();
+    values[5..8].fill(0.0);
+    let along = Support { free: [true, false, false], velocity: [0.0; 3] };
+    let mut solver: Solver<f64> = bar(values, 10, true, |[x, ..]| if x > 0.0 { along } else { driven([0.0; 3]) });
+    solver.media[0].control.linear = 0.0;
+    let body = &mut solver.bodies[0];
+    for (node, [x, ..]) in body.mesh.nodes.iter().enumerate() {
+        body.state.displacement[node][0] = (stretch - 1.0) * x;
+        body.state.velocity[node][0] = speed * x / 1e-3;
+    }
+    solver
+}
+
+/// However short it is, its fibre's wave limits the step as at rest; nothing gets lost where it is tense again.
+#[test]
+fn a_slack_fibre_is_tense_again_within_stable_steps() {
+    let first_step = |stretch| {
+        let mut solver = drawn_out(stretch, 0.0);
+        step(&mut solver);
+        solver.state.step
+    };
+    let [rest, slack] = [1.0, 0.3].map(first_step);
+    assert!((slack / rest - 1.0).abs() < 0.05, "{slack:e} {rest:e}");
+    let mut solver = drawn_out(0.3, 300.0);
+    let (start, mut most, mut tense) = (step(&mut solver), 0.0, 0.0);
+    while solver.state.time < 4e-6 {
+        let now = step(&mut solver);
+        most = largest(most, (now.total() - start.total()).abs() / start.kinetic);
+        tense = largest(tense, now.internal / start.kinetic);
+    }
+    assert!(tense > 0.8 && most < 0.02, "{tense} {most}");
+    assert!(solver.bodies[0].state.velocity.iter().any(|v| v[0] < -100.0), "it springs back");
 }
 
 #[test]
