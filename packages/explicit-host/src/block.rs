@@ -73,11 +73,11 @@ pub struct StepOptions {
     pub law_outputs: bool,
     /// The hourglass energy, which only the energy balance needs.
     pub energy_balance: bool,
-    /// Length of the last step, the time at its end, and the stable step below which an element that may fail has
-    /// collapsed.
+    /// Length of the last step, the time at its end, and the stable steps below which an element that may fail has
+    /// collapsed: a whole one, and one beside deleted ones.
     pub step: f64,
     pub time: f64,
-    pub shortest: f64,
+    pub shortest: [f64; 2],
     /// Whether elements have failed: from then on those of a law of one's own may, of which it is not known before.
     pub has_failed: bool,
     /// The stable step at which damping is taken for a stiffness: the last one by the elements' bound.
@@ -183,6 +183,8 @@ pub struct ElementBlock<T> {
     /// ln(1 + ε_lim), or the linear elastic law's strength, of each element where they have limits of their own; else
     /// empty.
     limit: Vec<T>,
+    /// 1 where an element has lost a neighbour at one of its nodes.
+    torn: Vec<T>,
     /// Of this step: what limits the next one, and how much of it is viscosity's; the largest of a whole group of
     /// [`LANES`].
     pub rates: Vec<T>,
@@ -228,6 +230,7 @@ impl<T: Number> ElementBlock<T> {
                 f_old: shapes.at_rest(),
             },
             limit: Vec::new(),
+            torn: vec![T::default(); stride],
             rates: vec![T::default(); stride],
             viscous: vec![T::default(); stride],
             corners: vec![T::default(); stride],
@@ -239,6 +242,11 @@ impl<T: Number> ElementBlock<T> {
     /// Gives each element a failure limit of its own: ln(1 + ε_lim), or the linear elastic law's strength.
     pub fn limit(&mut self, limits: &[f64]) {
         self.limit = limits.iter().map(|&limit| T::from_f64(limit)).collect();
+    }
+
+    /// Takes note that an element has lost a neighbour.
+    pub fn tear(&mut self, i: usize) {
+        self.torn[i] = T::from_f64(1.0);
     }
 
     /// From the nodes' displacements to their forces; updates the history.
@@ -405,7 +413,7 @@ impl<T: Number> ElementBlock<T> {
         let per_density = Lanes::constant(1.0 / medium.density);
         let twice = Lanes::constant(2.0 / reference);
         let corner_part = Lanes::constant(self.shapes.corner_part);
-        let [square, twice_shortest] = [Lanes::constant(shortest * shortest), Lanes::constant(2.0 * shortest)];
+        let shortest = shortest.map(|step| [Lanes::constant(step * step), Lanes::constant(2.0 * step)]);
         for group in 0..self.shapes.stride / LANES {
             let first = group * LANES;
             let active = scratch.measures.active(&self.history.intact, first);
@@ -446,9 +454,12 @@ impl<T: Number> ElementBlock<T> {
             let corner_along = along.stiff[0] + all_round * trace + twice * along.damped[0];
             let corner_across = across.stiff[0] + (deforming + all_round) * trace + damped_corners;
             (corner_part * corner_along.max(corner_across) + own).store(&mut self.corners, first);
-            // As in the body's stable step, but as if the fibre were tense however short it is.
-            let most = tense.rate(square, twice_shortest).max(across.rate(square, twice_shortest));
-            let most = (square * own).max(most) + square * shared;
+            // As in the body's stable step; of a whole one as if its fibre were tense however short it is.
+            let torn = Lanes::at(&self.torn, first);
+            let most_at = |[square, twice]: [Lanes<T>; 2], along: &Motions<T>| {
+                (square * own).max(along.rate(square, twice).max(across.rate(square, twice))) + square * shared
+            };
+            let most = most_at(shortest[0], &tense).max(torn * most_at(shortest[1], &along));
             one.only_where(most.only_where(active) - four).store(&mut scratch.collapsed, first);
         }
     }

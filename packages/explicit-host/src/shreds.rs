@@ -110,9 +110,14 @@ impl<T: Number> Body<T> {
                 let [all, left] = self.weights(media, node as usize);
                 (all + self.state.lent.get(node as usize).copied().unwrap_or(0.0)) * self.need(element) / left
             });
+            let torn = self.is_torn(&corners);
             let place = self.blocks.partition_point(|block| block.first <= element as usize) - 1;
             let block = &mut self.blocks[place];
-            block.shapes.weigh(element as usize - block.first, heavier);
+            let i = element as usize - block.first;
+            block.shapes.weigh(i, heavier);
+            if torn {
+                block.tear(i);
+            }
         }
     }
 

@@ -24,6 +24,9 @@ const SAFETY: f64 = 0.9;
 /// An element that may fail has collapsed, and is deleted, when its own stable step is this fraction of the first one
 /// of all, with its fibre taken for tense: before the break steps fall to 0.67 of the first.
 const COLLAPSED: f64 = 0.2;
+/// And when it is this fraction, of one that has lost a neighbour: a shred that is squeezed flat or swells without end,
+/// which nothing holds any more.
+const COLLAPSED_TORN: f64 = 0.4;
 /// Torn ends may be lent mass where they take the step below this part of the first one.
 const HALF: f64 = 0.5;
 /// How often the first step is looked for: by then it stays.
@@ -157,7 +160,8 @@ impl<T: Number> Solver<T> {
 
     pub(super) fn compute_accelerations(&mut self, measured: bool, left: f64) -> Result<(), Error> {
         let started = Instant::now();
-        let shortest = self.state.first_step.map_or(0.0, |first| COLLAPSED * first / SAFETY);
+        let first = self.state.first_step.unwrap_or(0.0) / SAFETY;
+        let shortest = [COLLAPSED * first, COLLAPSED_TORN * first];
         let options = StepOptions {
             law_outputs: measured || self.all_outputs,
             energy_balance: measured,

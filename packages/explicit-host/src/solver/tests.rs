@@ -106,6 +106,24 @@ fn an_element_that_may_fail_goes_when_it_has_collapsed() {
     assert!(solver.state.step > first_step && !solver.bodies[0].is_intact(0));
 }
 
+#[test]
+fn an_element_that_has_lost_its_neighbour_goes_sooner() {
+    let values = parameters::preset("kevlar-km2-600").expect("it exists").values.to_vec();
+    let mut solver: Solver<f64> = bar(values, 2, true, collapse);
+    step(&mut solver);
+    let first_step = solver.state.first_step.expect("a step was made");
+    let Solver { bodies, media, .. } = &mut solver;
+    let nodes = bodies[0].mesh.elements[0];
+    bodies[0].delete(&[0]);
+    bodies[0].weigh(media, nodes.into_iter());
+    while solver.bodies[0].state.deleted.len() < 2 {
+        step(&mut solver);
+        assert!(solver.state.time < 1e-5, "the top is through the bottom after 10 µs");
+    }
+    let part = solver.state.step / first_step;
+    assert!(part < 1.1 * COLLAPSED_TORN && part > 0.5 * COLLAPSED_TORN, "{part}");
+}
+
 /// A cube whose fibre is this part of its length at rest, and is drawn out at this speed without viscosity; it does not
 /// fail.
 fn drawn_out(stretch: f64, speed: f64) -> Solver<f64> {
