@@ -73,11 +73,13 @@ pub struct StepOptions {
     pub law_outputs: bool,
     /// The hourglass energy, which only the energy balance needs.
     pub energy_balance: bool,
-    /// Length of the last step, the time at its end, and the stable steps below which an element that may fail has
-    /// collapsed: a whole one, and one beside deleted ones.
+    /// Length of the last step, and the time at its end.
     pub step: f64,
     pub time: f64,
-    pub shortest: [f64; 2],
+    /// The stable step below which an element that may fail has collapsed, its fibre taken for tense; and the one that
+    /// stiffness alone has to allow it where it has lost a neighbour.
+    pub shortest: f64,
+    pub shortest_torn: f64,
     /// Whether elements have failed: from then on those of a law of one's own may, of which it is not known before.
     pub has_failed: bool,
     /// The stable step at which damping is taken for a stiffness: the last one by the elements' bound.
@@ -183,8 +185,9 @@ pub struct ElementBlock<T> {
     /// ln(1 + ε_lim), or the linear elastic law's strength, of each element where they have limits of their own; else
     /// empty.
     limit: Vec<T>,
-    /// 1 where an element has lost a neighbour at one of its nodes.
-    torn: Vec<T>,
+    /// 1 where an element has lost a neighbour at one of its nodes; whether there are any.
+    pub torn: Vec<T>,
+    any_torn: bool,
     /// Of this step: what limits the next one, and how much of it is viscosity's; the largest of a whole group of
     /// [`LANES`].
     pub rates: Vec<T>,
@@ -231,6 +234,7 @@ impl<T: Number> ElementBlock<T> {
             },
             limit: Vec::new(),
             torn: vec![T::default(); stride],
+            any_torn: false,
             rates: vec![T::default(); stride],
             viscous: vec![T::default(); stride],
             corners: vec![T::default(); stride],
@@ -247,6 +251,7 @@ impl<T: Number> ElementBlock<T> {
     /// Takes note that an element has lost a neighbour.
     pub fn tear(&mut self, i: usize) {
         self.torn[i] = T::from_f64(1.0);
+        self.any_torn = true;
     }
 
     /// From the nodes' displacements to their forces; updates the history.
@@ -396,7 +401,7 @@ impl<T: Number> ElementBlock<T> {
     #[inline(always)]
     fn bound_step(&mut self, medium: &Medium<T>, scratch: &mut Scratch<T>, options: StepOptions, shared: f64) {
         let (one, four) = (Lanes::constant(1.0), Lanes::constant(4.0));
-        let StepOptions { shortest, reference, .. } = options;
+        let StepOptions { shortest, shortest_torn, reference, .. } = options;
         let [own, at_rest] = self.shapes.hourglass_frequency;
         let shared = largest(at_rest, shared);
         let [own, shared] = match self.shapes.lightest {
@@ -413,7 +418,10 @@ impl<T: Number> ElementBlock<T> {
         let per_density = Lanes::constant(1.0 / medium.density);
         let twice = Lanes::constant(2.0 / reference);
         let corner_part = Lanes::constant(self.shapes.corner_part);
-        let shortest = shortest.map(|step| [Lanes::constant(step * step), Lanes::constant(2.0 * step)]);
+        let [square, square_torn] =
+            [Lanes::constant(shortest * shortest), Lanes::constant(shortest_torn * shortest_torn)];
+        let twice_shortest = Lanes::constant(2.0 * shortest);
+        let any_torn = self.any_torn && medium.is_bounded_by_direction();
         for group in 0..self.shapes.stride / LANES {
             let first = group * LANES;
             let active = scratch.measures.active(&self.history.intact, first);
@@ -432,13 +440,18 @@ impl<T: Number> ElementBlock<T> {
             let turning = bounds.tension * per_density + all_round;
             let deforming = (bounds.compaction + bounds.distortion) * per_density;
             let trace = Lanes::at(&measures.trace_across, first);
-            let along = |stretching: Lanes<T>| Motions {
+            let along = Motions {
                 stiff: [stretching * spread_along, all_round * spread_across],
                 coupling: stretching * all_round * slanting,
                 damped: [Lanes::at(&measures.damping_along, first), Lanes::zero()],
             };
-            let tense = along(bounds.elongation * per_density + all_round);
-            let along = along(stretching);
+            // As if the fibre were tense however short it is.
+            let stretching = bounds.elongation * per_density + all_round;
+            let tense = Motions {
+                stiff: [stretching * spread_along, all_round * spread_across],
+                coupling: stretching * all_round * slanting,
+                damped: along.damped,
+            };
             // What deforms couples by no more than √C + √(2 D), the square of which is at most 4 (C + D).
             let across = Motions {
                 stiff: [turning * spread_along, deforming * trace + all_round * spread_across],
@@ -454,12 +467,14 @@ impl<T: Number> ElementBlock<T> {
             let corner_along = along.stiff[0] + all_round * trace + twice * along.damped[0];
             let corner_across = across.stiff[0] + (deforming + all_round) * trace + damped_corners;
             (corner_part * corner_along.max(corner_across) + own).store(&mut self.corners, first);
-            // As in the body's stable step; of a whole one as if its fibre were tense however short it is.
-            let torn = Lanes::at(&self.torn, first);
-            let most_at = |[square, twice]: [Lanes<T>; 2], along: &Motions<T>| {
-                (square * own).max(along.rate(square, twice).max(across.rate(square, twice))) + square * shared
-            };
-            let most = most_at(shortest[0], &tense).max(torn * most_at(shortest[1], &along));
+            // As in the body's stable step.
+            let most = tense.rate(square, twice_shortest).max(across.rate(square, twice_shortest));
+            let mut most = (square * own).max(most) + square * shared;
+            if any_torn {
+                let stiff = along.rate(square_torn, Lanes::zero()).max(across.rate(square_torn, Lanes::zero()));
+                let stiff = (square_torn * own).max(stiff) + square_torn * shared;
+                most = most.max(stiff.only_where(Lanes::at(&self.torn, first)));
+            }
             one.only_where(most.only_where(active) - four).store(&mut scratch.collapsed, first);
         }
     }

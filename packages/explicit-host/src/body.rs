@@ -261,7 +261,7 @@ impl<T: Number> Body<T> {
         self.state.collapsed += self.sums.collapsed;
     }
 
-    /// Deletes elements as if they had failed.
+    /// Deletes elements as if they had failed; [`weigh`](Self::weigh) has to follow.
     pub fn delete(&mut self, elements: &[usize]) {
         for &element in elements {
             let place = self.blocks.partition_point(|block| block.first <= element) - 1;

@@ -149,7 +149,7 @@ impl<T: Number> Body<T> {
     pub fn lend(&mut self, media: &[Medium<T>], rate: f64, left: f64) -> Lent {
         let mut nodes: Vec<u32> = Vec::new();
         for block in &self.blocks {
-            for i in (0..block.shapes.n).filter(|&i| block.rates[i].into() > 0.0 && self.rate_of(block, i) > rate) {
+            for i in (0..block.shapes.n).filter(|&i| block.is_intact(i) && self.rate_of(block, i) > rate) {
                 nodes.extend(block.shapes.nodes[i]);
             }
         }
@@ -282,5 +282,6 @@ mod tests {
         assert!(body.mass == other.mass && body.mobility == other.mobility);
         let spread = |body: &Body<f64>| format!("{:?}", body.blocks[0].shapes);
         assert_eq!(spread(&body), spread(&other));
+        assert!(body.blocks[0].torn.contains(&1.0) && body.blocks[0].torn == other.blocks[0].torn);
     }
 }

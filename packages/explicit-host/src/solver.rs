@@ -21,11 +21,11 @@ use toron_shared::error::Error;
 
 /// A step is this fraction of the longest one that the bounds of frequency and damping allow.
 const SAFETY: f64 = 0.9;
-/// An element that may fail has collapsed, and is deleted, when its own stable step is this fraction of the first one
-/// of all, with its fibre taken for tense: before the break steps fall to 0.67 of the first.
+/// An element that may fail has collapsed, and is deleted, when its own stable step, its fibre taken for tense, is this
+/// fraction of the first one of all: before the break steps fall to 0.67 of it.
 const COLLAPSED: f64 = 0.2;
-/// And when it is this fraction, of one that has lost a neighbour: a shred that is squeezed flat or swells without end,
-/// which nothing holds any more.
+/// So has one that has lost a neighbour, when its stiffness alone allows no more than this fraction, by direction: what
+/// is left at torn ends swells to thousands of times its volume, and would halve the step for half of a shot.
 const COLLAPSED_TORN: f64 = 0.4;
 /// Torn ends may be lent mass where they take the step below this part of the first one.
 const HALF: f64 = 0.5;
@@ -161,13 +161,13 @@ impl<T: Number> Solver<T> {
     pub(super) fn compute_accelerations(&mut self, measured: bool, left: f64) -> Result<(), Error> {
         let started = Instant::now();
         let first = self.state.first_step.unwrap_or(0.0) / SAFETY;
-        let shortest = [COLLAPSED * first, COLLAPSED_TORN * first];
         let options = StepOptions {
             law_outputs: measured || self.all_outputs,
             energy_balance: measured,
             step: self.state.step,
             time: self.state.time,
-            shortest,
+            shortest: COLLAPSED * first,
+            shortest_torn: COLLAPSED_TORN * first,
             has_failed: self.state.failed.is_some(),
             reference: self.state.bound.unwrap_or(f64::INFINITY),
             trial: self.state.stable.filter(|_| self.has_estimate() && self.state.estimate.is_due()),

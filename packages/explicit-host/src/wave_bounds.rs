@@ -218,6 +218,22 @@ mod tests {
         }
     }
 
+    /// The same motion of the nodes has a gradient 1/λ times that at rest, and meets what a tense fibre would there.
+    #[test]
+    fn a_slack_fibre_meets_what_it_does_when_it_is_tense_again() {
+        let material = material("kevlar-km2-600", 0.0);
+        let met = |stretch: f64| {
+            let f = Matrix3::from_diagonal(&[stretch, 1.1, 1.0].into());
+            let Stiffness { elongation, returning, .. } = bounds(&material, 1e12, &f, &[0.0; 6]);
+            returning * elongation / (stretch * stretch)
+        };
+        let tense = met(1.0);
+        assert!(tense > 1e10 && met(1.05) < tense, "{tense:e}");
+        for stretch in [0.05, 0.5, 0.99] {
+            assert!((met(stretch) / tense - 1.0).abs() < 1e-12, "{stretch}");
+        }
+    }
+
     #[test]
     fn nothing_of_the_law_with_friction_is_stiffer() {
         for k_ld in [0.0, 126e6] {
