@@ -52,7 +52,7 @@ pub struct RigidSurface {
 }
 
 /// Nodes that are nearer than this many times the motion of the last step, and this part of the radius, may touch soon.
-const AHEAD: f64 = 2.0;
+const STEPS_AHEAD: f64 = 2.0;
 const SOON: f64 = 1e-3;
 
 /// A node that may be touched.
@@ -145,7 +145,7 @@ impl Contact {
         let motion = body.farthest + moved.abs();
         self.clear -= motion;
         // What may touch in the next steps counts in their length before it does.
-        let soon = AHEAD * motion + SOON * self.striker.radius;
+        let soon = STEPS_AHEAD * motion + SOON * self.striker.radius;
         if self.clear > soon {
             self.is_near = false;
             return 0.0;

@@ -269,7 +269,7 @@ fn merge(old: Vec<Pair>, found: Vec<Pair>, due: impl Fn(&Pair) -> bool) -> Vec<P
             // What was outside one face has not come through another one.
             Some(new) => {
                 let known = new.known || pair.known && pair.face == new.face;
-                merged.push(Pair { known, ahead: pair.ahead, ..new });
+                merged.push(Pair { known, onset: pair.onset, ..new });
             }
             None => {}
         }

@@ -13,7 +13,7 @@ use crate::vector::{Vector, add, dot, times};
 
 /// A node that is no farther from a face's surface than this many times its motion against it in the last step may
 /// touch it soon, and counts in the length of steps before it does.
-const AHEAD: f64 = 4.0;
+const STEPS_AHEAD: f64 = 4.0;
 /// One that is farther away is looked at again when it may have gone this part of the way: it may get faster.
 const PART: f64 = 0.5;
 /// Lengths closer than this part of themselves are the same.
@@ -38,9 +38,10 @@ pub struct Pair {
     /// past an edge or an open end.
     pub depth: f64,
     pub uncounted: f64,
-    /// How near the face the node begins to be pressed, and as deep in it is pressed by its depth alone: what it came by
-    /// in a step. Its force is the mean over a step either way, and no energy comes of where within a step it touches.
-    pub ahead: f64,
+    /// Half the width of the onset, the node's motion in the step that brought it: the force begins so far before the
+    /// face, and from so deep on is the stiffness times the depth. In between it is the mean over a step either way, and
+    /// no energy comes of where within a step the node touches.
+    pub onset: f64,
     /// Whether it touches the face, or was outside when it was last looked at: if neither, it has not come through the
     /// face.
     pub known: bool,
@@ -70,7 +71,7 @@ pub struct Exerted {
     pub force: Vector,
     pub weights: [f64; 4],
     pub stiffness: f64,
-    /// That over the part that the face has of what bounds the spring's frequency.
+    /// The stiffness over the face's part 1 − α of the bound of the spring's frequency, see [`Pair::exert`].
     pub spring: f64,
 }
 
@@ -119,14 +120,14 @@ impl Pair {
     ) -> (Option<Vector>, f64) {
         let (own, master) = (&surfaces[number], &surfaces[self.master as usize]);
         let old = self.friction;
-        let pressed = (self.face != face).then(|| self.pressed(own, master));
+        let pressed = (self.face != face).then(|| self.work_over_half_stiffness(own, master));
         (self.face, self.place) = (face, place);
         let slip = met.map_or([0.0; 3], |met| self.slip(own, master, met.weights));
         let way = dot(slip, slip).sqrt();
         if let Some(met) = met.filter(|_| self.on_face.stiffness == 0.0) {
             self.begin(met.depth, way, -dot(met.normal, slip));
         }
-        let Some(met) = met.filter(|met| met.depth > -self.ahead && met.depth < deepest) else {
+        let Some(met) = met.filter(|met| met.depth > -self.onset && met.depth < deepest) else {
             return (None, self.stay_apart(met, slip, [number, self.master as usize], [own, master], motion));
         };
         let lost = self.update_penetration(met.depth, way, pressed, dot(met.normal, slip));
@@ -143,9 +144,9 @@ impl Pair {
     /// Where it may begin to be pressed, after a motion by `way`, of which `nearer` against the face, to a depth: nothing
     /// is held there. It may not have come by its motion alone, but to another face, and may have become slower.
     fn begin(&mut self, depth: f64, way: f64, nearer: f64) {
-        self.ahead = self.ahead.min(way - depth).min(nearer).max(0.0);
-        if self.ahead > 0.0 {
-            self.depth = -self.ahead;
+        self.onset = self.onset.min(way - depth).min(nearer).max(0.0);
+        if self.onset > 0.0 {
+            self.depth = -self.onset;
         }
     }
 
@@ -170,11 +171,11 @@ impl Pair {
             None => self.stored,
         };
         (self.friction, self.stored, self.on_face) = ([0.0; 3], 0.0, OnFace::default());
-        (self.depth, self.uncounted, self.ahead) = (0.0, 0.0, 0.0);
+        (self.depth, self.uncounted, self.onset) = (0.0, 0.0, 0.0);
         self.known = outside.is_some();
         let Some(met) = outside else { return lost };
-        let (gap, soon) = (-met.depth, AHEAD * dot(slip, slip).sqrt());
-        self.ahead = (-dot(met.normal, slip)).clamp(0.0, gap);
+        let (gap, soon) = (-met.depth, STEPS_AHEAD * dot(slip, slip).sqrt());
+        self.onset = (-dot(met.normal, slip)).clamp(0.0, gap);
         if gap <= soon {
             (self.on_face.weights, self.on_face.counts) = (met.weights, true);
             return lost;
@@ -232,12 +233,12 @@ impl Pair {
         let before = if self.known { self.depth + self.uncounted } else { depth };
         // While it begins to be pressed, only what is more than its motion is a jump: what counts would change.
         let jumps =
-            self.uncounted > 0.0 && self.depth >= self.ahead || (depth - before).abs() > (1.0 + ROUNDING) * slip;
+            self.uncounted > 0.0 && self.depth >= self.onset || (depth - before).abs() > (1.0 + ROUNDING) * slip;
         self.known = true;
         if let Some(pressed) = pressed.filter(|_| jumps) {
-            if self.ahead > 0.0 {
+            if self.onset > 0.0 {
                 // As deep as holds as much without.
-                (self.depth, self.ahead) = (self.held(self.depth).sqrt(), 0.0);
+                (self.depth, self.onset) = (self.held(self.depth).sqrt(), 0.0);
             }
             // The work by the trapezoidal rule of central differences, over half the stiffness, is `pressed` and `out`
             // times the new depth.
@@ -248,8 +249,8 @@ impl Pair {
             return 0.5 * self.stiffness * (held - self.depth * (self.depth + out)).max(0.0);
         }
         let expected = self.depth + (depth - before).clamp(-slip, slip);
-        let least = (self.depth - slip).max(-self.ahead);
-        self.depth = expected.clamp(-self.ahead, depth);
+        let least = (self.depth - slip).max(-self.onset);
+        self.depth = expected.clamp(-self.onset, depth);
         self.uncounted = depth - self.depth;
         0.5 * self.stiffness * (self.held(least) - self.held(self.depth)).max(0.0)
     }
@@ -257,30 +258,30 @@ impl Pair {
     /// The depth that counts, in the mean over what the node came by in a step, either way, outside counting as 0.
     #[inline(always)]
     fn pressing(&self) -> f64 {
-        if self.depth >= self.ahead {
+        if self.depth >= self.onset {
             self.depth
-        } else if self.depth <= -self.ahead {
+        } else if self.depth <= -self.onset {
             0.0
         } else {
-            (self.depth + self.ahead) * (self.depth + self.ahead) / (4.0 * self.ahead)
+            (self.depth + self.onset) * (self.depth + self.onset) / (4.0 * self.onset)
         }
     }
 
     /// The energy that a depth holds, over half the stiffness.
     #[inline(always)]
     fn held(&self, depth: f64) -> f64 {
-        if depth >= self.ahead {
-            depth * depth + self.ahead * self.ahead / 3.0
-        } else if depth <= -self.ahead {
+        if depth >= self.onset {
+            depth * depth + self.onset * self.onset / 3.0
+        } else if depth <= -self.onset {
             0.0
         } else {
-            let into = depth + self.ahead;
-            into * into * into / (6.0 * self.ahead)
+            let into = depth + self.onset;
+            into * into * into / (6.0 * self.onset)
         }
     }
 
     /// The work of what has pressed the node out of its face at the step's start, over half the stiffness.
-    fn pressed(&self, own: &Surface, master: &Surface) -> f64 {
+    fn work_over_half_stiffness(&self, own: &Surface, master: &Surface) -> f64 {
         let force = add(self.on_face.force, -1.0, self.friction);
         let slip = self.slip(own, master, self.on_face.weights);
         dot(force, slip) / self.stiffness
@@ -383,8 +384,8 @@ mod tests {
 
     /// A unit mass that comes at unit speed and goes again, in steps of 1: what its energy has gained, over what it was.
     fn bounce(frequency: f64, start: f64, averaged: bool) -> f64 {
-        let ahead = if averaged { 1.0 } else { 0.0 };
-        let mut pair = Pair { stiffness: frequency * frequency, ahead, depth: start, ..Pair::default() };
+        let onset = if averaged { 1.0 } else { 0.0 };
+        let mut pair = Pair { stiffness: frequency * frequency, onset, depth: start, ..Pair::default() };
         let mut speed = 1.0;
         while pair.depth > -3.0 {
             speed -= pair.stiffness * pair.pressing();
@@ -413,23 +414,23 @@ mod tests {
     fn nothing_is_lost_where_a_node_begins_to_be_pressed() {
         for (gap, way) in [(1.5, 0.7), (1.05, 0.1), (0.9, 0.9), (0.2, 0.6)] {
             for known in [true, false] {
-                let mut pair = Pair { stiffness: STIFFNESS, ahead: 1.0, known, ..Pair::default() };
+                let mut pair = Pair { stiffness: STIFFNESS, onset: 1.0, known, ..Pair::default() };
                 let depth = way - gap;
                 pair.begin(depth, way, way);
-                if depth <= -pair.ahead {
+                if depth <= -pair.onset {
                     continue;
                 }
                 let lost = pair.update_penetration(depth, way, Some(0.0), way);
-                let (held, into) = (pair.held(pair.depth), pair.depth + pair.ahead);
+                let (held, into) = (pair.held(pair.depth), pair.depth + pair.onset);
                 assert!(lost == 0.0 && into <= way + 1e-15, "{gap} {way}: {lost} {into}");
-                assert!(held <= way * way * way / 6.0 / pair.ahead.max(1e-300), "{gap} {way}: {held}");
+                assert!(held <= way * way * way / 6.0 / pair.onset.max(1e-300), "{gap} {way}: {held}");
             }
         }
     }
 
     #[test]
     fn what_is_held_is_the_work_of_what_presses() {
-        let mut pair = Pair { stiffness: STIFFNESS, ahead: 0.4, ..Pair::default() };
+        let mut pair = Pair { stiffness: STIFFNESS, onset: 0.4, ..Pair::default() };
         for depth in [-0.5, -0.39, -0.1, 0.0, 0.3, 0.41, 2.0] {
             pair.depth = depth;
             let slope = (pair.held(depth + 1e-5) - pair.held(depth - 1e-5)) / 2e-5;
