@@ -10,7 +10,7 @@ use super::arguments::{Arguments, Reals, Umat, Whole};
 use super::guarded::{Guard, GuardedArray};
 use super::kinematics::{Components, Modulus};
 use super::material::{MOST_FIELDS, Material};
-use super::shared::Shared;
+use super::shared_memory::Shared;
 
 /// `SUBROUTINE SDVINI(STATEV, COORDS, NSTATV, NCRDS, NOEL, NPT, LAYER, KSPT)`.
 type Sdvini = unsafe extern "C" fn(Reals, Reals, Whole, Whole, Whole, Whole, Whole, Whole);

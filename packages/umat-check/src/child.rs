@@ -16,7 +16,7 @@ use super::compile::LIBRARY_OF_UTILITIES;
 use super::finding::{Finding, Question, Verdict};
 use super::guarded::Guard;
 use super::material::{Material, Reads};
-use super::shared::{self, SIGNALLED, Seen, Shared};
+use super::shared_memory::{self, SIGNALLED, Seen, Shared};
 use super::{
     coverage, energy, expect, job, jumps, objectivity, place, process, properties, rest, steps, stress, tangent,
     thermal, unset, vumat, work_dir,
@@ -176,7 +176,7 @@ fn write_reply(result: &Path, reply: &ChildReply) -> Result<(), Error> {
     unsafe { libc::_exit(0) }
 }
 
-/// A question to a UMAT: each is a function of the module that is named after it.
+/// Which function answers which question of a UMAT; a VUMAT's are in `vumat/child.rs`.
 fn answer_question(
     question: Question,
     law: &Law,
@@ -186,7 +186,7 @@ fn answer_question(
     allowed: Option<f64>,
 ) -> Finding {
     match question {
-        Question::Build | Question::Deck | Question::Memory => process::touch_beyond_arrays(session),
+        Question::Memory => process::touch_beyond_arrays(session),
         Question::Rest => rest::rest(session),
         Question::Stress => stress::stress(session),
         Question::Properties => properties::properties(session),
@@ -212,6 +212,9 @@ fn answer_question(
         Question::Coverage => coverage::cover_lines(law, session),
         Question::DataCheck | Question::Blocks | Question::Single | Question::Deletion => {
             Finding::new(question, Verdict::NotAsked, None, "asked of a VUMAT alone")
+        }
+        Question::Build | Question::Deck => {
+            Finding::new(question, Verdict::NotAsked, None, "answered before the law is called")
         }
     }
 }
@@ -254,7 +257,7 @@ pub fn run_task(
     };
     std::fs::write(&request, serde_json::to_vec(&content).map_err(|error| Error::Input(error.to_string()))?)
         .map_err(io_error)?;
-    shared::create(&shared).map_err(io_error)?;
+    shared_memory::create(&shared).map_err(io_error)?;
     if let Err(error) = std::fs::remove_file(&result)
         && error.kind() != io::ErrorKind::NotFound
     {

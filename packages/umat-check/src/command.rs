@@ -7,6 +7,7 @@ use std::time::Duration;
 
 use clap::Args;
 
+use super::again::{self, Repeated};
 use super::call::Call;
 use super::child::{self, ChildReply, Ending, Task};
 use super::ci;
@@ -16,13 +17,12 @@ use super::coverage;
 use super::finding::{Finding, NOT_FINITE, Question, Verdict};
 use super::guarded::Guard;
 use super::input::{self, Input, Overrides};
-use super::kept;
+use super::kept_properties;
 use super::material::{DEFAULT_NAME, Material, Plane, Reads};
 use super::noise;
 use super::relate;
-use super::repeated::{self, Repeated};
 use super::report::{MaterialReport, Report};
-use super::shared;
+use super::shared_memory;
 use super::tangent;
 use super::unset;
 use super::work_dir::WorkDir;
@@ -97,7 +97,7 @@ pub struct Arguments {
     /// These lines alone, as in tangent,energy.
     #[arg(long, value_delimiter = ',', value_parser = question)]
     only: Vec<Question>,
-    /// The lines that take no time alone: build, memory, rest, stress, known answers, tangent, objectivity, repeat,
+    /// Only the lines that take next to no time: build, memory, rest, stress, expect, tangent, objectivity, repeat,
     /// outputs.
     #[arg(long, conflicts_with = "only")]
     quick: bool,
@@ -184,7 +184,7 @@ pub fn run(program: &str, arguments: &Arguments) -> Result<(), Error> {
             return Err(error);
         }
     };
-    RunDirectory::check(&arguments.output, &repeated::writes(file))?;
+    RunDirectory::check(&arguments.output, &again::writes(file))?;
     for material in &mut materials {
         material.symbol.clone_from(&arguments.symbol);
     }
@@ -213,7 +213,7 @@ fn write_wrapper(file: &Path, built: &Built, output: &Path) -> Result<(), Error>
     if !language(file)?.is_fortran() {
         return Err(Error::Input(format!("{}: allowed with --wrapper: Fortran", file.display())));
     }
-    let path = repeated::write_wrapper(output, file, &wrapper::wrapper(file, built.is_free())?)?;
+    let path = again::write_wrapper(output, file, &wrapper::wrapper(file, built.is_free())?)?;
     print_note(&format!("{}: the law with DDSDDE by differences\n", path.display()));
     Ok(())
 }
@@ -340,7 +340,7 @@ impl Check<'_> {
         for question in asked {
             // A law that ends before it is known what it reads is not called with an inverted F.
             let unknown = if question == Question::Invalid { Reads::Rate } else { Reads::Mixed };
-            let mut finding = self.answer_question(&material, question, reads.unwrap_or(unknown), guard, &mut ended)?;
+            let mut finding = self.ask(&material, question, reads.unwrap_or(unknown), guard, &mut ended)?;
             if question == Question::Memory && finding.verdict != Verdict::Right {
                 guard = Guard::Padded;
             }
@@ -390,7 +390,7 @@ impl Check<'_> {
     }
 
     /// Runs a question's task in a child, twice for the memory, and makes a finding of how it ends.
-    fn answer_question(
+    fn ask(
         &self,
         material: &Material,
         question: Question,
@@ -439,7 +439,7 @@ impl Check<'_> {
             (Question::Runtime, Verdict::Right) => self.with_zeros(material, finding, longest_call)?,
             (Question::Repeat, Verdict::Right) => {
                 let mut run = |task: Task| self.run_task(material, task, guard, library, longest_call);
-                kept::properties(&mut run, material)?.unwrap_or(finding)
+                kept_properties::kept_between_materials(&mut run, material)?.unwrap_or(finding)
             }
             (Question::Repeat | Question::Threads, Verdict::Wrong) => self.perhaps_unset(finding),
             (Question::Tangent, _) if has(noise::NOISE) => self.single_precision(finding),
@@ -559,7 +559,7 @@ impl Check<'_> {
         ended.push((kind.clone(), question));
         let of_the_question = kind == "runtime check"
             || matches!(question, Question::Threads | Question::Repeat | Question::Histories)
-            || shared::names().any(|array| kind.ends_with(array));
+            || shared_memory::names().any(|array| kind.ends_with(array));
         let verdict = if of_the_question { Verdict::Wrong } else { Verdict::Ended };
         let hint = match kind.as_str() {
             "XIT" | "stop" if material.name == DEFAULT_NAME => {

@@ -47,8 +47,7 @@ impl Verdict {
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Finding {
     /// The question's name.
-    #[serde(rename = "line")]
-    pub check: String,
+    pub line: String,
     pub verdict: Verdict,
     /// What was measured, a relative error for most.
     pub figure: Option<f64>,
@@ -77,7 +76,7 @@ impl Finding {
         // JSON has no number that is not finite.
         let figure = figure.filter(|figure| figure.is_finite());
         Finding {
-            check: question.name().to_string(),
+            line: question.name().to_string(),
             verdict,
             figure,
             text: text.into(),
@@ -94,7 +93,7 @@ impl Finding {
     /// is known.
     pub fn fails(&self, strict: bool) -> bool {
         let doubtful = self.verdict == Verdict::Warning
-            || (self.verdict == Verdict::NotSure && self.check == Question::Coverage.name());
+            || (self.verdict == Verdict::NotSure && self.line == Question::Coverage.name());
         !self.known && (self.verdict.fails() || (strict && doubtful))
     }
 
@@ -114,7 +113,7 @@ impl Finding {
     }
 }
 
-/// What is asked, in this order.
+/// What is asked; [`Question::ASKED`] and [`Question::OF_VUMAT`] have the order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Question {

@@ -7,8 +7,8 @@ use serde::Deserialize;
 use toron_shared::spanned::Spanned;
 
 use super::expect::Expected;
+use super::expect_keys::{self, Expect};
 use super::finding::Question;
-use super::given::{self, Expect};
 use super::inp::{self, Given};
 use super::material::{DEFAULT_NAME, Explicit, LARGEST_SEPARATION, MOST_FIELDS, Material, Plane, Traits};
 use toron_shared::checked::{Checked, Positive, value};
@@ -275,7 +275,7 @@ fn initial_state(source: &Source, file: &File, own: &MaterialKeys, overrides: &O
         && states < initial.len()
     {
         if overrides.states.is_none() {
-            let message = format!("initial has {} numbers; allowed: statev = {states} or fewer", initial.len());
+            let message = format!("initial has {} numbers; allowed: up to {states}, as statev says", initial.len());
             return Err(source.error(given.span(), &message));
         }
         initial.truncate(states);
@@ -285,7 +285,7 @@ fn initial_state(source: &Source, file: &File, own: &MaterialKeys, overrides: &O
 }
 
 fn known_answers(source: &Source, file: &File, components: usize) -> Result<Vec<Expected>, Error> {
-    file.expect.iter().map(|given| given::expected(source, given, components)).collect()
+    file.expect.iter().map(|given| expect_keys::expected(source, given, components)).collect()
 }
 
 fn initial_stress(source: &Source, given: Option<&Spanned<Vec<f64>>>, components: usize) -> Result<[f64; 6], Error> {

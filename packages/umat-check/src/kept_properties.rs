@@ -16,7 +16,7 @@ type Run<'a> = dyn FnMut(Task) -> Result<Result<ChildReply, Ending>, Error> + 'a
 ///
 /// # Errors
 /// The child cannot be started.
-pub fn properties(run: &mut Run, material: &Material) -> Result<Option<Finding>, Error> {
+pub fn kept_between_materials(run: &mut Run, material: &Material) -> Result<Option<Finding>, Error> {
     let properties = material.properties.iter().map(|property| property * OTHER).collect();
     let other = Material { name: format!("{}-B", material.name), properties, ..material.clone() };
     let mut stresses = |after: bool| {

@@ -1,12 +1,13 @@
 //! What is wrong with a UMAT, one's own or anybody's: the program `umat-check`, and `toron check`.
 //!
 //! The file becomes a library ([`compile`]) that a child process loads and calls as Abaqus/Standard does ([`child`],
-//! [`call`], [`point`]). One question a module: [`tangent`] (with [`differences`], [`judgement`], [`hypotheses`],
-//! [`mistakes`]), [`objectivity`], [`steps`], [`energy`], [`rest`], [`process`]. Answers are lines ([`finding`]) of a
-//! [`report`]. [`vumat`] has what differs in Abaqus/Explicit.
+//! [`call`], [`point`]). `answer_question` there lists which module answers which question, such as [`tangent`] (with
+//! [`differences`], [`judgement`], [`hypotheses`], [`mistakes`]), [`objectivity`], [`energy`] and [`process`]. Answers
+//! are lines ([`finding`]) of a [`report`]. [`vumat`] has what differs in Abaqus/Explicit.
 
 #![cfg(target_os = "linux")]
 
+pub mod again;
 pub mod arguments;
 pub mod call;
 pub mod child;
@@ -20,8 +21,8 @@ pub mod differences;
 pub mod driver;
 pub mod energy;
 pub mod expect;
+pub mod expect_keys;
 pub mod finding;
-pub mod given;
 pub mod guarded;
 pub mod histories;
 pub mod hypotheses;
@@ -30,7 +31,7 @@ pub mod input;
 pub mod job;
 pub mod judgement;
 pub mod jumps;
-pub mod kept;
+pub mod kept_properties;
 pub mod kinematics;
 pub mod map;
 pub mod material;
@@ -42,10 +43,9 @@ pub mod point;
 pub mod process;
 pub mod properties;
 pub mod relate;
-pub mod repeated;
 pub mod report;
 pub mod rest;
-pub mod shared;
+pub mod shared_memory;
 pub mod sources;
 pub mod steps;
 pub mod stress;

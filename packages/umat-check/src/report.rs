@@ -36,8 +36,8 @@ impl Report {
         let lines = self.materials.iter().flat_map(|material| &material.lines);
         let mut names: Vec<String> = Vec::new();
         for line in lines.filter(|line| line.fails(strict)) {
-            if !names.contains(&line.check) {
-                names.push(line.check.clone());
+            if !names.contains(&line.line) {
+                names.push(line.line.clone());
             }
         }
         self.verdict = if names.is_empty() { Verdict::Right } else { Verdict::Wrong };
@@ -48,7 +48,7 @@ impl Report {
     pub fn failures(&self, strict: bool) -> String {
         let lines = || self.materials.iter().flat_map(|material| &material.lines);
         let names = |is: &dyn Fn(&Finding) -> bool| {
-            let mut names: Vec<&str> = lines().filter(|line| is(line)).map(|line| line.check.as_str()).collect();
+            let mut names: Vec<&str> = lines().filter(|line| is(line)).map(|line| line.line.as_str()).collect();
             let mut seen = Vec::new();
             names.retain(|name| {
                 !seen.contains(name) && {
@@ -73,7 +73,7 @@ impl Report {
             let known: Vec<&Finding> = same.flat_map(|other| &other.lines).collect();
             for line in &mut material.lines {
                 let is_it = |other: &&&Finding| {
-                    other.check == line.check && other.verdict == line.verdict && other.kinds == line.kinds
+                    other.line == line.line && other.verdict == line.verdict && other.kinds == line.kinds
                 };
                 (line.known, line.known_figure) = (false, None);
                 let Some(other) = known.iter().find(is_it).filter(|_| line.fails(true)) else { continue };
@@ -93,7 +93,7 @@ impl Report {
         let mut text = format!("{}: {}{law}\n\n", self.file, material.name);
         let shown = gathered(&material.lines);
         for line in &shown {
-            text.push_str(&as_text(line, program, colours));
+            text.push_str(&line_as_text(line, program, colours));
         }
         let count =
             |verdict: Verdict| material.lines.iter().filter(|line| line.verdict == verdict && !line.known).count();
@@ -138,9 +138,9 @@ fn gathered(lines: &[Finding]) -> Vec<Finding> {
         }
         reasons.push(&line.text);
         let same = same(line);
-        let names = same.iter().map(|line| line.check.as_str()).collect::<Vec<_>>().join(", ");
+        let names = same.iter().map(|line| line.line.as_str()).collect::<Vec<_>>().join(", ");
         shown.push(Finding {
-            check: format!("{} others", same.len()),
+            line: format!("{} others", same.len()),
             text: format!("{}: {names}", line.text),
             call: None,
             ..line.clone()
@@ -156,7 +156,7 @@ const VERDICT: usize = 13;
 const WORDS: usize = 78;
 
 /// A line of the report.
-fn as_text(line: &Finding, program: &str, colours: bool) -> String {
+fn line_as_text(line: &Finding, program: &str, colours: bool) -> String {
     let figure = line.figure.map_or(String::new(), short);
     let verdict = format!("{:<VERDICT$}", line.verdict.name());
     let verdict = match (colours, line.verdict) {
@@ -173,7 +173,7 @@ fn as_text(line: &Finding, program: &str, colours: bool) -> String {
     let indent = " ".repeat(NAME + FIGURE + 2 + VERDICT);
     let words = folded(&words, WORDS).replace("\n  ", &format!("\n{indent}"));
     let map: String = line.map.iter().map(|row| format!("{indent}{row}\n")).collect();
-    format!("{:<NAME$}{figure:>FIGURE$}  {verdict}{words}\n{map}", line.check)
+    format!("{:<NAME$}{figure:>FIGURE$}  {verdict}{words}\n{map}", line.line)
 }
 
 /// The text, and what the baseline says of the line.
@@ -245,7 +245,7 @@ mod tests {
         let shown = gathered(&lines);
         assert_eq!(shown.len(), 2);
         assert_eq!(
-            (shown[1].check.as_str(), shown[1].text.as_str()),
+            (shown[1].line.as_str(), shown[1].text.as_str()),
             ("3 others", "ends as in memory: rest, tangent, repeat")
         );
     }
@@ -255,11 +255,11 @@ mod tests {
         let right = Finding::new(Question::Rest, Verdict::Right, Some(0.0), "no stress at rest");
         let long = "a sentence of many words ".repeat(8);
         let wrong = Finding::new(Question::Tangent, Verdict::Wrong, Some(0.25), long.trim());
-        let plain = [as_text(&right, "umat-check", false), as_text(&wrong, "umat-check", false)].concat();
+        let plain = [line_as_text(&right, "umat-check", false), line_as_text(&wrong, "umat-check", false)].concat();
         let columns: Vec<usize> = plain.lines().map(|line| line.len() - line.trim_start().len()).collect();
         assert_eq!(columns[..2], [0, 0]);
         assert!(columns[2..].iter().all(|&column| column == NAME + FIGURE + 2 + VERDICT));
-        let coloured = as_text(&right, "umat-check", true);
-        assert_eq!(coloured.replace("\x1b[32m", "").replace("\x1b[0m", ""), as_text(&right, "umat-check", false));
+        let coloured = line_as_text(&right, "umat-check", true);
+        assert_eq!(coloured.replace("\x1b[32m", "").replace("\x1b[0m", ""), line_as_text(&right, "umat-check", false));
     }
 }

@@ -7,7 +7,7 @@ use std::path::Path;
 use super::super::call::{open, write_counts};
 use super::super::guarded::{Guard, GuardedArray};
 use super::super::material::Material;
-use super::super::shared::{OF_UMAT, OF_VUMAT, Shared};
+use super::super::shared_memory::{OF_UMAT, OF_VUMAT, Shared};
 
 /// `real*8` or, in a build for single precision, `real*4`.
 type Reals = *mut c_void;

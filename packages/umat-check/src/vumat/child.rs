@@ -6,7 +6,7 @@ use super::super::child::Task;
 use super::super::finding::{Finding, Question, Verdict};
 use super::super::guarded::Guard;
 use super::super::material::{Material, Reads};
-use super::super::shared::Shared;
+use super::super::shared_memory::Shared;
 use super::call::{Law, Precision, Session};
 use super::{blocks, deletion, energy, frame, process, single};
 use crate::child::ChildReply;
