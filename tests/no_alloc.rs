@@ -1,5 +1,5 @@
-//! Neither law allocates: not when it is prepared, not at a point, not when it says what is wrong. A binary of its own,
-//! since it counts in the allocator.
+//! Laws do not allocate: not when they are prepared, not at a point, not when they say what is wrong; the law with
+//! friction is in `c/tests/no_alloc.rs`. A binary of its own, since it counts in the allocator.
 
 use allocation_counter::measure;
 use nalgebra::{Matrix3, Vector3};

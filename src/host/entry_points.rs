@@ -5,7 +5,7 @@ use core::slice;
 
 use libc::{c_char, size_t};
 
-use super::environment::concluded_in_default_environment;
+use super::environment::in_default_environment_then;
 use crate::law::block::Precision;
 use crate::law::bounds::wrong_number;
 use crate::law::description::Description;
@@ -216,7 +216,7 @@ pub unsafe fn status_message(status: i32, text: *mut c_char, capacity: size_t) -
 /// As for [`Message::write`].
 #[inline(always)]
 pub unsafe fn entry(message: Message, body: impl FnOnce() -> Result<i32, Error>) -> i32 {
-    concluded_in_default_environment(body, |result| match result {
+    in_default_environment_then(body, |result| match result {
         Ok(status::OK) => status::OK,
         // SAFETY: the message is the caller's, and `body` has run in the default environment, as this does.
         Ok(code) => unsafe { message.refuse(&Error::Plain(code)) },

@@ -19,13 +19,13 @@ const DEFAULT_MXCSR: u32 = 0x1f80;
 /// `work` must not panic: a panic cannot unwind through the assembly, and the process would abort.
 #[inline(always)]
 pub fn in_default_environment<R>(work: impl FnOnce() -> R) -> R {
-    concluded_in_default_environment(work, |result| result)
+    in_default_environment_then(work, |result| result)
 }
 
 /// As [`in_default_environment`], and what `conclude` makes of the result there.
 #[cfg(target_arch = "x86_64")]
 #[inline(always)]
-pub(super) fn concluded_in_default_environment<A, R, W: FnOnce() -> A, C: FnOnce(A) -> R>(work: W, conclude: C) -> R {
+pub(super) fn in_default_environment_then<A, R, W: FnOnce() -> A, C: FnOnce(A) -> R>(work: W, conclude: C) -> R {
     use core::mem::{ManuallyDrop, MaybeUninit};
 
     struct Call<W, C, R> {
@@ -71,6 +71,6 @@ pub(super) fn concluded_in_default_environment<A, R, W: FnOnce() -> A, C: FnOnce
 /// Runs both in the caller's environment, which is not changed on this architecture.
 #[cfg(not(target_arch = "x86_64"))]
 #[inline(always)]
-pub(super) fn concluded_in_default_environment<A, R>(work: impl FnOnce() -> A, conclude: impl FnOnce(A) -> R) -> R {
+pub(super) fn in_default_environment_then<A, R>(work: impl FnOnce() -> A, conclude: impl FnOnce(A) -> R) -> R {
     conclude(work())
 }

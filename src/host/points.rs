@@ -32,7 +32,8 @@ impl<T: Real, const STATE: bool> Sink<T, 0> for StressAnswer<'_, T, STATE> {
     #[inline(always)]
     fn take(self, point: response::Point<T>, _: Option<T>, _: [T; 0]) {
         *self.status = point.status;
-        // SAFETY: `hyperelastic_point` has found the arrays that are written not to be null; they have the values of one point.
+        // SAFETY: `hyperelastic_point` has found the arrays that are written not to be null; they have the values of one
+        // point.
         unsafe {
             *self.stress.cast() = point.stress;
             if STATE {

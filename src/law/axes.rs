@@ -157,9 +157,9 @@ impl<R: Real> Axes<R> for FibreFrame<R> {
     }
     /// From the images where J_t = J/λ keeps more digits so. The image of the fibre has an error of |F|/λ roundings,
     /// and so has λ. In J from the images that error is the same, and cancels in J/λ; there remains that of the other
-    /// two images, at most
-    /// |F|²/J_t. Else, and where the sign is in question, from the columns, which have no error. Of an image that is short beside
-    /// F, whether the fibre is pressed or its section blown up, it makes the difference between all digits and none.
+    /// two images, at most |F|²/J_t. Else, and where the sign is in question, from the columns, which have no error. Of
+    /// an image that is short beside F, whether the fibre is pressed or its section blown up, it makes the difference
+    /// between all digits and none.
     #[inline(always)]
     fn determinant(&self, f: &[[R; 3]; 3], images: [[R; 3]; 3], inverse_square: R, norm_square: R) -> R {
         let (columns, images) = (triple_product(*f), triple_product(images));

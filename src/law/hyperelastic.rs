@@ -136,6 +136,8 @@ impl<R: Real> Hyperelastic<R> {
     /// ```text
     /// J σ = −(p + d) 1 + (t + p + d) e⊗e + a⊗v' + v'⊗a + (k_ld/λ³)(h⊗c1 + c1⊗h)
     /// ```
+    ///
+    /// `across` is −(p + d)/J, `along` (t + p + d)/(J λ²), `v` v'/J.
     #[inline(always)]
     pub(crate) fn cauchy(
         &self,
@@ -144,14 +146,14 @@ impl<R: Real> Hyperelastic<R> {
         intact: R::Mask,
         shear: bool,
     ) -> [R; 6] {
-        let Kinematics { stretch: d, section, images: [c, a, b], strain, .. } = kinematics;
+        let Kinematics { stretch, section, images: [c, a, b], strain, .. } = kinematics;
         let zero = R::splat(0.0);
         // If all factors are zero, so is the stress.
         let factor = |x: R| R::select(intact, x, zero);
-        let distortion = k.distortion * d.inverse_jacobian;
+        let distortion = k.distortion * stretch.inverse_jacobian;
         let deviator = section.deviator(strain.inverse_a_square);
-        let across = (-k.pressure).mul_add(d.inverse_jacobian, -(distortion * deviator));
-        let along = k.tension.mul_add(d.inverse_jacobian, -across) * d.inverse_square;
+        let across = (-k.pressure).mul_add(stretch.inverse_jacobian, -(distortion * deviator));
+        let along = k.tension.mul_add(stretch.inverse_jacobian, -across) * stretch.inverse_square;
         let (across, w) = (factor(across), scale(factor(along), c));
         let v = section.beside_a(factor(distortion * strain.inverse_a_square), [a, b]);
         // Adding +0 makes a −0 positive.
@@ -164,7 +166,7 @@ impl<R: Real> Hyperelastic<R> {
             a[2].mul_add(v[0], a[0].mul_add(v[2], w[2].mul_add(c[0], zero))),
         ];
         if shear {
-            let u = kinematics.slip(factor(k.shear * d.inverse_square * d.inverse_jacobian));
+            let u = kinematics.slip(factor(k.shear * stretch.inverse_square * stretch.inverse_jacobian));
             for (i, j, x) in [(0, 0, 0), (1, 1, 1), (2, 2, 2), (0, 1, 3), (1, 2, 4), (2, 0, 5)] {
                 stress[x] = u[i].mul_add(c[j], u[j].mul_add(c[i], stress[x]));
             }

@@ -236,7 +236,8 @@ impl<T: Copy> OldState<T> for &[Cell<T>; HYPERELASTIC_STATE] {
     }
 }
 
-/// The law at one point, computed in the number type `R`; see [`Hyperelastic::point_with`].
+/// Makes the material axes, the point's own fibre's or the properties', and runs [`point_in_axes`] with them in the
+/// number type `R`; see [`Hyperelastic::point_with`].
 ///
 /// # Errors
 /// The first property that is wrong; the sink is not called.
@@ -265,7 +266,7 @@ fn choose_axes<
     let given = source.frame();
     if given.aligned && own.fibre.is_none() {
         let axes = MaterialAxes { axes: FirstAxis, frame: FibreFrame::first_axis(), usable: everywhere };
-        return point_in(source, &given, Inputs { f: &f, own, state: &state }, &axes, tangent, sink);
+        return point_in_axes(source, &given, Inputs { f: &f, own, state: &state }, &axes, tangent, sink);
     }
     let (frame, usable) = match own.fibre {
         Some(direction) => FibreFrame::new(vector(direction)),
@@ -275,7 +276,7 @@ fn choose_axes<
         }
     };
     let axes = MaterialAxes { axes: frame, frame, usable };
-    point_in(source, &given, Inputs { f: &f, own, state: &state }, &axes, tangent, sink)
+    point_in_axes(source, &given, Inputs { f: &f, own, state: &state }, &axes, tangent, sink)
 }
 
 /// A call from a host: the properties or a law prepared from them, a point, and what becomes of the results.
@@ -392,12 +393,12 @@ struct Inputs<'a, T, R, O> {
     state: &'a O,
 }
 
-/// The law at one point.
+/// The stages of the law at one point, in these axes.
 ///
 /// The law is prepared after the kinematics have begun: these are a long chain of dependent operations, and while the
 /// processor waits for them, it executes independent operations that are near in the program.
 #[inline(always)]
-fn point_in<
+fn point_in_axes<
     T: Real<Mask = bool> + Into<f64>,
     R: Single<T>,
     L: Source<T>,
