@@ -395,7 +395,7 @@ fn a_wrong_scene_does_not_look_right() {
     assert!(answer.status.success());
     let [report, log] = [&answer.stdout, &answer.stderr].map(|text| String::from_utf8_lossy(text).into_owned());
     let wave = "warning: case heavy: kevlar-km2-600 (density = 1.3514 g/mm³; k_ld = 126 MPa): the wave along the fibre has 0.2468 km/s";
-    let mesh = "warning: case needle: the sphere's radius of 0.05000 mm is less than 4 edges of the elements' faces";
+    let mesh = "warning: case needle: the striker's radius of 0.05000 mm is less than 4 edges of the elements' faces";
     for warning in [wave, "warning: case heavy: the panel weighs 177.", mesh] {
         // Before hours are spent, and at the end.
         assert!(report.contains(warning) && log.contains(warning), "{report}\n{log}");

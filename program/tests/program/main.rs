@@ -17,16 +17,16 @@ mod examples;
 mod fabric;
 mod fabric_files;
 mod fibres;
+mod fit;
 #[allow(dead_code)]
 mod hexahedra;
-mod identify;
 mod impact;
 mod interface;
 mod licences;
 mod long;
 mod meshes;
 mod one_element;
-mod presets;
+mod params;
 mod scene_decks;
 mod shots;
 mod sliding;
