@@ -38,7 +38,7 @@ pub fn layered<'a, 't: 'a>(
 }
 
 /// The table `[scene]` of a file, or a `[[case]]`.
-pub trait CaseTable: Sized {
+pub trait SceneTable: Sized {
     /// # Errors
     /// A key or a value that the table cannot have.
     fn read(source: &Source, table: &Spanned<DeValue>) -> Result<Self, Error>;
@@ -50,16 +50,16 @@ pub trait CaseTable: Sized {
 }
 
 /// A case of a scene.
-pub struct Case<'t, T> {
+pub struct CaseTables<'t, T> {
     pub name: String,
     /// Its table over the scene's, as data and as it is read.
     pub data: Spanned<DeValue<'t>>,
     pub table: T,
     /// Its own table alone, for messages: what is wrong beside the scene's keys is to be changed there.
-    pub own: T,
+    pub own_table: T,
 }
 
-impl<T> Case<'_, T> {
+impl<T> CaseTables<'_, T> {
     /// The place that errors name for keys that are missing.
     pub fn span(&self) -> Range<usize> {
         self.data.span()
@@ -70,7 +70,7 @@ impl<T> Case<'_, T> {
 ///
 /// # Errors
 /// A key or a value that one of them cannot have.
-pub fn check<T: CaseTable>(source: &Source, tables: &DeValue) -> Result<(), Error> {
+pub fn check<T: SceneTable>(source: &Source, tables: &DeValue) -> Result<(), Error> {
     let mut tables = tables.get("scene").into_iter().chain(entries(tables.get("case")));
     tables.try_for_each(|table| T::read(source, table).map(|_| ()))
 }
@@ -80,12 +80,12 @@ pub fn check<T: CaseTable>(source: &Source, tables: &DeValue) -> Result<(), Erro
 ///
 /// # Errors
 /// What a table cannot have; a key that no case reads; a name that cannot be.
-pub fn cases<'t, T: CaseTable>(
+pub fn cases<'t, T: SceneTable>(
     source: &Source<'t>,
     tables: &DeValue<'t>,
     beside: &[&str],
     common: &[&str],
-) -> Result<Vec<Case<'t, T>>, Error> {
+) -> Result<Vec<CaseTables<'t, T>>, Error> {
     let scene = &tables["scene"];
     let of_scene = T::read(source, scene)?;
     if let Some(name) = of_scene.name() {
@@ -96,18 +96,18 @@ pub fn cases<'t, T: CaseTable>(
     let mut cases = Vec::with_capacity(own.len().max(1));
     for own in if own.is_empty() { std::slice::from_ref(scene) } else { own } {
         let data = layered("case", [Some(own), Some(&base)]).unwrap_or_else(|| own.clone());
-        let (table, own) = (T::read(source, &data)?, T::read(source, own)?);
-        cases.push(Case { name: "scene".to_string(), data, table, own });
+        let (table, own_table) = (T::read(source, &data)?, T::read(source, own)?);
+        cases.push(CaseTables { name: "scene".to_string(), data, table, own_table });
     }
-    source.refuse_unused(of_scene.unused(&cases.iter().map(|case: &Case<T>| &case.table).collect::<Vec<_>>()))?;
+    source.refuse_unused(of_scene.unused(&cases.iter().map(|case: &CaseTables<T>| &case.table).collect::<Vec<_>>()))?;
     if own.is_empty() {
         return Ok(cases);
     }
     for place in 0..cases.len() {
         let (before, case) = (&cases[..place], &cases[place]);
         let taken = common.iter().copied().chain(before.iter().map(|other| other.name.as_str()));
-        let name = source.name_of("case", case.own.name(), case.span(), taken)?;
-        source.refuse_unused(case.own.unused(&[&case.table]))?;
+        let name = source.name_of("case", case.own_table.name(), case.span(), taken)?;
+        source.refuse_unused(case.own_table.unused(&[&case.table]))?;
         cases[place].name = name;
     }
     Ok(cases)

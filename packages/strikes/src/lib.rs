@@ -3,7 +3,7 @@
 //!
 //! Which module answers which question:
 //!
-//! - a woven panel struck by a sphere (`toron fabric`): [`fabric`];
+//! - a woven panel that is struck (`toron fabric`): [`fabric`];
 //! - a yarn under impact (`toron impact`): [`impact`];
 //! - at which speed half of the shots go through (`toron v50`), on scenes of either: [`v50`];
 //! - what scenes of those two have in common, their keys: [`scene_keys`]; cases over their scene: [`layers`];
@@ -14,12 +14,12 @@
 //! - strength that scatters along a yarn: [`strength`];
 //! - numbers of chance, roots, the level of intervals: [`chance`], [`root`](mod@root), [`confidence`].
 
+pub mod cases;
 pub mod chance;
 pub mod compare;
 pub mod confidence;
 pub mod fabric;
 pub mod impact;
-pub mod layers;
 mod losses;
 pub mod own_program;
 pub mod residual;

@@ -12,7 +12,7 @@ use toron_shared::checked::{Bound, Fraction, Limits, NotNegative, Number, Positi
 use toron_shared::error::Error;
 use toron_shared::spanned::Spanned;
 use toron_shared::toml_file::{Source, Unused};
-use toron_strikes::layers::CaseTable;
+use toron_strikes::cases::SceneTable;
 
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
@@ -178,7 +178,7 @@ impl CaseFile {
     }
 }
 
-impl CaseTable for CaseFile {
+impl SceneTable for CaseFile {
     fn read(source: &Source, table: &toml::Spanned<DeValue>) -> Result<CaseFile, Error> {
         source.read(table)
     }

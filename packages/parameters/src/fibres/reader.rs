@@ -13,7 +13,7 @@ use toron_shared::checked::{Checked, value};
 use toron_shared::error::Error;
 use toron_shared::spanned::Spanned;
 use toron_shared::toml_file::{self, Source};
-use toron_strikes::layers::{self, Case as CaseTables};
+use toron_strikes::cases::{self, CaseTables};
 
 /// A bead takes some 600 bytes in LAMMPS, and its identifiers have 31 bits.
 const MOST_BEADS: f64 = 1e9;
@@ -48,18 +48,18 @@ impl Scene {
     pub fn parse(name: &str, text: &str) -> Result<Scene, Error> {
         let source = Source { name, text };
         let tables = source.tables()?;
-        layers::check::<CaseFile>(&source, tables.get_ref())?;
+        cases::check::<CaseFile>(&source, tables.get_ref())?;
         let file: SceneFile = source.parse()?;
         let units = units::system(&source, &file.units)?;
         let read = |case: CaseTables<CaseFile>| {
-            if let Some(given) = case.own.name.as_ref().filter(|name| is_of_fit(name.get_ref())) {
+            if let Some(given) = case.own_table.name.as_ref().filter(|name| is_of_fit(name.get_ref())) {
                 let message =
                     format!("case \"{}\", as tables of the fit are called; allowed: another beginning", case.name);
                 return Err(source.error(given.span(), &message));
             }
             Reader { source: &source, units: &units, file: &case.table, span: case.span() }.case(case.name.clone())
         };
-        let cases = layers::cases(&source, tables.get_ref(), &[], &COMMON)?;
+        let cases = cases::cases(&source, tables.get_ref(), &[], &COMMON)?;
         let cases = cases.into_iter().map(read).collect::<Result<Vec<Case>, Error>>()?;
         Ok(Scene { title: file.title.unwrap_or_else(|| name.to_string()), units, cases })
     }

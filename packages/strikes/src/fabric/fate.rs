@@ -133,8 +133,8 @@ fn beside([x, y, _]: [f64; 3], rigid: &RigidSurface) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::fabric::model;
     use crate::fabric::scene::Scene;
+    use crate::fabric::solver;
     use crate::weave::geometry::Family;
 
     /// A sphere with a radius of 1 mm and 50 m/s above a quarter of a disc of 3 mm.
@@ -153,7 +153,7 @@ mod tests {
             );
             let scene = Scene::parse("patch.toml", &text).expect("a scene");
             let panel = scene.cases[0].cloth.model();
-            let mut solver = model::solver::<f64>(&scene.cases[0], &panel).expect("a panel");
+            let mut solver = solver::build::<f64>(&scene.cases[0], &panel).expect("a panel");
             solver.striker.as_mut().expect("it strikes").velocity = -50.0;
             Shot { scene, panel, solver }
         }

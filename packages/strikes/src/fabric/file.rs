@@ -20,7 +20,7 @@ pub struct SceneFile {
     pub title: Option<String>,
     /// Of all values of the file, such as `mm-tonne-s`; [others](guides/load-paths.md#at-the-top).
     pub units: Spanned<String>,
-    // These are read in layers; here only what is wrong in them is found.
+    // Parsed here for their errors alone; the values are read by `cases::cases`, a case's table over the scene's.
     /// The [weave](reference/fabric-files.md#weave) and its panel.
     #[serde(rename = "weave")]
     _weave: Option<WeaveFile>,

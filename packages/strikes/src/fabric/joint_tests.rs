@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use super::model;
 use super::scene::Scene;
+use super::solver;
 use crate::weave::model::Yarn;
 use toron_explicit_host::solver::Solver;
 
@@ -27,7 +27,7 @@ fn yarn(is_coarse: bool) -> (Yarn, Solver<f64>) {
     );
     let scene = Scene::parse("yarn.toml", &text).expect("a scene");
     let panel = scene.cases[0].cloth.model();
-    let mut solver = model::solver(&scene.cases[0], &panel).expect("a panel");
+    let mut solver = solver::build(&scene.cases[0], &panel).expect("a panel");
     (solver.striker, solver.mutual) = (None, None);
     solver.bodies.truncate(1);
     (panel.yarns[0].clone(), solver)

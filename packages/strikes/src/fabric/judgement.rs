@@ -20,7 +20,7 @@ use toron_materials::material::model::Material;
 use toron_materials::units::{LENGTH, TIME, unit};
 use toron_shared::numbers::number;
 
-/// The sphere's radius has to hold so many edges of the elements' faces.
+/// The striker's radius has to hold so many edges of the elements' faces.
 const EDGES: f64 = 4.0;
 /// No corner of an element may be further inside out.
 const LEAST_JACOBIAN: f64 = -0.5;
@@ -28,7 +28,7 @@ const LEAST_JACOBIAN: f64 = -0.5;
 const LARGEST_SHEAR: f64 = 0.5;
 /// With less stiffness against longitudinal shear, in Pa, the middle of a section slides along its yarn.
 const LEAST_K_LD: f64 = 1e6;
-/// Over a yarn's height: how far the sphere may get ahead of the panel.
+/// Over a yarn's height: how far the striker may get ahead of the panel.
 const DEEPEST: f64 = 0.5;
 
 /// What is measured up to a time: the first failure, or the end.
@@ -39,13 +39,13 @@ pub struct Measures {
     /// The largest energy of longitudinal shear over the largest that the laws store.
     pub shear: f64,
     pub least_scaled_jacobian: f64,
-    /// The largest energy in the contact over that of the sphere at first.
+    /// The largest energy in the contact over that of the striker at first.
     pub contact: f64,
-    /// How far the sphere is ahead of the panel at most.
+    /// How far the striker is ahead of the panel at most.
     pub ahead: f64,
     /// Elements that have collapsed.
     pub collapsed: usize,
-    /// Of the sphere.
+    /// Of the striker.
     pub travel: f64,
     /// The part that artificial viscosity has taken of the energy that the blow has given away.
     pub viscosity: f64,
@@ -150,7 +150,7 @@ pub fn judge(
     findings
 }
 
-/// What is wrong with what followed the first failure, by bounds that torn yarns know too: the sphere is ahead of them,
+/// What is wrong with what followed the first failure, by bounds that torn yarns know too: the striker is ahead of them,
 /// and corners of shreds turn over.
 fn after_failure(case: &Case, whole: &Measures) -> Vec<Finding> {
     let folded = distorted(whole, "a finer mesh: shreds of torn yarns fold, and carry what they should not");
@@ -165,7 +165,7 @@ fn hourglass(case: &Case, measures: &Measures) -> Option<Finding> {
 }
 
 fn viscosity(measures: &Measures) -> Option<Finding> {
-    let remedy = "a finer mesh, and see how far what is left to the sphere moves with it";
+    let remedy = "a finer mesh, and see how far what is left to the striker moves with it";
     judgement::viscosity(measures.viscosity, judgement::LARGEST_VISCOSITY, remedy)
 }
 
@@ -190,7 +190,7 @@ fn sliding(units: &UnitSystem, case: &Case) -> Option<Finding> {
     })
 }
 
-/// A sphere that the mesh cannot tell from a needle: it meets nodes, few of them.
+/// A striker that the mesh cannot tell from a needle: it meets nodes, few of them.
 fn coarse(units: &UnitSystem, case: &Case, panel: &Model) -> Option<Finding> {
     let node = |number: u32| Vector3::from(panel.nodes[number as usize]);
     let edges = panel
@@ -202,7 +202,7 @@ fn coarse(units: &UnitSystem, case: &Case, panel: &Model) -> Option<Finding> {
     (EDGES * longest > radius).then(|| {
         let unit = unit(units, LENGTH);
         let text = format!(
-            "the sphere's radius of {} {unit} is less than {EDGES} edges of the elements' faces, {} {unit} long:\n\
+            "the striker's radius of {} {unit} is less than {EDGES} edges of the elements' faces, {} {unit} long:\n\
              take a finer mesh, with more elements along and columns",
             number(radius),
             number(longest)
@@ -211,7 +211,7 @@ fn coarse(units: &UnitSystem, case: &Case, panel: &Model) -> Option<Finding> {
     })
 }
 
-/// A run that has ended, or broken, while the blow still shakes the mesh where the sphere has hit it.
+/// A run that has ended, or broken, while the blow still shakes the mesh where the striker has hit it.
 ///
 /// There is hardly any internal energy then that hourglass modes and shear could be held against: in sound runs they
 /// have half of it and more at first.
@@ -221,7 +221,7 @@ fn transient(units: &UnitSystem, case: &Case, measures: &Measures) -> Option<Fin
         let [hourglass, shear] = [measures.hourglass, measures.shear].map(|share| 100.0 * share);
         let unit = unit(units, LENGTH);
         let text = format!(
-            "it ended, or an element failed, after {} {unit} of the sphere's way, less than its radius, and before the\n\
+            "it ended, or an element failed, after {} {unit} of the striker's way, less than its radius, and before the\n\
              transverse wave was at the rim: too early to judge hourglass energy, {hourglass:.0} % of the internal energy, and\n\
              W_ld, {shear:.0} % of it: take a later end, or a finer mesh",
             number(measures.travel)
@@ -259,14 +259,14 @@ fn distorted(measures: &Measures, remedy: &str) -> Option<Finding> {
     })
 }
 
-/// A sphere that goes into the yarns instead of taking them along.
+/// A striker that goes into the yarns instead of taking them along.
 fn sunk(units: &UnitSystem, case: &Case, measures: &Measures) -> Option<Finding> {
     let [_, height] = case.cloth.yarn_heights();
     let exceeds = measures.ahead.is_nan() || measures.ahead > DEEPEST * height;
     exceeds.then(|| {
         let (ahead, unit) = (number(measures.ahead), unit(units, LENGTH));
         let text = format!(
-            "the sphere is up to {ahead} {unit} ahead of the panel, more than {DEEPEST} of a yarn's height, before a yarn fails:\n\
+            "the striker is up to {ahead} {unit} ahead of the panel, more than {DEEPEST} of a yarn's height, before a yarn fails:\n\
              take a larger contact-stiffness than {:e}, or a finer mesh",
             case.striker.stiffness
         );

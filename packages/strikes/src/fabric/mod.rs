@@ -1,5 +1,5 @@
-//! `toron fabric`: a woven panel struck by a sphere (thesis, chapter 5), on the explicit solver in
-//! [`explicit`](toron_explicit_host). `docs/reference/fabric-files.md` has the keys of a scene.
+//! `toron fabric`: a woven panel struck by a sphere or a cylinder (thesis, chapter 5), on the explicit
+//! [host](toron_explicit_host). `docs/reference/fabric-files.md` has the keys of a scene.
 
 pub mod command;
 pub mod fate;
@@ -8,13 +8,13 @@ pub mod file;
 mod joint_tests;
 pub mod judgement;
 pub mod measure;
-pub mod model;
 pub mod panel_picture;
 pub mod plot;
 pub mod reader;
 pub mod report;
 pub mod run;
 pub mod scene;
+pub mod solver;
 pub mod strength;
 pub mod summary;
 #[cfg(test)]

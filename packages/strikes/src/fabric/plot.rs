@@ -38,7 +38,7 @@ fn panels(samples: &Samples<Sample>, units: &UnitSystem) -> [Panel; 11] {
     let line = |colour: usize, name: &str, of: &dyn Fn(&Sample) -> f64| samples.line(colour, name, of);
     let panel = |title, dimension, series: Vec<Series>| Panel::new(title, &unit(units, dimension), tidy(series));
     let energies = vec![
-        line(0, "sphere", &|s| s.energies.striker),
+        line(0, "striker", &|s| s.energies.striker),
         line(1, "kinetic", &|s| s.energies.kinetic),
         line(2, "internal", &|s| s.energies.internal),
         line(3, "all other", &|s| s.energies.other()),
@@ -50,7 +50,7 @@ fn panels(samples: &Samples<Sample>, units: &UnitSystem) -> [Panel; 11] {
         line(2, "viscosity", &|s| s.energies.viscosity),
         line(3, "contact", &|s| s.energies.contact),
     ];
-    let deflections = vec![line(1, "way of the sphere", &|s| s.travel), line(0, "panel", &|s| s.own.deflection)];
+    let deflections = vec![line(1, "way of the striker", &|s| s.travel), line(0, "panel", &|s| s.own.deflection)];
     let worst = vec![
         line(0, "least volume over that at rest", &|s| s.own.least_volume_ratio),
         line(1, "least scaled Jacobian", &|s| s.own.least_scaled_jacobian),
@@ -59,14 +59,14 @@ fn panels(samples: &Samples<Sample>, units: &UnitSystem) -> [Panel; 11] {
         (0..MODES.len()).map(|mode| line(mode, MODES[mode], &|s| of(s)[mode])).collect()
     };
     [
-        panel("Speed of the sphere", SPEED, vec![line(0, "speed", &|s| s.speed)]),
+        panel("Speed of the striker", SPEED, vec![line(0, "speed", &|s| s.speed)]),
         panel("Largest deflection", LENGTH, deflections),
         panel("Energies", ENERGY, energies),
         panel("All other energies", ENERGY, others),
         panel("Internal energy", ENERGY, by_mode(|s| s.parts)),
         panel("Largest energy per reference volume", ENERGY_DENSITY, by_mode(|s| s.largest)),
         panel("Front of the transverse wave", LENGTH, vec![line(0, "from the centre", &|s| s.own.front)]),
-        panel("Force on the sphere", FORCE, vec![line(0, "force", &|s| s.force)]),
+        panel("Force on the striker", FORCE, vec![line(0, "force", &|s| s.force)]),
         Panel::new("Largest tilt of a section", "°", vec![line(0, "tilt", &|s| s.own.tilt)]),
         panel("Largest slip of a section's middle", LENGTH, vec![line(0, "slip", &|s| s.own.slip)]),
         Panel::new("Worst elements", "-", tidy(worst)),

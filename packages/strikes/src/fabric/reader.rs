@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use super::file::{PanelKeys, Rim, SceneFile, ShapeName};
 use super::scene::{Case, Scene, StrikerDensity};
-use crate::layers::{self, Case as CaseTables};
+use crate::cases::{self, CaseTables};
 use crate::scene_keys::keys::{Precision, Reader, Table, read_cases};
 use crate::scene_keys::shots::read_shots;
 use crate::weave::cloth::Cloth;
@@ -33,7 +33,7 @@ use toron_shared::toml_file::{self, Numbers, Source};
 
 /// Samples of a history where the file does not say otherwise.
 const SAMPLES: f64 = 400.0;
-/// Friction of the sphere and of the yarns, where the file gives none: the thesis's.
+/// Friction of the striker and of the yarns, where the file gives none: the thesis's.
 const FRICTION: [f64; 2] = [0.23, 0.18];
 /// Over a yarn's height: how near nodes are to faces that are looked at in every step, and how deep they may be.
 const MARGIN: f64 = 0.8;
@@ -77,7 +77,7 @@ impl Scene {
     pub fn parse_with(laws: Laws, name: &str, text: &str) -> Result<Scene, Error> {
         let source = Source { name, text };
         let tables = source.tables()?;
-        layers::check::<Table<PanelKeys>>(&source, tables.get_ref())?;
+        cases::check::<Table<PanelKeys>>(&source, tables.get_ref())?;
         let file: SceneFile = source.parse()?;
         let units = units::system(&source, &file.units)?;
         let cloth = Arc::new(read_cloth(&source, tables.get_ref(), &units, None)?);
@@ -100,7 +100,7 @@ type PanelCase<'t> = CaseTables<'t, Table<PanelKeys>>;
 impl Reader<'_> {
     /// What a case strikes: the scene's panel, where it has nothing otherwise.
     fn cloth(&self, case: &PanelCase, of_scene: &Arc<Cloth>) -> Result<Arc<Cloth>, Error> {
-        let PanelKeys { weave, ply, mesh, .. } = &case.own.target;
+        let PanelKeys { weave, ply, mesh, .. } = &case.own_table.target;
         if weave.is_none() && ply.is_none() && mesh.is_none() {
             return Ok(of_scene.clone());
         }

@@ -1,9 +1,9 @@
-//! A panel as it is struck: its solver, what is measured of it, and when the sphere has gone through.
+//! A panel as it is struck: its solver, what is measured of it, and when the striker has gone through.
 
 use super::fate::{self, Fate};
 use super::measure::{AtRest, OfPanel, Sample};
-use super::model::{self, share};
 use super::scene::Case;
+use super::solver::{self, share};
 use crate::weave::model::Model;
 use toron_explicit_host::lanes::Number;
 use toron_explicit_host::solver::Solver;
@@ -24,10 +24,10 @@ pub struct StruckPanel<'a> {
 
 impl<'a> StruckPanel<'a> {
     /// # Errors
-    /// As for [`model::check`].
+    /// As for [`solver::check`].
     pub fn new(case: &'a Case) -> Result<Self, Error> {
         let panel = case.cloth.model();
-        model::check(case, &panel)?;
+        solver::check(case, &panel)?;
         let at_rest = AtRest::of(&panel);
         Ok(StruckPanel { case, panel, at_rest })
     }
@@ -54,7 +54,7 @@ impl Struck for StruckPanel<'_> {
     }
 
     fn solver<T: Number>(&self) -> Result<Solver<T>, Error> {
-        let mut solver = model::solver(self.case, &self.panel)?;
+        let mut solver = solver::build(self.case, &self.panel)?;
         // The balance keeps the energies with which elements are deleted.
         solver.all_outputs = solver.media.iter().any(|medium| medium.fails);
         Ok(solver)
@@ -85,7 +85,7 @@ impl Struck for StruckPanel<'_> {
         course.has_settled(&self.case.striker)
     }
 
-    /// The sphere has gone its own radius since something touched it last, or since the beginning, where it stands at
+    /// The striker has gone its own radius since something touched it last, or since the beginning, where it stands at
     /// the panel; and no yarn is left ahead, as the next ply may be.
     fn has_left<T: Number>(&self, solver: &Solver<T>, _course: &Fate, free: f64) -> bool {
         let striker = &self.case.striker;

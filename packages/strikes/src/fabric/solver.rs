@@ -21,7 +21,7 @@ use toron_shared::numbers::number;
 /// Checks that a run of this case can begin.
 ///
 /// # Errors
-/// A material that the host cannot use, a sphere under which there is nothing, a hybrid panel that has elements of one
+/// A material that the host cannot use, a striker under which there is nothing, a hybrid panel that has elements of one
 /// law alone.
 pub fn check(case: &Case, panel: &Model) -> Result<(), Error> {
     if case.single_precision {
@@ -60,7 +60,7 @@ fn media<T: Number>(case: &Case) -> Result<Vec<Medium<T>>, Error> {
     case.materials().map(medium).collect()
 }
 
-/// The height at which the sphere touches the panel.
+/// The height at which the striker touches the panel.
 pub fn start(case: &Case, panel: &Model) -> Result<f64, Error> {
     let start = first_touch(panel, &case.striker);
     if !start.is_finite() {
@@ -72,11 +72,11 @@ pub fn start(case: &Case, panel: &Model) -> Result<f64, Error> {
     Ok(start)
 }
 
-/// A panel at rest with a sphere about to touch it; a body a yarn, in their order.
+/// A panel at rest with the striker about to touch it; a body a yarn, in their order.
 ///
 /// # Errors
 /// As for [`check`].
-pub fn solver<T: Number>(case: &Case, panel: &Model) -> Result<Solver<T>, Error> {
+pub fn build<T: Number>(case: &Case, panel: &Model) -> Result<Solver<T>, Error> {
     let media = media(case)?;
     let (mut bodies, mut surfaces, mut contacts) = (Vec::new(), Vec::new(), Vec::new());
     let strength = PanelStrength::of(case);
@@ -155,7 +155,7 @@ pub fn zone(zones: &Zones, corners: [[f64; 3]; 8]) -> usize {
 }
 
 /// What lies on a plane of symmetry stays there; the rim is fixed, or free.
-fn hold<T: Number>(panel: &Model, rim: bool, bodies: &mut [Body<T>]) {
+fn hold<T: Number>(panel: &Model, held: bool, bodies: &mut [Body<T>]) {
     let mut support = |nodes: &[u32], free: [bool; 3]| {
         for &node in nodes {
             let node = node as usize;
@@ -165,7 +165,7 @@ fn hold<T: Number>(panel: &Model, rim: bool, bodies: &mut [Body<T>]) {
     };
     support(&panel.on_x, [false, true, true]);
     support(&panel.on_y, [true, false, true]);
-    if rim {
+    if held {
         support(&panel.rim, [false; 3]);
     }
 }

@@ -99,7 +99,7 @@ pub fn ending(case: &Case, outcome: &Outcome) -> String {
     }
 }
 
-/// The sphere's residual speed, where the panel has either stopped it or let it through.
+/// The striker's residual speed, where the panel has either stopped it or let it through.
 pub fn residual_speed(outcome: &Outcome, figures: &Figures) -> Option<f64> {
     match outcome.end {
         End::Stopped => Some(0.0),
@@ -108,7 +108,7 @@ pub fn residual_speed(outcome: &Outcome, figures: &Figures) -> Option<f64> {
     }
 }
 
-/// Which speed of a sphere that goes through that one is.
+/// Which speed of a striker that goes through that one is.
 pub fn speed_is(case: &Case, outcome: &Outcome) -> Option<SpeedIs> {
     SpeedIs::of(outcome.end, case.plan.settles)
 }

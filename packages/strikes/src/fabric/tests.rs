@@ -2,8 +2,8 @@
 
 use nalgebra::Vector3;
 
-use super::model;
 use super::scene::{Case, Scene};
+use super::solver;
 use crate::weave::geometry::Family;
 use crate::weave::model::Yarn;
 use toron_explicit_host::body::{Body, Support};
@@ -20,7 +20,7 @@ fn patch(friction: f64) -> (Vec<Yarn>, Solver<f64>) {
     );
     let scene = Scene::parse("patch.toml", &text).expect("a scene");
     let panel = scene.cases[0].cloth.model();
-    let mut solver = model::solver(&scene.cases[0], &panel).expect("a panel");
+    let mut solver = solver::build(&scene.cases[0], &panel).expect("a panel");
     solver.striker = None;
     assert_eq!((panel.crossings.len(), solver.bodies.len()), (5, 6));
     (panel.yarns, solver)
@@ -154,7 +154,7 @@ fn the_sphere_meets_what_stands_inside_a_yarn() {
          [scene]\nspeed = 1.0\nmass = 2e-6\nradius = 0.04\ncontact-stiffness = 1e5\nend = 1.0\nfriction = 0.0\n";
     let scene = Scene::parse("patch.toml", text).expect("a scene");
     let panel = scene.cases[0].cloth.model();
-    let mut solver = model::solver::<f64>(&scene.cases[0], &panel).expect("a panel");
+    let mut solver = solver::build::<f64>(&scene.cases[0], &panel).expect("a panel");
     let sphere = solver.striker.as_mut().expect("it is there");
     // The heights of the nodes on the axis, three of each of the two yarns that cross there.
     let mut heights: Vec<f64> = panel.nodes.iter().filter(|[x, y, _]| x.hypot(*y) < 1e-9).map(|node| node[2]).collect();
@@ -187,8 +187,8 @@ fn speeds(tables: &str, times: &[f64]) -> Vec<f64> {
     let scene = plies(tables, "hyperelastic.properties = { k_ld = 126.0 }\n").expect("a scene");
     let case = &scene.cases[0];
     let panel = case.cloth.model();
-    model::check(case, &panel).expect("a scene that can run");
-    let mut solver: Solver<f64> = model::solver(case, &panel).expect("a panel");
+    solver::check(case, &panel).expect("a scene that can run");
+    let mut solver: Solver<f64> = solver::build(case, &panel).expect("a panel");
     let mut speeds = Vec::new();
     for time in times {
         while solver.state.time < 1e-3 * time {
@@ -229,7 +229,7 @@ fn a_panel_is_struck_where_it_is_aimed_at() {
     let speed = |aim: &str| {
         let scene = struck(aim, "whole").expect("a scene");
         let case = &scene.cases[0];
-        let mut solver: Solver<f64> = model::solver(case, &case.cloth.model()).expect("a panel");
+        let mut solver: Solver<f64> = solver::build(case, &case.cloth.model()).expect("a panel");
         // Shorter than stable: the estimate of the stable step begins with noise, which is no mirror image.
         solver.longest = 5e-6;
         while solver.state.time < 2e-3 {
@@ -254,7 +254,7 @@ fn a_panel_is_struck_where_it_is_aimed_at() {
     }
     let mut scene = struck("[1.6, 1.6]", "whole").expect("a corner of the outline");
     scene.cases[0].striker.aim = [9.0, 0.0];
-    let outside = model::check(&scene.cases[0], &scene.cases[0].cloth.model()).expect_err("nothing lies there");
+    let outside = solver::check(&scene.cases[0], &scene.cases[0].cloth.model()).expect_err("nothing lies there");
     assert!(outside.to_string().contains("aim"), "{outside}");
 }
 

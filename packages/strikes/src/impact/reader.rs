@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::file::{MOST_ELEMENTS, SceneFile, SectionName, StrikerName, YarnKeys};
 use super::scene::{Abscissa, Case, Outputs, Scene, Striker};
-use crate::layers;
+use crate::cases;
 use crate::scene_keys::keys::{Precision, Reader, Table, read_cases};
 use crate::scene_keys::shots::read_shots;
 use crate::strength::scatter::Strength;
@@ -57,7 +57,7 @@ impl Scene {
     pub fn parse_with(laws: Laws, name: &str, text: &str) -> Result<Scene, Error> {
         let source = Source { name, text };
         let tables = source.tables()?;
-        layers::check::<Table<YarnKeys>>(&source, tables.get_ref())?;
+        cases::check::<Table<YarnKeys>>(&source, tables.get_ref())?;
         let file: SceneFile = source.parse()?;
         let units = units::system(&source, &file.units)?;
         let cases = read_cases((&source, laws, &units), tables.get_ref(), &[], &COMMON, |reader, case| {

@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 
 use super::model::{Contact, Conversion, Mesh, Model, Part, Strike, Support, frame, hourglass, step};
 use super::striker::{Striker, divisions};
-use crate::fabric::model::{check, share, start, zone};
 use crate::fabric::scene::Case;
+use crate::fabric::solver::{check, share, start, zone};
 use crate::weave::cloth::Cloth;
 use crate::weave::command::NAME;
 use crate::weave::model as woven;

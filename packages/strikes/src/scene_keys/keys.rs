@@ -7,7 +7,7 @@ use serde::de::DeserializeOwned;
 use toml::de::DeValue;
 
 use super::zones::Zones;
-use crate::layers::{self, Case, CaseTable};
+use crate::cases::{self, CaseTables, SceneTable};
 use crate::strength::file::{StrengthFile, complete_families};
 use toron::host::units::UnitSystem;
 use toron_explicit_host::control_keys::control;
@@ -125,7 +125,7 @@ pub trait Target: DeserializeOwned {
     fn unused(table: &Table<Self>, cases: &[&Table<Self>]) -> Unused;
 }
 
-impl<T: Target> CaseTable for Table<T> {
+impl<T: Target> SceneTable for Table<T> {
     fn read(source: &Source, table: &toml::Spanned<DeValue>) -> Result<Table<T>, Error> {
         let mut table = table.clone();
         if let DeValue::Table(keys) = table.get_mut()
@@ -184,7 +184,7 @@ impl Keys {
     }
 }
 
-/// Reads the cases of a scene as [`layers::cases`] finds them in these tables.
+/// Reads the cases of a scene as [`cases::cases`] finds them in these tables.
 ///
 /// # Errors
 /// As for that; what `read` refuses.
@@ -193,13 +193,13 @@ pub fn read_cases<'t, T: Target, C>(
     tables: &DeValue<'t>,
     beside: &[&str],
     common: &[&str],
-    read: impl Fn(&Reader, &Case<Table<T>>) -> Result<C, Error>,
+    read: impl Fn(&Reader, &CaseTables<Table<T>>) -> Result<C, Error>,
 ) -> Result<Vec<C>, Error> {
-    let cases: Vec<Case<Table<T>>> = layers::cases(source, tables, beside, common)?;
+    let cases: Vec<CaseTables<Table<T>>> = cases::cases(source, tables, beside, common)?;
     let own_yarn = own_yarn(cases.iter().flat_map(|case| case.table.common.materials()));
-    let read_case = |case: &Case<Table<T>>| {
-        let (keys, own) = (&case.table.common, &case.own.common);
-        read(&Reader { source, laws, units, keys, own, own_yarn: own_yarn.as_deref(), span: case.span() }, case)
+    let read_case = |case: &CaseTables<Table<T>>| {
+        let (keys, case_keys) = (&case.table.common, &case.own_table.common);
+        read(&Reader { source, laws, units, keys, case_keys, own_yarn: own_yarn.as_deref(), span: case.span() }, case)
     };
     cases.iter().map(read_case).collect()
 }
@@ -212,7 +212,7 @@ pub struct Reader<'a> {
     pub units: &'a UnitSystem,
     /// The case's keys over the scene's, and those of the case's table alone.
     pub keys: &'a Keys,
-    pub own: &'a Keys,
+    pub case_keys: &'a Keys,
     /// A yarn that some table of the scene names, other than the default ones.
     pub own_yarn: Option<&'a str>,
     /// The place that errors name for keys that are missing.
@@ -284,7 +284,7 @@ impl Reader<'_> {
     /// As for [`material_of_law`].
     pub fn material(&self, law: &'static str, table: &Option<Spanned<MaterialFile>>) -> Result<Material, Error> {
         // A property of the scene is wrong only beside the failure of a case: that is the line to change.
-        let place = |name: &str| self.own.given(law, name).or(self.own.failure.as_ref().map(Spanned::span));
+        let place = |name: &str| self.case_keys.given(law, name).or(self.case_keys.failure.as_ref().map(Spanned::span));
         let failure = self.keys.failure.as_ref().map_or(FailureName::None, |failure| *failure.get_ref());
         if let Some(given) = self.keys.failure.as_ref().filter(|_| law == MATERIAL && failure != FailureName::None) {
             let message =

@@ -3,7 +3,7 @@
 use serde::Deserialize;
 use toml::de::{DeTable, DeValue};
 
-use crate::layers::layered;
+use crate::cases::layered;
 use toron_shared::checked::Positive;
 use toron_shared::field_names::field_names;
 use toron_shared::spanned::Spanned;

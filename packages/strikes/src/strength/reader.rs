@@ -96,7 +96,7 @@ impl Reader<'_> {
 
     /// Whether the case's own table gives this modulus, and not the scene's, whose other cases may have another law.
     fn is_of_case(&self, modulus: &Spanned<Positive>) -> bool {
-        let own = self.own.strength.as_ref().map(Spanned::get_ref);
+        let own = self.case_keys.strength.as_ref().map(Spanned::get_ref);
         own.is_some_and(|own| own.elastic_moduli().any(|given| given.span() == modulus.span()))
     }
 

@@ -11,7 +11,7 @@ use super::foreign::file::MeshFile;
 use super::geometry::Family;
 use super::panel::{Centre, Part};
 use super::section::Section;
-use crate::layers::layered;
+use crate::cases::layered;
 use toron_materials::material::file::MaterialFile;
 use toron_shared::checked::{Positive, Whole};
 use toron_shared::error::Error;
@@ -26,7 +26,7 @@ pub struct SceneFile {
     pub title: Option<String>,
     /// Of all values of the file, such as `mm-tonne-s`; [others](guides/load-paths.md#at-the-top).
     pub units: Spanned<String>,
-    // These are read in layers; here only what is wrong in them is found.
+    // Parsed here for their errors alone; the values are read by `cases::cases`, a case's table over the scene's.
     /// The [weave](reference/fabric-files.md#weave) and its panel.
     #[serde(rename = "weave")]
     _weave: Option<WeaveFile>,
@@ -181,7 +181,7 @@ pub enum ShapeName {
 
 #[derive(Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(transform = toron_shared::schema::order::<Self>))]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct PanelFile {
     /// `circle` has `radius`, `rectangle` has `half`. Required.
     pub shape: Option<ShapeName>,
@@ -197,10 +197,8 @@ pub struct PanelFile {
     /// Crossings farther than this from the centre are [meshed
     /// coarsely](design/explicit-host.md#a-coarser-mesh-away-from-the-blow). It is larger than the striker's radius,
     /// with crossings on both sides; not in decks (`--deck`). Default: none.
-    #[serde(rename = "coarse-radius")]
     pub coarse_radius: Option<Spanned<Positive>>,
     /// Elements through the height of a coarse section. Default: 2.
-    #[serde(rename = "coarse-rows")]
     pub coarse_rows: Option<Spanned<Whole<1, COARSE_ROWS>>>,
 }
 

@@ -13,7 +13,7 @@ use super::pattern::Pattern;
 use super::preset::Preset;
 use super::reader::Scene;
 use super::section::{Section, Thread};
-use crate::layers::layered;
+use crate::cases::layered;
 use crate::weave::reader::layup;
 use toron::host::units::UnitSystem;
 use toron_shared::toml_file::Source;
