@@ -6,7 +6,7 @@
 //! - a woven panel that is struck (`toron fabric`): [`fabric`];
 //! - a yarn under impact (`toron impact`): [`impact`];
 //! - at which speed half of the shots go through (`toron v50`), on scenes of either: [`v50`];
-//! - what scenes of those two have in common, their keys: [`scene_keys`]; cases over their scene: [`layers`];
+//! - what scenes of those two have in common, their keys: [`scene_keys`]; cases over their scene: [`cases`];
 //! - woven panels as meshes of hexahedra (`toron weave`): [`weave`];
 //! - a scene as a solver's whole deck (`--deck` of `toron fabric`, `impact` and `weave`): [`scene_deck`];
 //! - yarns and panels of a law of one's own, in a program of three lines: [`of_law`];
