@@ -18,7 +18,7 @@ pub fn junit(report: &Report, strict: bool) -> String {
             material.lines.len()
         );
         for line in &material.lines {
-            let (name, message) = (escaped(&line.line), escaped(&finding_text(line)));
+            let (name, message) = (escaped(&line.check), escaped(&finding_text(line)));
             let class = escaped(&format!("{}.{}", report.file, material.name));
             text += &format!("    <testcase name=\"{name}\" classname=\"{class}\"");
             let kinds = escaped(&line.kinds.join(", "));
@@ -66,8 +66,8 @@ pub fn sarif(report: &Report, strict: bool) -> Value {
     for material in &report.materials {
         let told = |line: &&Finding| line.verdict == Verdict::Warning || line.verdict.fails() || line.fails(strict);
         for line in material.lines.iter().filter(told) {
-            if !rules.contains(&line.line.as_str()) {
-                rules.push(&line.line);
+            if !rules.contains(&line.check.as_str()) {
+                rules.push(&line.check);
             }
             let level = if line.fails(strict) {
                 "error"
@@ -78,7 +78,7 @@ pub fn sarif(report: &Report, strict: bool) -> Value {
             };
             let number = line.source_line(&report.file);
             results.push(json!({
-                "ruleId": line.line,
+                "ruleId": line.check,
                 "level": level,
                 "message": { "text": format!("{}: {}", material.name, finding_text(line)) },
                 "locations": [{

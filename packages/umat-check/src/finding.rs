@@ -47,7 +47,8 @@ impl Verdict {
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Finding {
     /// The question's name.
-    pub line: String,
+    #[serde(rename = "line")]
+    pub check: String,
     pub verdict: Verdict,
     /// What was measured, a relative error for most.
     pub figure: Option<f64>,
@@ -76,7 +77,7 @@ impl Finding {
         // JSON has no number that is not finite.
         let figure = figure.filter(|figure| figure.is_finite());
         Finding {
-            line: question.name().to_string(),
+            check: question.name().to_string(),
             verdict,
             figure,
             text: text.into(),
@@ -93,7 +94,7 @@ impl Finding {
     /// is known.
     pub fn fails(&self, strict: bool) -> bool {
         let doubtful = self.verdict == Verdict::Warning
-            || (self.verdict == Verdict::NotSure && self.line == Question::Coverage.name());
+            || (self.verdict == Verdict::NotSure && self.check == Question::Coverage.name());
         !self.known && (self.verdict.fails() || (strict && doubtful))
     }
 

@@ -533,10 +533,10 @@ pub fn runtime(session: &mut Session) -> Finding {
         }
     }
     if line.verdict != Verdict::Right {
-        return Finding { line: Question::Runtime.name().to_string(), ..line };
+        return Finding { check: Question::Runtime.name().to_string(), ..line };
     }
     let text = "bounds, unset reals (-fcheck=all -finit-real=snan): nothing found";
-    Finding { line: Question::Runtime.name().to_string(), text: text.to_string(), ..line }
+    Finding { check: Question::Runtime.name().to_string(), text: text.to_string(), ..line }
 }
 
 impl<'a> Session<'a> {

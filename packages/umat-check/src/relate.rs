@@ -13,11 +13,11 @@ pub fn relate(findings: &mut [Finding]) {
 /// Where the stress itself is wrong, the tangent's kind may follow from it.
 fn stress_before_tangent(findings: &mut [Finding]) {
     let is_wrong = |question: Question| {
-        findings.iter().any(|finding| finding.line == question.name() && finding.verdict == Verdict::Wrong)
+        findings.iter().any(|finding| finding.check == question.name() && finding.verdict == Verdict::Wrong)
     };
     let of_stress = [Question::Objectivity, Question::Isotropy].into_iter().find(|&question| is_wrong(question));
     let Some(of_stress) = of_stress.map(Question::name) else { return };
-    for finding in findings.iter_mut().filter(|finding| finding.line == Question::Tangent.name()) {
+    for finding in findings.iter_mut().filter(|finding| finding.check == Question::Tangent.name()) {
         if finding.verdict == Verdict::Wrong && !finding.kinds.is_empty() {
             let kind = finding.text.strip_prefix("none of the usual mistakes; ");
             let text = kind.map_or_else(|| format!("perhaps {}", finding.text), str::to_string);
@@ -28,11 +28,11 @@ fn stress_before_tangent(findings: &mut [Finding]) {
 
 /// A tangent that no usual mistake explains may follow from what the compiler warns of.
 fn build_before_tangent(findings: &mut [Finding]) {
-    let of = |question: Question| move |finding: &&Finding| finding.line == question.name();
+    let of = |question: Question| move |finding: &&Finding| finding.check == question.name();
     let Some(build) = findings.iter().find(of(Question::Build)).filter(|build| !build.kinds.is_empty()).cloned() else {
         return;
     };
-    for finding in findings.iter_mut().filter(|finding| finding.line == Question::Tangent.name()) {
+    for finding in findings.iter_mut().filter(|finding| finding.check == Question::Tangent.name()) {
         if finding.verdict == Verdict::Wrong && finding.kinds.first().is_some_and(|kind| kind == "unknown") {
             finding.text = format!("perhaps what build says ({}); {}", build.kinds.join(", "), finding.text);
             finding.kinds.extend(build.kinds.iter().cloned());
@@ -52,7 +52,7 @@ fn not_finite_once(findings: &mut [Finding]) {
                 finding.verdict = Verdict::NotSure;
                 finding.text = format!("not finite, as in {first}");
             }
-            None => first = Some(finding.line.clone()),
+            None => first = Some(finding.check.clone()),
         }
     }
 }
@@ -60,7 +60,7 @@ fn not_finite_once(findings: &mut [Finding]) {
 /// A crash where the build with checks has found the cause.
 fn crash_of_unset_variable(findings: &mut [Finding]) {
     let runtime = Question::Runtime.name();
-    if !findings.iter().any(|finding| finding.line == runtime && finding.verdict == Verdict::Wrong) {
+    if !findings.iter().any(|finding| finding.check == runtime && finding.verdict == Verdict::Wrong) {
         return;
     }
     for finding in findings.iter_mut() {

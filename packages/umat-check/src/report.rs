@@ -36,8 +36,8 @@ impl Report {
         let lines = self.materials.iter().flat_map(|material| &material.lines);
         let mut names: Vec<String> = Vec::new();
         for line in lines.filter(|line| line.fails(strict)) {
-            if !names.contains(&line.line) {
-                names.push(line.line.clone());
+            if !names.contains(&line.check) {
+                names.push(line.check.clone());
             }
         }
         self.verdict = if names.is_empty() { Verdict::Right } else { Verdict::Wrong };
@@ -48,7 +48,7 @@ impl Report {
     pub fn failures(&self, strict: bool) -> String {
         let lines = || self.materials.iter().flat_map(|material| &material.lines);
         let names = |is: &dyn Fn(&Finding) -> bool| {
-            let mut names: Vec<&str> = lines().filter(|line| is(line)).map(|line| line.line.as_str()).collect();
+            let mut names: Vec<&str> = lines().filter(|line| is(line)).map(|line| line.check.as_str()).collect();
             let mut seen = Vec::new();
             names.retain(|name| {
                 !seen.contains(name) && {
@@ -73,7 +73,7 @@ impl Report {
             let known: Vec<&Finding> = same.flat_map(|other| &other.lines).collect();
             for line in &mut material.lines {
                 let is_it = |other: &&&Finding| {
-                    other.line == line.line && other.verdict == line.verdict && other.kinds == line.kinds
+                    other.check == line.check && other.verdict == line.verdict && other.kinds == line.kinds
                 };
                 (line.known, line.known_figure) = (false, None);
                 let Some(other) = known.iter().find(is_it).filter(|_| line.fails(true)) else { continue };
@@ -138,9 +138,9 @@ fn gathered(lines: &[Finding]) -> Vec<Finding> {
         }
         reasons.push(&line.text);
         let same = same(line);
-        let names = same.iter().map(|line| line.line.as_str()).collect::<Vec<_>>().join(", ");
+        let names = same.iter().map(|line| line.check.as_str()).collect::<Vec<_>>().join(", ");
         shown.push(Finding {
-            line: format!("{} others", same.len()),
+            check: format!("{} others", same.len()),
             text: format!("{}: {names}", line.text),
             call: None,
             ..line.clone()
@@ -173,7 +173,7 @@ fn line_as_text(line: &Finding, program: &str, colours: bool) -> String {
     let indent = " ".repeat(NAME + FIGURE + 2 + VERDICT);
     let words = folded(&words, WORDS).replace("\n  ", &format!("\n{indent}"));
     let map: String = line.map.iter().map(|row| format!("{indent}{row}\n")).collect();
-    format!("{:<NAME$}{figure:>FIGURE$}  {verdict}{words}\n{map}", line.line)
+    format!("{:<NAME$}{figure:>FIGURE$}  {verdict}{words}\n{map}", line.check)
 }
 
 /// The text, and what the baseline says of the line.
@@ -245,7 +245,7 @@ mod tests {
         let shown = gathered(&lines);
         assert_eq!(shown.len(), 2);
         assert_eq!(
-            (shown[1].line.as_str(), shown[1].text.as_str()),
+            (shown[1].check.as_str(), shown[1].text.as_str()),
             ("3 others", "ends as in memory: rest, tangent, repeat")
         );
     }
