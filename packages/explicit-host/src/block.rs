@@ -26,6 +26,9 @@ use toron_materials::entries::hosts::Given;
 /// Elements a block: large enough for the entry's preparation to cost nothing, small enough for its arrays to stay in
 /// the first cache (vector lengths of explicit solvers are of this order).
 pub const BLOCK: usize = 128;
+/// An element that may fail has collapsed also where its section is this many times as large as at rest. The law lets
+/// sections grow, and what is left at torn ends would fill the hole and hold a striker that the yarns let through.
+pub const SWOLLEN: f64 = 50.0;
 
 /// Working arrays for one block at a time; they carry nothing over to the next.
 #[derive(Debug)]
@@ -76,10 +79,8 @@ pub struct StepOptions {
     /// Length of the last step, and the time at its end.
     pub step: f64,
     pub time: f64,
-    /// The stable step below which an element that may fail has collapsed, its fibre taken for tense; and the one that
-    /// stiffness alone has to allow it where it has lost a neighbour.
+    /// The stable step below which an element that may fail has collapsed, its fibre taken for tense.
     pub shortest: f64,
-    pub shortest_torn: f64,
     /// Whether elements have failed: from then on those of a law of one's own may, of which it is not known before.
     pub has_failed: bool,
     /// The stable step at which damping is taken for a stiffness: the last one by the elements' bound.
@@ -185,9 +186,6 @@ pub struct ElementBlock<T> {
     /// ln(1 + ε_lim), or the linear elastic law's strength, of each element where they have limits of their own; else
     /// empty.
     limit: Vec<T>,
-    /// 1 where an element has lost a neighbour at one of its nodes; whether there are any.
-    pub torn: Vec<T>,
-    any_torn: bool,
     /// Of this step: what limits the next one, and how much of it is viscosity's; the largest of a whole group of
     /// [`LANES`].
     pub rates: Vec<T>,
@@ -233,8 +231,6 @@ impl<T: Number> ElementBlock<T> {
                 f_old: shapes.at_rest(),
             },
             limit: Vec::new(),
-            torn: vec![T::default(); stride],
-            any_torn: false,
             rates: vec![T::default(); stride],
             viscous: vec![T::default(); stride],
             corners: vec![T::default(); stride],
@@ -246,12 +242,6 @@ impl<T: Number> ElementBlock<T> {
     /// Gives each element a failure limit of its own: ln(1 + ε_lim), or the linear elastic law's strength.
     pub fn limit(&mut self, limits: &[f64]) {
         self.limit = limits.iter().map(|&limit| T::from_f64(limit)).collect();
-    }
-
-    /// Takes note that an element has lost a neighbour.
-    pub fn tear(&mut self, i: usize) {
-        self.torn[i] = T::from_f64(1.0);
-        self.any_torn = true;
     }
 
     /// From the nodes' displacements to their forces; updates the history.
@@ -401,7 +391,7 @@ impl<T: Number> ElementBlock<T> {
     #[inline(always)]
     fn bound_step(&mut self, medium: &Medium<T>, scratch: &mut Scratch<T>, options: StepOptions, shared: f64) {
         let (one, four) = (Lanes::constant(1.0), Lanes::constant(4.0));
-        let StepOptions { shortest, shortest_torn, reference, .. } = options;
+        let StepOptions { shortest, reference, .. } = options;
         let [own, at_rest] = self.shapes.hourglass_frequency;
         let shared = largest(at_rest, shared);
         let [own, shared] = match self.shapes.lightest {
@@ -418,10 +408,8 @@ impl<T: Number> ElementBlock<T> {
         let per_density = Lanes::constant(1.0 / medium.density);
         let twice = Lanes::constant(2.0 / reference);
         let corner_part = Lanes::constant(self.shapes.corner_part);
-        let [square, square_torn] =
-            [Lanes::constant(shortest * shortest), Lanes::constant(shortest_torn * shortest_torn)];
-        let twice_shortest = Lanes::constant(2.0 * shortest);
-        let any_torn = self.any_torn && medium.is_bounded_by_direction();
+        let [square, twice_shortest] = [Lanes::constant(shortest * shortest), Lanes::constant(2.0 * shortest)];
+        let most_swollen = Lanes::constant(SWOLLEN * SWOLLEN);
         for group in 0..self.shapes.stride / LANES {
             let first = group * LANES;
             let active = scratch.measures.active(&self.history.intact, first);
@@ -469,13 +457,11 @@ impl<T: Number> ElementBlock<T> {
             (corner_part * corner_along.max(corner_across) + own).store(&mut self.corners, first);
             // As in the body's stable step.
             let most = tense.rate(square, twice_shortest).max(across.rate(square, twice_shortest));
-            let mut most = (square * own).max(most) + square * shared;
-            if any_torn {
-                let stiff = along.rate(square_torn, Lanes::zero()).max(across.rate(square_torn, Lanes::zero()));
-                let stiff = (square_torn * own).max(stiff) + square_torn * shared;
-                most = most.max(stiff.only_where(Lanes::at(&self.torn, first)));
-            }
-            one.only_where(most.only_where(active) - four).store(&mut scratch.collapsed, first);
+            let most = (square * own).max(most) + square * shared;
+            let ratio = Lanes::at(&measures.volume_ratio, first);
+            let swollen = ratio * ratio - most_swollen * Lanes::at(&measures.stretch_square, first);
+            let collapsed = (most - four).max(swollen).only_where(active);
+            one.only_where(collapsed).store(&mut scratch.collapsed, first);
         }
     }
 

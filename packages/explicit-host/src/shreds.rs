@@ -110,14 +110,9 @@ impl<T: Number> Body<T> {
                 let [all, left] = self.weights(media, node as usize);
                 (all + self.state.lent.get(node as usize).copied().unwrap_or(0.0)) * self.need(element) / left
             });
-            let torn = self.is_torn(&corners);
             let place = self.blocks.partition_point(|block| block.first <= element as usize) - 1;
             let block = &mut self.blocks[place];
-            let i = element as usize - block.first;
-            block.shapes.weigh(i, heavier);
-            if torn {
-                block.tear(i);
-            }
+            block.shapes.weigh(element as usize - block.first, heavier);
         }
     }
 
@@ -282,6 +277,5 @@ mod tests {
         assert!(body.mass == other.mass && body.mobility == other.mobility);
         let spread = |body: &Body<f64>| format!("{:?}", body.blocks[0].shapes);
         assert_eq!(spread(&body), spread(&other));
-        assert!(body.blocks[0].torn.contains(&1.0) && body.blocks[0].torn == other.blocks[0].torn);
     }
 }

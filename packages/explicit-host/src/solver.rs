@@ -24,9 +24,6 @@ const SAFETY: f64 = 0.9;
 /// An element that may fail has collapsed, and is deleted, when its own stable step, its fibre taken for tense, is this
 /// fraction of the first one of all: before the break steps fall to 0.67 of it.
 const COLLAPSED: f64 = 0.2;
-/// So has one that has lost a neighbour, when its stiffness alone allows no more than this fraction, by direction: what
-/// is left at torn ends swells to thousands of times its volume, and would halve the step for half of a shot.
-const COLLAPSED_TORN: f64 = 0.4;
 /// Torn ends may be lent mass where they take the step below this part of the first one.
 const HALF: f64 = 0.5;
 /// How often the first step is looked for: by then it stays.
@@ -167,7 +164,6 @@ impl<T: Number> Solver<T> {
             step: self.state.step,
             time: self.state.time,
             shortest: COLLAPSED * first,
-            shortest_torn: COLLAPSED_TORN * first,
             has_failed: self.state.failed.is_some(),
             reference: self.state.bound.unwrap_or(f64::INFINITY),
             trial: self.state.stable.filter(|_| self.has_estimate() && self.state.estimate.is_due()),

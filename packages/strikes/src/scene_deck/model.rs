@@ -96,7 +96,7 @@ pub struct Contact {
 /// The fraction of the stable step that our host takes, and decks ask for.
 pub const STEP_FACTOR: f64 = 0.9;
 /// An element that may fail is taken out when its own step is this fraction of the first one. Our host has 0.2, by
-/// direction, and 0.4 for torn ends.
+/// direction, and takes out swollen sections as well.
 pub const COLLAPSED: f64 = 0.1;
 /// The factor of viscous hourglass control. The solvers' own is 0.1; with it free ends behind a break have gone
 /// unstable in OpenRadioss, with 0.03 later. A part of its force grows there with h² and the square of the velocity,
