@@ -22,7 +22,8 @@ use toron_shared::error::Error;
 /// A step is this fraction of the longest one that the bounds of frequency and damping allow.
 const SAFETY: f64 = 0.9;
 /// An element that may fail has collapsed, and is deleted, when its own stable step, its fibre taken for tense, is this
-/// fraction of the first one of all: before the break steps fall to 0.67 of it.
+/// fraction of the first one of all: before the break steps fall to 0.67 of it. A [swollen](super::block::SWOLLEN) one
+/// has collapsed as well.
 const COLLAPSED: f64 = 0.2;
 /// Torn ends may be lent mass where they take the step below this part of the first one.
 const HALF: f64 = 0.5;

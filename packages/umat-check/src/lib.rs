@@ -1,9 +1,9 @@
 //! What is wrong with a UMAT, one's own or anybody's: the program `umat-check`, and `toron check`.
 //!
 //! The file becomes a library ([`compile`]) that a child process loads and calls as Abaqus/Standard does ([`child`],
-//! [`call`], [`point`]). `answer_question` in [`child`] lists which module answers which question, such as [`tangent`] (with
-//! [`differences`], [`judgement`], [`hypotheses`], [`mistakes`]), [`objectivity`], [`energy`] and [`process`]. Answers
-//! are lines ([`finding`]) of a [`report`]. [`vumat`] has what differs in Abaqus/Explicit.
+//! [`call`], [`point`]). `answer_question` in [`child`] lists which module answers which question, such as [`tangent`]
+//! (with [`differences`], [`judgement`], [`hypotheses`], [`mistakes`]), [`objectivity`], [`energy`] and [`process`].
+//! Answers are lines ([`finding`]) of a [`report`]. [`vumat`] has what differs in Abaqus/Explicit.
 
 #![cfg(target_os = "linux")]
 
