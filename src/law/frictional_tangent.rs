@@ -4,7 +4,7 @@
 use super::axes::FibreFrame;
 use super::frictional::unsigned_zero;
 use super::hyperelastic::{Deformed, Hyperelastic, Kirchhoff};
-use super::kinematics::{Kinematics, Section, Slid};
+use super::kinematics::{Kinematics, Section};
 use super::number::real::Real;
 use super::number::vector::dot;
 use super::tangent::{Bases, Measure, Orthogonal, Shape, sum};
@@ -14,7 +14,7 @@ impl<R: Real> Deformed<'_, R> {
     /// The tangent of a 6×6 measure of a section that may slide. It is not symmetric where the fibres slide: what
     /// friction holds grows with the pressure, so that D̂ follows the area, but the pressure does not follow the shape.
     #[inline(always)]
-    pub fn sliding_moduli(self, slid: &Slid<'_, R>, n: &FibreFrame<R>, measure: Measure) -> [[R; 6]; 6] {
+    pub fn sliding_moduli(self, n: &FibreFrame<R>, measure: Measure) -> [[R; 6]; 6] {
         let (k, alone) = (self.k.without_shear(), ShearAlone::new(self));
         let mut moduli = Deformed { k: &k, shear: false, ..self }.moduli(n, false, measure, None).matrix();
         if self.shear {
@@ -23,7 +23,7 @@ impl<R: Real> Deformed<'_, R> {
         let Kinematics { stretch, section, images, .. } = self.kinematics;
         let (one, shape) = (R::splat(1.0), Shape::new(section));
         let over = if measure == Measure::Material { one } else { stretch.inverse_jacobian };
-        let factor = self.sliding_factor(slid, &shape, over);
+        let factor = self.sliding_factor(&shape, over);
         let (d, p) = if measure == Measure::Material {
             self.pulled_back_deviator(n, &shape)
         } else {
@@ -36,7 +36,7 @@ impl<R: Real> Deformed<'_, R> {
 
     /// dP/dF of a section that may slide, entry (row, column) at 9 row + column: it is not symmetric.
     #[inline(always)]
-    pub fn sliding_nominal_tangent(self, slid: &Slid<'_, R>, n: &FibreFrame<R>) -> [R; 81] {
+    pub fn sliding_nominal_tangent(self, n: &FibreFrame<R>) -> [R; 81] {
         let (k, alone) = (self.k.without_shear(), ShearAlone::new(self));
         let mut tangent = Deformed { k: &k, shear: false, ..self }.nominal_tangent(n);
         if self.shear {
@@ -47,7 +47,7 @@ impl<R: Real> Deformed<'_, R> {
         let Kinematics { stretch, section, images, .. } = self.kinematics;
         let (one, shape) = (R::splat(1.0), Shape::new(section));
         let Bases { d, e, .. } = Bases::new(stretch, section, &images);
-        let factor = self.sliding_factor(slid, &shape, one);
+        let factor = self.sliding_factor(&shape, one);
         let p = [one - e[0], one - e[1], one - e[2], -e[3], -e[4], -e[5]];
         let inverse = self.inverse(n);
         let (d, p) = (by_columns(&inverse, &d), by_columns(&inverse, &p));
@@ -76,8 +76,9 @@ impl<R: Real> Deformed<'_, R> {
 
     /// −µ W″/(4 s), the factor of D⊗Π where the fibres slide, else 0.
     #[inline(always)]
-    fn sliding_factor(self, slid: &Slid<'_, R>, shape: &Shape<R>, over: R) -> R {
+    fn sliding_factor(self, shape: &Shape<R>, over: R) -> R {
         let (zero, one) = (R::splat(0.0), R::splat(1.0));
+        let Some(slid) = self.kinematics.slid else { return zero };
         let (_, curvature) = self.law.compaction_slopes(self.kinematics.strain, self.k);
         let growth = R::splat(0.25) * slid.mu * curvature * over;
         R::select(slid.slides, -growth / R::select(slid.slides, shape.s, one), zero)

@@ -435,7 +435,7 @@ fn point_in_axes<
     let entries = tangent.of(deformed, frame, A::ALONG_COORDINATES, early);
     let latch = R::of(state.entry(FAILED));
     let nan_if_invalid = R::select(usable, strain.nan_if_invalid, R::splat(f64::NAN));
-    let r = deformed.respond(frame, nan_if_invalid, latch, request);
+    let r = deformed.respond::<true>(frame, nan_if_invalid, latch, request);
     let zero = R::splat(0.0);
     // As late as can be, since the compiler moves nothing across what is decided here.
     let own = own.numbers(request);

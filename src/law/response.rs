@@ -76,11 +76,18 @@ pub(crate) struct History<R> {
 
 impl<R: Real> Deformed<'_, R> {
     /// The results at a point except its new state. `nan_if_invalid` is 0 where the kinematics are valid, else NaN;
-    /// `latch` is that of the old state.
+    /// `latch` is that of the old state. `BY_MODE` says whether modes or wave modulus may be requested: kernels that
+    /// never compute them have no code of them to be compiled.
     ///
     /// The wave modulus is finite at every point, the other results wherever the point can be evaluated.
     #[inline(always)]
-    pub fn respond(self, frame: &FibreFrame<R>, nan_if_invalid: R, latch: R, request: Request) -> Response<R> {
+    pub fn respond<const BY_MODE: bool>(
+        self,
+        frame: &FibreFrame<R>,
+        nan_if_invalid: R,
+        latch: R,
+        request: Request,
+    ) -> Response<R> {
         let Deformed { law, kinematics, k, shear } = self;
         let Kinematics { stretch: d, strain, .. } = kinematics;
         let zero = R::splat(0.0);
@@ -110,7 +117,7 @@ impl<R: Real> Deformed<'_, R> {
         }
         let mut modes = [[zero; 6]; 4];
         let mut wave = law.k_el;
-        if request.modes || request.wave_modulus {
+        if const { BY_MODE } && (request.modes || request.wave_modulus) {
             let decomposition = Decomposition::new(kinematics);
             if request.modes {
                 modes = law.modes(kinematics, &decomposition, k, frame);
@@ -127,7 +134,7 @@ impl<R: Real> Deformed<'_, R> {
             }
         }
         let updated = Failure::intact(latch_or_nan);
-        if request.modes {
+        if const { BY_MODE } && request.modes {
             for x in modes.iter_mut().flatten() {
                 *x = R::select(updated, *x, zero);
             }

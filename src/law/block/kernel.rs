@@ -7,7 +7,7 @@ use super::outputs::{
     reset_invalid, respond, status_code, store_state,
 };
 use super::points::Points;
-use super::request::{ALIGNED, ANY, EXPLICIT, FRICTION, SHEAR, STATE, parts, wants_tangent};
+use super::request::{ALIGNED, ANY, EXPLICIT, FRICTION, SHEAR, STATE, has_tangent, parts};
 use crate::law::axes::{Axes, FibreFrame, FirstAxis};
 use crate::law::frictional::{Friction, Hold, Slip};
 use crate::law::hyperelastic::{Hyperelastic, Kirchhoff};
@@ -378,7 +378,7 @@ unsafe fn evaluate<T: Scalar, R: Lanes<T>, A: GroupAxes<R>, const WANT: u8, cons
         if WANT & (STATE | ANY) != 0 {
             group.store::<WANT, SLID>(stages, active);
         }
-        if wants_tangent::<T, WANT>(block) {
+        if const { has_tangent::<WANT>() } && !block.tangent.is_null() {
             for k in 0..count {
                 clear_tangent(block, group.at(k), stages.outcomes.get(k));
             }

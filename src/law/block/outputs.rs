@@ -2,7 +2,7 @@
 
 use super::points::Points;
 use super::request::{
-    ANY, EXPLICIT, FRICTION, I_TE, LOST, SHEAR, SLIP, STATE, index_row, request, shears, wants_tangent,
+    ANY, EXPLICIT, FRICTION, I_TE, LOST, SHEAR, SLIP, STATE, has_tangent, index_row, request, shears,
 };
 use crate::law::axes::FibreFrame;
 use crate::law::frictional::Slip;
@@ -119,24 +119,32 @@ pub(super) unsafe fn respond<T: Scalar, R: Lanes<T>, const WANT: u8>(
     // SAFETY: what is requested has an array, whose components have n ≥ i + COUNT values.
     unsafe {
         let latch = latch::<T, R, WANT>(block, i);
+        // `const`: a kernel without modes, or without the tangent, then has no code of them to be compiled.
+        let tangent = const { has_tangent::<WANT>() } && !block.tangent.is_null();
         // Only the modes and the tangent need the frame again.
-        let tangent = wants_tangent::<T, WANT>(block);
-        let frame = if request.modes || tangent { frame::<T, R>(law, block, i).0 } else { law.frame };
+        let frame = match const { WANT & ANY != 0 } {
+            true if request.modes || tangent => frame::<T, R>(law, block, i).0,
+            _ => law.frame,
+        };
         let point = Deformed { law, kinematics, k, shear: shears::<R, WANT>(law) };
-        let nan_if_invalid = match own::<T, R, WANT>(block, i).are_allowed() {
+        let mut nan_if_invalid = match own::<T, R, WANT>(block, i).are_allowed() {
             Some(allowed) => R::select(allowed, nan_if_invalid, R::splat(f64::NAN)),
             None => nan_if_invalid,
         };
-        let nan_if_invalid =
-            if tangent { nan_if_invalid + store_tangent(point, block, i, &frame) } else { nan_if_invalid };
-        let r = point.respond(&frame, nan_if_invalid, latch, request);
+        if const { has_tangent::<WANT>() } && tangent {
+            nan_if_invalid += store_tangent::<T, R, WANT>(point, block, i, &frame);
+        }
+        let r = match const { WANT & (ANY | EXPLICIT) != 0 } {
+            true => point.respond::<true>(&frame, nan_if_invalid, latch, request),
+            false => point.respond::<false>(&frame, nan_if_invalid, latch, request),
+        };
 
         if request.stress {
             for c in 0..6 {
                 r.stress[c].store(block.stress[c].add(i));
             }
         }
-        if request.modes {
+        if const { WANT & ANY != 0 } && request.modes {
             for (mode, s) in r.modes.iter().enumerate() {
                 for (c, &value) in s.iter().enumerate() {
                     value.store(block.modes.add((6 * mode + c) * stride + i));
@@ -183,7 +191,7 @@ pub(super) unsafe fn own<T, R: Lanes<T>, const WANT: u8>(block: &Points<T>, i: u
 /// # Safety
 /// As for [`sweep`](super::kernel::sweep), for the lanes from i on of a block that requests the tangent.
 #[inline(always)]
-pub(super) unsafe fn store_tangent<T: Scalar, R: Lanes<T>>(
+pub(super) unsafe fn store_tangent<T: Scalar, R: Lanes<T>, const WANT: u8>(
     point: Deformed<'_, R>,
     block: &Points<T>,
     i: usize,
@@ -195,13 +203,13 @@ pub(super) unsafe fn store_tangent<T: Scalar, R: Lanes<T>>(
             unsafe { entry.store(block.tangent.add(c * block.tangent_leading_dimension + i)) };
         }
     };
-    if let Some(slid) = point.kinematics.slid {
+    if const { WANT & FRICTION != 0 } {
         if block.measure == Measure::Nominal {
-            let nominal = point.sliding_nominal_tangent(slid, frame);
+            let nominal = point.sliding_nominal_tangent(frame);
             store(&nominal);
             return nan_unless_finite(&nominal);
         }
-        let moduli = point.sliding_moduli(slid, frame, block.measure);
+        let moduli = point.sliding_moduli(frame, block.measure);
         store(moduli.as_flattened());
         return nan_unless_finite(moduli.as_flattened());
     }

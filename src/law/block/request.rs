@@ -46,7 +46,7 @@ pub(super) fn shears<R: Real, const WANT: u8>(law: &Hyperelastic<R>) -> bool {
 /// The results that are requested of a kernel.
 #[inline(always)]
 pub(super) fn request<T, const WANT: u8>(block: &Points<T>) -> Request {
-    if WANT & ANY != 0 {
+    if const { WANT & ANY != 0 } {
         return block.request();
     }
     let state = WANT & STATE != 0;
@@ -60,8 +60,7 @@ pub(super) fn request<T, const WANT: u8>(block: &Points<T>) -> Request {
     }
 }
 
-/// Whether the tangent is requested, which only the general kernel without an aligned fibre computes.
-#[inline(always)]
-pub(super) fn wants_tangent<T, const WANT: u8>(block: &Points<T>) -> bool {
-    WANT & ANY != 0 && WANT & ALIGNED == 0 && !block.tangent.is_null()
+/// Whether a kernel computes the tangent where the block has an array for it: the general one without an aligned fibre.
+pub(super) const fn has_tangent<const WANT: u8>() -> bool {
+    WANT & ANY != 0 && WANT & ALIGNED == 0
 }
